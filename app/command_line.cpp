@@ -33,9 +33,8 @@ namespace {
 const char* const synopsis =
     "Eye-tracking experiments on animated 3D objects, from a protocol file to statistics on the surface.";
 
-const char* const exit_codes =
-    "Exit codes: 0 done, 1 failed, 2 bad input.\n"
-    "Frames, maps and sculptures are kept in $OVERT_CACHE (default: ~/.cache/overt).";
+const char* const exit_codes = "Exit codes: 0 done, 1 failed, 2 bad input.\n"
+                               "Frames, maps and objects are kept in $OVERT_CACHE (default: ~/.cache/overt).";
 
 /// What is called as a command and is none: help, or a word that was mistyped. The exit code, or nothing
 /// where it is a command.

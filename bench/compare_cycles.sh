@@ -21,7 +21,7 @@ trap 'rm -rf "$work"' EXIT
 cat > "$work/protocol.toml" << TOML
 [protocol]
 name = "compare"
-[[sculpture]]
+[[object]]
 id = "figure"
 mesh = "$mesh"
 up = "$up"

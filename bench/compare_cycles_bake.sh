@@ -33,7 +33,7 @@ vertical_fov_deg = 11.7
 output = "native-8bit"
 [light]
 probe = "$probe"
-[[sculpture]]
+[[object]]
 id = "figure"
 mesh = "$mesh"
 up = "$up"

@@ -55,7 +55,7 @@ def found_in_study(analysis, args, columns):
     """p and size, of the row over everything else that compares the two materials; the size as of --material."""
     with open(analysis / "table1_pairs.csv", newline="", encoding="utf-8") as file:
         for row in csv.DictReader(file):
-            others = [row[name] for name in ("task", "sculpture", "observer") if name in row]
+            others = [row[name] for name in ("task", "object", "observer") if name in row]
             if (row["compared"] == "material" and {row["a"], row["b"]} == {args.material, args.against}
                     and all(level == "all" for level in others)):
                 size = float(row[columns[1]]) if columns[1] else None

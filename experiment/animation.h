@@ -1,4 +1,4 @@
-/// The sinusoidal turn of a sculpture and the table by which its frames are shown.
+/// The sinusoidal turn of an object and the table by which its frames are shown.
 #pragma once
 
 #include <cstdint>

@@ -7,9 +7,9 @@
 
 namespace overt {
 
-/// A sculpture in a material: what the observer looks at. Indices into the protocol's lists.
+/// An object in a material: what the observer looks at. Indices into the protocol's lists.
 struct Condition {
-    int sculpture = 0;
+    int object = 0;
     int material = 0;
     friend constexpr auto operator<=>(const Condition&, const Condition&) = default;
 };

@@ -15,6 +15,7 @@
 #include "app/inputs/session_folders.h"
 #include "experiment/base/counted.h"
 #include "experiment/base/error.h"
+#include "experiment/protocol/old_words.h"
 #include "experiment/study/tables/study_tables.h"
 
 namespace overt {
@@ -137,8 +138,11 @@ int run_shard(const AnalyzeOptions& options) {
 
 int run_analyze(AnalyzeOptions options) {
     options.study.by = listed(options.by);
+    for (std::string& column : options.study.by)
+        column = todays_factor(std::move(column));
     options.study.detect_events = options.events.detection();
     if (options.compare) {
+        options.compare = todays_factor(*std::move(options.compare));
         if (std::ranges::find(options.study.by, *options.compare) == options.study.by.end())
             throw InputError(fmt::format("--compare {}: takes one of the columns of --by, which are {}",
                                          *options.compare, fmt::join(options.study.by, ", ")));
@@ -178,7 +182,7 @@ void add_study_options(CLI::App& command, AnalyzeOptions& options) {
     option(command, "--by", options.by, "COLUMNS",
            "Columns that make groups, with commas: any of the table of trials, observer, session, or a field "
            "of the observer's form")
-        ->default_str("task,sculpture,material");
+        ->default_str("task,object,material");
     option(command, "--compare", options.compare, "COLUMN",
            "Column of --by whose levels are compared within observers")
         ->default_str(study.compare);
@@ -194,10 +198,10 @@ void add_study_options(CLI::App& command, AnalyzeOptions& options) {
     option(command, "--shortest-fixation", study.shortest_fixation_s, "S", "Fixations below are not counted",
            not_negative(), shown_default);
     option(command, "--least-on-surface", study.least_on_surface, "",
-           "Share of a fixation's samples that must meet the sculpture, or miss it within the reach",
+           "Share of a fixation's samples that must meet the object, or miss it within the reach",
            CLI::Range(0.0, 1.0), shown_default);
     option(command, "--reach", study.reach_deg, "DEG",
-           "A sample that misses the sculpture by no more counts at the nearest place of its outline; 0: "
+           "A sample that misses the object by no more counts at the nearest place of its outline; 0: "
            "only what meets it",
            not_negative())
         ->default_str("the accuracy of the validation");

@@ -26,22 +26,22 @@ class Plans {
   public:
     explicit Plans(const Experiment& experiment)
         : protocol_(&experiment.protocol),
-          scene_(make_observed_scene(experiment.protocol, experiment.sculptures,
+          scene_(make_observed_scene(experiment.protocol, experiment.objects,
                                      screen_geometry_of(experiment.protocol))),
           turn_(scene_) {
-        for (const ObservedSculpture& sculpture : scene_.sculptures) {
+        for (const ObservedObject& object : scene_.objects) {
             spot_on_head_.emplace_back(scene_.effects.size(), false);
             targets_.emplace_back();
-            if (!sculpture.mesh || sculpture.mesh->triangles.empty())
+            if (!object.mesh || object.mesh->triangles.empty())
                 continue;
-            targets_.back() = std::make_unique<GazeTargets>(sculpture, scene_);
+            targets_.back() = std::make_unique<GazeTargets>(object, scene_);
             for (std::size_t effect = 0; effect < scene_.effects.size(); ++effect)
                 spot_on_head_.back()[effect] = is_of_head(
-                    sculpture.mesh->part_names[targets_.back()->part_of_spot(static_cast<int>(effect))]);
+                    object.mesh->part_names[targets_.back()->part_of_spot(static_cast<int>(effect))]);
         }
     }
 
-    /// Nothing if the protocol does not have the trial's task, sculpture and material.
+    /// Nothing if the protocol does not have the trial's task, object and material.
     std::optional<double> head_share(const StudyTrial& trial, std::uint64_t seed) const {
         const std::optional<Known> known = known_of(trial);
         if (!known)
@@ -52,7 +52,7 @@ class Plans {
         for (int i = 0; i < plan.spot_count; ++i) {
             const GazePlan::Spot& spot = plan.spots[static_cast<std::size_t>(i)];
             elsewhere -= spot.share;
-            if (spot_on_head_[static_cast<std::size_t>(condition.sculpture)]
+            if (spot_on_head_[static_cast<std::size_t>(condition.object)]
                              [static_cast<std::size_t>(spot.effect)])
                 spots += spot.share;
         }
@@ -60,13 +60,13 @@ class Plans {
         return share;
     }
 
-    /// The places, in the sculpture's coordinates, at which an observer means to look in presentations of a
-    /// trial, as many as there are repeats; none if its sculpture or its task is not known.
+    /// The places, in the object's coordinates, at which an observer means to look in presentations of a
+    /// trial, as many as there are repeats; none if its object or its task is not known.
     std::vector<glm::dvec3> meant_places(const StudyTrial& trial, std::uint64_t seed, int repeats) const {
         std::vector<glm::dvec3> places;
         const std::optional<Known> known = known_of(trial);
         const GazeTargets* const targets =
-            known ? targets_[static_cast<std::size_t>(known->condition.sculpture)].get() : nullptr;
+            known ? targets_[static_cast<std::size_t>(known->condition.object)].get() : nullptr;
         if (!targets)
             return places;
         GazeScript script(scene_, observer_);
@@ -90,9 +90,9 @@ class Plans {
     };
     std::optional<Known> known_of(const StudyTrial& trial) const {
         const Known known{number_of(trial.key("task"), protocol_->tasks),
-                          {number_of(trial.key("sculpture"), protocol_->sculptures),
+                          {number_of(trial.key("object"), protocol_->objects),
                            number_of(trial.key("material"), protocol_->materials)}};
-        if (known.task < 0 || known.condition.sculpture < 0 || known.condition.material < 0)
+        if (known.task < 0 || known.condition.object < 0 || known.condition.material < 0)
             return std::nullopt;
         return known;
     }
@@ -101,8 +101,8 @@ class Plans {
     ObservedScene scene_;
     PursuedTurn turn_;
     ObserverSettings observer_;
-    std::vector<std::unique_ptr<GazeTargets>> targets_; ///< by sculpture; null without a mesh
-    std::vector<std::vector<bool>> spot_on_head_;       ///< by sculpture and effect
+    std::vector<std::unique_ptr<GazeTargets>> targets_; ///< by object; null without a mesh
+    std::vector<std::vector<bool>> spot_on_head_;       ///< by object and effect
 };
 
 bool is_of(const StudyTrial& trial, const std::vector<StudyKey>& keys) {
@@ -121,10 +121,10 @@ void add_planted_spreads(StudyResults& results, const Plans& plans, const Observ
             places[static_cast<std::size_t>(t)] = plans.meant_places(trial, seed->second, repeats);
     });
     for (DistributionRow& row : results.distributions) {
-        const auto& mm = results.sculptures[static_cast<std::size_t>(row.sculpture)].mm_per_unit;
+        const auto& mm = results.objects[static_cast<std::size_t>(row.object)].mm_per_unit;
         std::vector<glm::dvec3> all;
         for (const int t : results.groups[static_cast<std::size_t>(row.group)].trials)
-            if (results.trials[static_cast<std::size_t>(t)].sculpture == row.sculpture)
+            if (results.trials[static_cast<std::size_t>(t)].object == row.object)
                 all.insert(all.end(), places[static_cast<std::size_t>(t)].begin(),
                            places[static_cast<std::size_t>(t)].end());
         if (const std::optional<PointSpread> spread = point_spread(all); spread && mm)

@@ -170,7 +170,7 @@ class ReplicaSessions {
 
 void make_maps_of_stimuli(const Experiment& experiment, const ReplicateOptions& options) {
     const auto context = make_headless_context(options.context);
-    StimulusLibrary library(*context, experiment.protocol, experiment.sculptures, cache_folder());
+    StimulusLibrary library(*context, experiment.protocol, experiment.objects, cache_folder());
     prepare_maps_alone(library, MapsNow::made, experiment.protocol);
 }
 
@@ -190,7 +190,7 @@ Agreement agreement_of(const StudyResults& results) {
     return agreement;
 }
 
-/// How large WSS came out beside what was planted, over the groups' sculptures.
+/// How large WSS came out beside what was planted, over the groups' objects.
 void print_spreads(const StudyResults& results) {
     Agreement agreement;
     double log_ratios = 0.0;

@@ -91,10 +91,10 @@ void measure_voxels(BenchFigures& figures) {
     }
 }
 
-/// Eight maps of 60 fixations each on a sculpture that is shown 350 mm high.
-void measure_maps(BenchFigures& figures, const Sculpture& sculpture) {
+/// Eight maps of 60 fixations each on an object that is shown 350 mm high.
+void measure_maps(BenchFigures& figures, const Object& object) {
     constexpr double shown_mm = 350.0;
-    const SurfaceGeometry geometry(sculpture.mesh, shown_mm / sculpture.mesh.bounds().extent().z);
+    const SurfaceGeometry geometry(object.mesh, shown_mm / object.mesh.bounds().extent().z);
     for (const double sigma_mm : {30.0, 10.0}) {
         if (!HatSmoother::is_worth_while(geometry, sigma_mm))
             continue;
@@ -123,7 +123,7 @@ void measure_maps(BenchFigures& figures, const Sculpture& sculpture) {
                 mass += of_hats[i][v] * areas[v];
             largest_loss = std::max(largest_loss, std::abs(mass / given - 1.0));
         }
-        const std::string what = fmt::format("{}, {} nodes, 8 maps with sigma {:g} mm", sculpture.id,
+        const std::string what = fmt::format("{}, {} nodes, 8 maps with sigma {:g} mm", object.id,
                                              geometry.node_count(), sigma_mm);
         figures.push_back({what + ": by hats", hats_s, "s", {}, {}});
         figures.push_back({what + ": by all nodes", nodes_s, "s", {}, {}});
@@ -140,7 +140,7 @@ BenchFigures bench_analyze(const BenchOptions& options) {
         measure_study(figures, options.files);
     measure_voxels(figures);
     const BenchScene scene = bench_scene(options);
-    measure_maps(figures, scene.sculptures.front());
+    measure_maps(figures, scene.objects.front());
     return figures;
 }
 

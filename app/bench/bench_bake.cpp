@@ -82,11 +82,11 @@ RayRates measure_rays(const BakeScene& scene, const SceneView& view) {
 }
 
 /// The pixels that the map of triangles covers.
-std::vector<std::uint8_t> covered_by_map(const ContextChoice& choice, const Sculpture& sculpture,
+std::vector<std::uint8_t> covered_by_map(const ContextChoice& choice, const Object& object,
                                          const SceneView& view) {
     const auto context = make_headless_context(choice);
     CoordinatePass pass(*context, view.view.image_px);
-    const MeshBuffers buffers(*context, sculpture.mesh);
+    const MeshBuffers buffers(*context, object.mesh);
     std::vector<std::uint8_t> covered;
     for (const std::uint32_t code : pass.draw(buffers, view, {0.0}))
         covered.push_back(code != 0 ? 1 : 0);
@@ -106,17 +106,17 @@ std::string white_metal(const ScratchFolder& folder) {
 }
 
 /// How far a clear figure of a metal that reflects all light is from the even light around it, in the mean.
-void measure_furnace(BenchFigures& figures, const Sculpture& sculpture, const BenchOptions& options) {
+void measure_furnace(BenchFigures& figures, const Object& object, const BenchOptions& options) {
     const ScratchFolder folder("overt-bench");
     LightProbe even{LinearImage({8, 4}), 0};
     for (glm::vec4& pixel : even.radiance.pixels)
         pixel = glm::vec4(1.0f);
     const SpectralLight light(even, 1.0);
-    const SceneView view = resized(sculpture.scene, options.reference_size_px);
+    const SceneView view = resized(object.scene, options.reference_size_px);
     for (BakeCase one : bake_cases()) {
         one.material.metal = white_metal(folder);
         one.material.coat_absorbance = {0.0, 0.0, 0.0};
-        const BakeScene scene(sculpture.mesh, one.material);
+        const BakeScene scene(object.mesh, one.material);
         const LinearImage picture = to_rec709(
             bake_frame(scene, light, view, {0.0}, covered_pixels(scene, view, {0.0}), {.samples = 16}));
         double light_sum = 0.0, alpha_sum = 0.0;
@@ -203,24 +203,24 @@ void measure_gallery(BenchFigures& figures, const BakeCase& one, const BakeScene
 
 BenchFigures bench_bake(const BenchOptions& options) {
     const BenchScene bench = bench_scene(options);
-    const Sculpture& sculpture = bench.sculptures.front();
+    const Object& object = bench.objects.front();
     LightSettings surroundings;
     if (!options.probe.empty())
         surroundings.probe = options.probe.string();
     const SpectralLight light(surroundings);
-    const std::vector<std::uint8_t> covered = covered_by_map(options.context, sculpture, sculpture.scene);
-    const SceneView small = resized(sculpture.scene, options.reference_size_px);
-    constexpr int poses = 31, sculptures = 3;
+    const std::vector<std::uint8_t> covered = covered_by_map(options.context, object, object.scene);
+    const SceneView small = resized(object.scene, options.reference_size_px);
+    constexpr int poses = 31, objects = 3;
 
     BenchFigures figures;
     std::optional<RayRates> rates;
     double bake_s = 0.0, exposure = 0.0;
     for (const BakeCase& one : bake_cases()) {
         double begin = processor_seconds();
-        const BakeScene scene(sculpture.mesh, one.material);
+        const BakeScene scene(object.mesh, one.material);
         figures.push_back({one.name + ", trees built", processor_seconds() - begin, "s of a processor"});
         if (!rates) {
-            rates = measure_rays(scene, sculpture.scene);
+            rates = measure_rays(scene, object.scene);
             figures.push_back(
                 {"Embree, rays from the eye", 1e-6 * rates->primary, "million/s of a processor"});
             figures.push_back({"Embree, mirrored rays", 1e-6 * rates->mirrored, "million/s of a processor"});
@@ -228,7 +228,7 @@ BenchFigures bench_bake(const BenchOptions& options) {
         const BakeSettings settings{.samples = options.samples};
         begin = processor_seconds();
         const auto begin_wall = std::chrono::steady_clock::now();
-        const SpectralFrame frame = bake_frame(scene, light, sculpture.scene, {0.0}, covered, settings);
+        const SpectralFrame frame = bake_frame(scene, light, object.scene, {0.0}, covered, settings);
         const double took = processor_seconds() - begin;
         const double waited = seconds_since(begin_wall);
         double samples = 0.0, wrong = 0.0;
@@ -245,7 +245,7 @@ BenchFigures bench_bake(const BenchOptions& options) {
         figures.push_back({one.name + ", pixels whose alpha had to be moved",
                            static_cast<double>(frame.alphas_moved), "px"});
         bake_s += took / options.samples * settings_of(BakeQuality::standard, one.material.kind).samples *
-                  poses * sculptures;
+                  poses * objects;
         if (exposure == 0.0)
             exposure = exposure_below_one(frame, 0.95);
         measure_errors(figures, one, scene, light, small, exposure);
@@ -254,7 +254,7 @@ BenchFigures bench_bake(const BenchOptions& options) {
     }
     figures.push_back(at_most("nine stimuli in 31 poses, standard quality, with two processors",
                               bake_s / 2.0 / 3600.0, "h", 10.0));
-    measure_furnace(figures, sculpture, options);
+    measure_furnace(figures, object, options);
     return figures;
 }
 

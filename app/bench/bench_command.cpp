@@ -109,19 +109,19 @@ BenchScene bench_scene(const BenchOptions& options) {
     scene.protocol.name = "bench";
     scene.protocol.view.width_px = scene.protocol.view.height_px = options.size_px;
     if (!options.mesh.empty()) {
-        SculptureSettings settings;
+        ObjectSettings settings;
         settings.id = options.mesh.stem().string();
         settings.mesh = options.mesh;
         settings.up = options.up;
-        scene.protocol.sculptures.push_back(std::move(settings));
+        scene.protocol.objects.push_back(std::move(settings));
     } else {
         for (const SculptureDescription& shipped : shipped_sculptures()) {
-            SculptureSettings settings;
+            ObjectSettings settings;
             settings.id = settings.shipped = std::string(shipped.name);
-            scene.protocol.sculptures.push_back(std::move(settings));
+            scene.protocol.objects.push_back(std::move(settings));
         }
     }
-    scene.sculptures = load_sculptures(scene.protocol, cache_folder());
+    scene.objects = load_objects(scene.protocol, cache_folder());
     return scene;
 }
 

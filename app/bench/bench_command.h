@@ -6,18 +6,18 @@
 
 #include "app/bench/bench_commands.h"
 #include "app/cli/figures.h"
-#include "experiment/stimulus/sculpture.h"
+#include "experiment/stimulus/object.h"
 
 namespace overt {
 
-/// What a benchmark measures on: a protocol with its sculptures.
+/// What a benchmark measures on: a protocol with its objects.
 struct BenchScene {
     Protocol protocol;
-    std::vector<Sculpture> sculptures;
+    std::vector<Object> objects;
 };
 
-/// The sculpture of --mesh, else the shipped ones, in the default experiment with a picture of --size. Throws
-/// InputError as load_sculpture does.
+/// The object of --mesh, else the shipped ones, in the default experiment with a picture of --size. Throws
+/// InputError as load_object does.
 BenchScene bench_scene(const BenchOptions& options);
 
 // The sub-benchmarks, each in a file of its name.

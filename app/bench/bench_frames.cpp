@@ -22,7 +22,7 @@ namespace {
 constexpr int frame_files = 61;
 constexpr int rounds = 3;
 
-/// What a frame of a sculpture is to a decoder: a smooth figure with a little noise on an empty background.
+/// What a frame of an object is to a decoder: a smooth figure with a little noise on an empty background.
 std::vector<float> figure_rgba(int size_px, int frame) {
     RandomStream random(1, "frames", static_cast<std::uint64_t>(frame));
     std::vector<float> pixels(4 * static_cast<std::size_t>(size_px) * static_cast<std::size_t>(size_px));

@@ -19,11 +19,11 @@ BenchFigures bench_power(const BenchOptions& options) {
         Task task;
         task.id = fmt::format("task_{}", protocol.tasks.size() + 1);
         task.stimuli =
-            protocol.tasks.size() < 2 ? TaskCoverage::every_stimulus : TaskCoverage::once_per_sculpture;
+            protocol.tasks.size() < 2 ? TaskCoverage::every_stimulus : TaskCoverage::once_per_object;
         task.simulated_head_share = head_share;
         protocol.tasks.push_back(std::move(task));
     }
-    const Experiment experiment{protocol, std::move(scene.sculptures)};
+    const Experiment experiment{protocol, std::move(scene.objects)};
     PowerSettings settings;
     settings.observers = {12};
     settings.studies = 21;

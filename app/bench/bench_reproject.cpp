@@ -22,27 +22,26 @@ constexpr int presentations = 12;
 constexpr int repeats = 5;
 constexpr int compared_places = 200'000;
 
-std::vector<TriangleMap> draw_maps(const GlContext& context, const Sculpture& sculpture,
-                                   const PoseTable& poses) {
-    CoordinatePass pass(context, sculpture.scene.view.image_px);
-    const MeshBuffers buffers(context, sculpture.mesh);
+std::vector<TriangleMap> draw_maps(const GlContext& context, const Object& object, const PoseTable& poses) {
+    CoordinatePass pass(context, object.scene.view.image_px);
+    const MeshBuffers buffers(context, object.mesh);
     std::vector<TriangleMap> maps;
     ProgressBar bar;
     for (const Degrees angle : poses.angles) {
-        maps.push_back({sculpture.scene.view.image_px, pass.draw(buffers, sculpture.scene, angle)});
-        bar.update("maps of " + sculpture.id, static_cast<int>(maps.size()),
+        maps.push_back({object.scene.view.image_px, pass.draw(buffers, object.scene, angle)});
+        bar.update("maps of " + object.id, static_cast<int>(maps.size()),
                    static_cast<int>(poses.angles.size()));
     }
     bar.finish();
     return maps;
 }
 
-/// One sculpture under measurement.
+/// One object under measurement.
 class Reprojection {
   public:
-    Reprojection(const Protocol& protocol, const Sculpture& sculpture, const CoordinateMaps& maps,
+    Reprojection(const Protocol& protocol, const Object& object, const CoordinateMaps& maps,
                  const PoseTable& poses, BenchFigures& figures)
-        : protocol_(protocol), sculpture_(sculpture), maps_(maps), poses_(poses), figures_(figures),
+        : protocol_(protocol), object_(object), maps_(maps), poses_(poses), figures_(figures),
           screen_(screen_geometry_of(protocol)) {}
 
     void measure_speed(GazeKind kind, const std::string& name) {
@@ -82,12 +81,12 @@ class Reprojection {
 
   private:
     void add(BenchFigure figure) {
-        figure.figure = sculpture_.id + ", " + figure.figure;
+        figure.figure = object_.id + ", " + figure.figure;
         figures_.push_back(std::move(figure));
     }
 
     const Protocol& protocol_;
-    const Sculpture& sculpture_;
+    const Object& object_;
     const CoordinateMaps& maps_;
     const PoseTable& poses_;
     BenchFigures& figures_;
@@ -121,8 +120,8 @@ struct Errors {
 };
 
 void Reprojection::measure_exactness() {
-    const RayCaster rays(sculpture_.mesh);
-    const glm::dvec3 lsb = glm::max(sculpture_.scene.bounds.extent() / 65536.0, glm::dvec3(1e-300));
+    const RayCaster rays(object_.mesh);
+    const glm::dvec3 lsb = glm::max(object_.scene.bounds.extent() / 65536.0, glm::dvec3(1e-300));
     struct Outcome {
         bool differs = false, interior = false, edge = false;
         double error = 0.0, centre_error = -1.0;
@@ -135,7 +134,7 @@ void Reprojection::measure_exactness() {
                 static_cast<int>(random.below(static_cast<std::uint32_t>(poses_.angles.size())))};
             const glm::ivec2 size = maps_.image_px();
             const glm::dvec2 place(random.uniform(0.0, size.x), random.uniform(0.0, size.y));
-            const SceneView& scene = sculpture_.scene;
+            const SceneView& scene = object_.scene;
             const auto cast = [&](glm::dvec2 at) {
                 return rays.first_hit(
                     to_object(scene.view.ray_through(at),
@@ -194,7 +193,7 @@ void Reprojection::measure_cone() {
     const GazeCone cone(screen_);
     RandomStream random(3, "cones");
     constexpr int cones = 2000;
-    const std::size_t parts = sculpture_.mesh.part_names.size();
+    const std::size_t parts = object_.mesh.part_names.size();
     std::vector<ScreenPoint> gazes;
     for (int i = 0; i < cones; ++i)
         gazes.push_back(screen_.screen_from_image(
@@ -228,20 +227,19 @@ BenchFigures bench_reproject(const BenchOptions& options) {
     const PoseTable poses = distinct_poses(scene.protocol.animation);
     BenchFigures figures;
     const auto context = make_headless_context(options.context);
-    for (const Sculpture& sculpture : scene.sculptures) {
-        std::vector<TriangleMap> drawn = draw_maps(*context, sculpture, poses);
+    for (const Object& object : scene.objects) {
+        std::vector<TriangleMap> drawn = draw_maps(*context, object, poses);
         // The maps are handed over: they count, what OpenGL keeps of drawing them does not.
         const double drawn_mb = static_cast<double>(drawn.size() * drawn.front().codes.size()) * 4e-6;
         const double before_mb = resident_memory_mb() - drawn_mb;
         const auto begin = std::chrono::steady_clock::now();
-        const CoordinateMaps maps(sculpture.mesh, sculpture.scene, poses.angles, std::move(drawn));
+        const CoordinateMaps maps(object.mesh, object.scene, poses.angles, std::move(drawn));
         const double making_s = seconds_since(begin);
-        figures.push_back(
-            {sculpture.id + ", triangles", static_cast<double>(sculpture.mesh.triangles.size()), ""});
-        figures.push_back(at_most(sculpture.id + ", memory of all maps with the surface",
+        figures.push_back({object.id + ", triangles", static_cast<double>(object.mesh.triangles.size()), ""});
+        figures.push_back(at_most(object.id + ", memory of all maps with the surface",
                                   resident_memory_mb() - before_mb, "MB", 256.0));
-        figures.push_back({sculpture.id + ", making the maps ready for questions", making_s, "s"});
-        Reprojection reprojection(scene.protocol, sculpture, maps, poses, figures);
+        figures.push_back({object.id + ", making the maps ready for questions", making_s, "s"});
+        Reprojection reprojection(scene.protocol, object, maps, poses, figures);
         reprojection.measure_contested_pixels();
         reprojection.measure_speed(GazeKind::fixations, "fixations");
         reprojection.measure_speed(GazeKind::uniform, "uniform gaze");

@@ -26,14 +26,14 @@ namespace {
 
 constexpr double target_ms = 5.0;
 
-/// Gaze that goes round on the sculpture, once in two seconds.
+/// Gaze that goes round on the object, once in two seconds.
 ScreenPoint round_the_middle(std::int64_t number) {
     const double turn = 2.0 * 3.14159265358979 * static_cast<double>(number) / (2.0 * Metronome::rate_hz);
     return {960.0 + 40.0 * std::cos(turn), 540.0 + 150.0 * std::sin(turn)};
 }
 
 /// A session as a view finds it while it runs: its header and a mesh.
-SessionHeader lay_out_session(const std::filesystem::path& folder, const Sculpture& sculpture) {
+SessionHeader lay_out_session(const std::filesystem::path& folder, const Object& object) {
     SessionHeader header;
     header.protocol = {"bench", "Benchmark", "", hash_of_text(""), {}};
     header.schedule.observer = {"1", 1};
@@ -43,16 +43,15 @@ SessionHeader lay_out_session(const std::filesystem::path& folder, const Sculptu
     header.tracker = {"metronome", Metronome::rate_hz, Eye::right};
     header.poses = distinct_poses(header.animation);
     header.tasks = {{"free", "Look around"}};
-    header.sculptures = {{sculpture.id, sculpture.id, sculpture.mesh_hash, "mesh.ply",
-                          sculpture.mesh.part_names, sculpture.scene.view.camera,
-                          sculpture.scene.bounds.centre(), sculpture.scene.bounds}};
+    header.objects = {{object.id, object.id, object.mesh_hash, "mesh.ply", object.mesh.part_names,
+                       object.scene.view.camera, object.scene.bounds.centre(), object.scene.bounds}};
     header.materials = {{"gold", "Gold"}};
     header.stimuli = {{{0, 0}, "made up", ""}};
-    header.display.screen.image_px = sculpture.scene.view.image_px;
+    header.display.screen.image_px = object.scene.view.image_px;
     header.display.screen.image_origin_px =
         centred_origin_px(header.display.screen.screen_px, header.display.screen.image_px);
     std::filesystem::create_directories(folder);
-    write_ply(folder / "mesh.ply", sculpture.mesh);
+    write_ply(folder / "mesh.ply", object.mesh);
     create_session_file(folder / session_file_name, header);
     return header;
 }
@@ -100,7 +99,7 @@ class RunningSession {
         options.facts.image_height_px = header.display.screen.image_px.y;
         options.facts.poses = static_cast<int>(header.poses.angles.size());
         options.facts.clock_zero_s = seconds_of(CLOCK_MONOTONIC) - to_seconds(clock.now() - SessionTime{});
-        options.trials = {{"free", "Look around", header.sculptures.front().id, "gold", ""}};
+        options.trials = {{"free", "Look around", header.objects.front().id, "gold", ""}};
         return options;
     }
     void show(const std::stop_token& stop) {
@@ -142,7 +141,7 @@ struct Delays {
     void report(BenchFigures& figures, const std::string& what) {
         figures.push_back({what + ", points", static_cast<double>(ms.size()), ""});
         figures.push_back(
-            {"the same, share of them on the sculpture",
+            {"the same, share of them on the object",
              static_cast<double>(on_surface) / static_cast<double>(std::max<std::size_t>(1, ms.size())), ""});
         figures.push_back(at_most("the same, median", quantile(0.5), "ms", target_ms));
         figures.push_back(at_most("the same, 99 % of points", quantile(0.99), "ms", target_ms));
@@ -158,7 +157,7 @@ Delays to_surface_point(const RunningSession& session, double seconds) {
     SessionTime end = SessionTime::max();
     while (session.clock().now() < end) {
         watched.read(std::chrono::milliseconds(5));
-        if (!watched.sculpture())
+        if (!watched.object())
             continue;
         if (end == SessionTime::max())
             end = session.clock().now() + from_seconds(seconds);
@@ -210,7 +209,7 @@ BenchFigures bench_watch(const BenchOptions& options) {
     BenchFigures figures;
     const BenchScene scene = bench_scene(options);
     const ScratchFolder scratch("overt-watch");
-    const RunningSession session(scratch.path(), lay_out_session(scratch.path(), scene.sculptures.front()));
+    const RunningSession session(scratch.path(), lay_out_session(scratch.path(), scene.objects.front()));
     to_surface_point(session, options.seconds)
         .report(figures, "from a sample at 2000 Hz to its surface point in another process's view");
     const char* const display = std::getenv("DISPLAY");

@@ -24,14 +24,12 @@ namespace overt {
 
 namespace {
 
-SurfaceFacts surface_of(const Sculpture& sculpture, const SculptureSettings& settings,
-                        const Protocol& protocol) {
-    SurfaceFacts facts{
-        sculpture.id, sculpture.mesh.triangles.size(), size_of(sculpture, settings, protocol), {}};
-    const std::vector<double> areas = sculpture.mesh.part_areas();
-    const double area = sculpture.mesh.area();
+SurfaceFacts surface_of(const Object& object, const ObjectSettings& settings, const Protocol& protocol) {
+    SurfaceFacts facts{object.id, object.mesh.triangles.size(), size_of(object, settings, protocol), {}};
+    const std::vector<double> areas = object.mesh.part_areas();
+    const double area = object.mesh.area();
     for (std::size_t part = 0; part < areas.size(); ++part)
-        facts.part_shares.emplace_back(sculpture.mesh.part_names[part], areas[part] / area);
+        facts.part_shares.emplace_back(object.mesh.part_names[part], areas[part] / area);
     return facts;
 }
 
@@ -45,10 +43,10 @@ struct StimulusFacts {
 
 StimulusFacts look_at_stimuli(const Experiment& experiment, Diagnostics& diagnostics) {
     const auto context = make_headless_context(std::nullopt);
-    StimulusLibrary library(*context, experiment.protocol, experiment.sculptures, cache_folder());
+    StimulusLibrary library(*context, experiment.protocol, experiment.objects, cache_folder());
     StimulusFacts facts{check_silhouettes(experiment, library, diagnostics),
                         bake_estimate(experiment, library), rig_forecast(experiment.protocol),
-                        measure_frame_cost(*context, experiment.protocol, experiment.sculptures)};
+                        measure_frame_cost(*context, experiment.protocol, experiment.objects)};
     for (ForecastLine& line : forecast_of(facts.cost, experiment.protocol, context->description()))
         facts.on_this_machine.push_back(std::move(line));
     return facts;
@@ -65,12 +63,12 @@ DesignReport report_on(const Experiment& experiment, const CheckOptions& options
     assumptions.answer_s = options.answer_time_s;
     DesignReport report = make_design_report(experiment.protocol, observers, options.seed.value_or(1),
                                              assumptions, options.seed.has_value());
-    for (std::size_t i = 0; i < experiment.sculptures.size(); ++i) {
-        if (experiment.sculptures[i].has_mesh())
+    for (std::size_t i = 0; i < experiment.objects.size(); ++i) {
+        if (experiment.objects[i].has_mesh())
             report.surfaces.push_back(
-                surface_of(experiment.sculptures[i], experiment.protocol.sculptures[i], experiment.protocol));
+                surface_of(experiment.objects[i], experiment.protocol.objects[i], experiment.protocol));
     }
-    report.recording = recording_size(experiment.protocol, experiment.sculptures, report.trials_per_observer,
+    report.recording = recording_size(experiment.protocol, experiment.objects, report.trials_per_observer,
                                       assumptions.answer_s);
     return report;
 }

@@ -82,7 +82,7 @@ class CopyingDisplay final : public DisplaySurface {
 } // namespace
 
 FrameCost measure_frame_cost(const GlContext& context, const Protocol& protocol,
-                             std::span<const Sculpture> sculptures) {
+                             std::span<const Object> objects) {
     FrameCost cost;
     const ScreenGeometry geometry = screen_geometry_of(protocol);
     const NoisePages noise(geometry.image_px);
@@ -100,13 +100,13 @@ FrameCost measure_frame_cost(const GlContext& context, const Protocol& protocol,
     cost.median_flip_ms = times_ms[times_ms.size() / 2];
     cost.worst_flip_ms = times_ms.back();
     cost.copy_ms = display.median_copy_ms();
-    for (const Sculpture& sculpture : sculptures) {
-        if (!sculpture.has_mesh())
+    for (const Object& object : objects) {
+        if (!object.has_mesh())
             continue;
-        CoordinatePass pass(context, sculpture.scene.view.image_px);
-        const MeshBuffers buffers(context, sculpture.mesh);
-        pass.draw(buffers, sculpture.scene, Degrees{0.0});
-        const double map_ms = milliseconds_of([&] { pass.draw(buffers, sculpture.scene, Degrees{0.0}); });
+        CoordinatePass pass(context, object.scene.view.image_px);
+        const MeshBuffers buffers(context, object.mesh);
+        pass.draw(buffers, object.scene, Degrees{0.0});
+        const double map_ms = milliseconds_of([&] { pass.draw(buffers, object.scene, Degrees{0.0}); });
         cost.worst_map_ms = std::max(cost.worst_map_ms.value_or(0.0), map_ms);
     }
     return cost;

@@ -9,7 +9,7 @@
 
 #include "app/check/rig_forecast.h"
 #include "experiment/protocol/protocol.h"
-#include "experiment/stimulus/sculpture.h"
+#include "experiment/stimulus/object.h"
 #include "render/gl/gl_context.h"
 
 namespace overt {
@@ -23,10 +23,10 @@ struct FrameCost {
 };
 
 /// Plays pages of the protocol's size in its output mode on a display that only keeps time, copies each
-/// screen as into a window, and draws a hidden map of each sculpture. Takes about half a second in software.
+/// screen as into a window, and draws a hidden map of each object. Takes about half a second in software.
 /// With `context` current. Throws GraphicsError.
 FrameCost measure_frame_cost(const GlContext& context, const Protocol& protocol,
-                             std::span<const Sculpture> sculptures);
+                             std::span<const Object> objects);
 
 /// In words, and what to do if a refresh is too short for it.
 std::vector<ForecastLine> forecast_of(const FrameCost& cost, const Protocol& protocol,

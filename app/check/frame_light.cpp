@@ -16,11 +16,11 @@ namespace overt {
 std::vector<StimulusLight> measure_light(const Experiment& experiment) {
     const Protocol& protocol = experiment.protocol;
     const auto context = make_headless_context(std::nullopt);
-    StimulusLibrary library(*context, protocol, experiment.sculptures, cache_folder());
+    StimulusLibrary library(*context, protocol, experiment.objects, cache_folder());
     ProgressBar bar;
     std::vector<StimulusLight> stimuli;
     const int materials = static_cast<int>(protocol.materials.size()),
-              count = materials * static_cast<int>(protocol.sculptures.size());
+              count = materials * static_cast<int>(protocol.objects.size());
     // What a session would show; where it would be refused, the best that there is.
     if (const std::optional<FrameQuality> quality = library.quality_of_session(protocol.bake.least())) {
         library.take_frames(*quality);
@@ -32,7 +32,7 @@ std::vector<StimulusLight> measure_light(const Experiment& experiment) {
         bar.update("light of stimuli", i, count);
         const Condition condition{i / materials, i % materials};
         StimulusLight light;
-        light.stimulus = protocol.sculptures[static_cast<std::size_t>(condition.sculpture)].id + "/" +
+        light.stimulus = protocol.objects[static_cast<std::size_t>(condition.object)].id + "/" +
                          protocol.materials[static_cast<std::size_t>(condition.material)].id;
         const std::vector<int> pages = library.page_of_frame(condition);
         std::vector<ClippedPixels> counts(

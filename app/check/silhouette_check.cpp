@@ -30,15 +30,14 @@ struct Area {
     }
 };
 
-Silhouette silhouette_of_map(const StimulusLibrary& library, int sculpture, bool has_mesh, PoseIndex pose) {
+Silhouette silhouette_of_map(const StimulusLibrary& library, int object, bool has_mesh, PoseIndex pose) {
     Silhouette silhouette;
     if (has_mesh) {
-        for (const std::uint32_t code : read_triangle_map(library.cache().map_file(sculpture, pose)).codes)
+        for (const std::uint32_t code : read_triangle_map(library.cache().map_file(object, pose)).codes)
             silhouette.push_back(code != 0);
         return silhouette;
     }
-    for (const glm::vec4& pixel :
-         read_coordinate_image(library.cache().map_file(sculpture, pose)).image.pixels)
+    for (const glm::vec4& pixel : read_coordinate_image(library.cache().map_file(object, pose)).image.pixels)
         silhouette.push_back(pixel.w != 0.0f);
     return silhouette;
 }
@@ -81,13 +80,13 @@ struct MatchedFrames {
     bool has_silhouette = true;
 };
 
-MatchedFrames match_sequence(const Experiment& experiment, const FrameSequenceSettings& sequence,
-                             int sculpture, const StimulusLibrary& library) {
+MatchedFrames match_sequence(const Experiment& experiment, const FrameSequenceSettings& sequence, int object,
+                             const StimulusLibrary& library) {
     const Protocol& protocol = experiment.protocol;
     const int count = protocol.animation.frame_count;
-    const bool has_mesh = experiment.sculptures[static_cast<std::size_t>(sculpture)].has_mesh();
+    const bool has_mesh = experiment.objects[static_cast<std::size_t>(object)].has_mesh();
     MatchedFrames matched;
-    matched.result.stimulus = sequence.sculpture + "/" + sequence.material;
+    matched.result.stimulus = sequence.object + "/" + sequence.material;
     std::vector<SilhouetteMatch> matches(static_cast<std::size_t>(count));
     std::mutex mutex;
     parallel_for(count, [&](int frame) {
@@ -98,8 +97,7 @@ MatchedFrames match_sequence(const Experiment& experiment, const FrameSequenceSe
             return;
         }
         matches[static_cast<std::size_t>(frame)] = match_silhouettes(
-            *pixels,
-            silhouette_of_map(library, sculpture, has_mesh, library.cache().poses().pose_of({frame})),
+            *pixels, silhouette_of_map(library, object, has_mesh, library.cache().poses().pose_of({frame})),
             protocol.view.width_px);
     });
     std::size_t both = 0, either = 0;
@@ -116,9 +114,9 @@ MatchedFrames match_sequence(const Experiment& experiment, const FrameSequenceSe
     return matched;
 }
 
-int index_of_sculpture(const Protocol& protocol, const std::string& id) {
-    for (std::size_t i = 0; i < protocol.sculptures.size(); ++i) {
-        if (protocol.sculptures[i].id == id)
+int index_of_object(const Protocol& protocol, const std::string& id) {
+    for (std::size_t i = 0; i < protocol.objects.size(); ++i) {
+        if (protocol.objects[i].id == id)
             return static_cast<int>(i);
     }
     OVERT_EXPECTS(false);
@@ -164,20 +162,20 @@ std::vector<SequenceSilhouette> check_silhouettes(const Experiment& experiment, 
     const int count = static_cast<int>(protocol.frames.size());
     for (int i = 0; i < count; ++i) {
         const FrameSequenceSettings& sequence = protocol.frames[static_cast<std::size_t>(i)];
-        const int sculpture = index_of_sculpture(protocol, sequence.sculpture);
-        const bool has_mesh = experiment.sculptures[static_cast<std::size_t>(sculpture)].has_mesh();
-        if (!has_mesh && !library.cache().has_given_maps(sculpture))
+        const int object = index_of_object(protocol, sequence.object);
+        const bool has_mesh = experiment.objects[static_cast<std::size_t>(object)].has_mesh();
+        if (!has_mesh && !library.cache().has_given_maps(object))
             continue;
         if (has_mesh)
-            library.maps().prepare_maps(sculpture, std::ref(bar));
+            library.maps().prepare_maps(object, std::ref(bar));
         else
             library.maps().prepare_given_maps(std::ref(bar));
         bar.update("comparing silhouettes", i, count);
-        const MatchedFrames matched = match_sequence(experiment, sequence, sculpture, library);
+        const MatchedFrames matched = match_sequence(experiment, sequence, object, library);
         const std::string key = fmt::format("frames[{}].files", i);
         if (!matched.has_silhouette) {
             diagnostics.warning(protocol.file.string(), protocol.places.of(key),
-                                "the frames have no alpha: it cannot be told whether they show the sculpture "
+                                "the frames have no alpha: it cannot be told whether they show the object "
                                 "where the hidden maps have it",
                                 "give background_colour, or render with alpha");
             continue;
@@ -185,7 +183,7 @@ std::vector<SequenceSilhouette> check_silhouettes(const Experiment& experiment, 
         if (matched.result.worst.iou < least_silhouette_iou) {
             diagnostics.warning(
                 protocol.file.string(), protocol.places.of(key),
-                fmt::format("{} shows the sculpture elsewhere than its hidden map: their silhouettes "
+                fmt::format("{} shows the object elsewhere than its hidden map: their silhouettes "
                             "have {:.1f} % of their pixels in common, {:.1f} % over all frames",
                             frame_file(sequence, {matched.result.worst_frame}).filename().string(),
                             100.0 * matched.result.worst.iou, 100.0 * matched.result.iou),

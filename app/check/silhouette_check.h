@@ -1,4 +1,4 @@
-/// Whether ready-made frames show the sculpture where the hidden maps have it: if not, camera, angle or mesh
+/// Whether ready-made frames show the object where the hidden maps have it: if not, camera, angle or mesh
 /// of the other program differ, and gaze would be projected to the wrong places.
 #pragma once
 
@@ -29,7 +29,7 @@ SilhouetteMatch match_silhouettes(std::span<const std::uint8_t> frame, std::span
 
 /// Of one sequence of [[frames]].
 struct SequenceSilhouette {
-    std::string stimulus; ///< SCULPTURE/MATERIAL
+    std::string stimulus; ///< OBJECT/MATERIAL
     double iou = 1.0;     ///< of all frames together
     int worst_frame = 0;
     SilhouetteMatch worst;
@@ -38,7 +38,7 @@ struct SequenceSilhouette {
 /// What an animation has to reach in each frame; a pixel or two along an outline may be taken differently.
 inline constexpr double least_silhouette_iou = 0.99;
 
-/// Compares all frames of all sequences whose sculpture has a mesh or ready-made maps, drawing maps that the
+/// Compares all frames of all sequences whose object has a mesh or ready-made maps, drawing maps that the
 /// cache lacks. Adds a warning at the key for each that does not agree, naming its worst frame, and for each
 /// that has neither alpha nor a background colour. Throws InputError, GraphicsError.
 std::vector<SequenceSilhouette> check_silhouettes(const Experiment& experiment, StimulusLibrary& library,

@@ -5,7 +5,7 @@
 
 namespace overt {
 
-/// Of frames, maps and sculptures: $OVERT_CACHE, else $XDG_CACHE_HOME/overt, else ~/.cache/overt, else a
+/// Of frames, maps and objects: $OVERT_CACHE, else $XDG_CACHE_HOME/overt, else ~/.cache/overt, else a
 /// folder under the system's temporary one.
 std::filesystem::path cache_folder();
 

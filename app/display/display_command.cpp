@@ -207,13 +207,13 @@ void verify_stimuli(ContextKind kind, const Experiment& experiment, const Displa
     const Protocol& protocol = experiment.protocol;
     const ScreenGeometry geometry = screen_geometry_of(protocol);
     const OpenDisplay opened = open_display(kind, geometry.screen_px, protocol.display.output);
-    StimulusLibrary library(opened.context(), protocol, experiment.sculptures, cache_folder());
+    StimulusLibrary library(opened.context(), protocol, experiment.objects, cache_folder());
     ProgressBar bar;
     std::vector<Condition> stimuli;
     if (!options.stimulus.empty()) {
         stimuli.push_back(stimulus_called(protocol, options.stimulus));
     } else {
-        for (int i = 0; i < static_cast<int>(protocol.sculptures.size() * protocol.materials.size()); ++i)
+        for (int i = 0; i < static_cast<int>(protocol.objects.size() * protocol.materials.size()); ++i)
             stimuli.push_back({i / static_cast<int>(protocol.materials.size()),
                                i % static_cast<int>(protocol.materials.size())});
     }
@@ -230,7 +230,7 @@ void verify_stimuli(ContextKind kind, const Experiment& experiment, const Displa
         if (all.different > 0)
             fmt::print(stderr, "{}\n", all.first);
         add_findings(fmt::format("{}, {}, {}/{}, {} pages", name_of(kind), name_of(protocol.display.output),
-                                 protocol.sculptures[static_cast<std::size_t>(stimulus.sculpture)].id,
+                                 protocol.objects[static_cast<std::size_t>(stimulus.object)].id,
                                  protocol.materials[static_cast<std::size_t>(stimulus.material)].id,
                                  presenter.pages()),
                      all, protocol.display.dither != Dithering::none, figures);
@@ -251,7 +251,7 @@ int run_display_verify(const DisplayVerifyOptions& options) {
     ProgressBar bar;
     std::optional<Experiment> experiment;
     if (!options.protocol.empty())
-        experiment = read_experiment_or_report(options.protocol, cache_folder(), InputDepth::sculptures);
+        experiment = read_experiment_or_report(options.protocol, cache_folder(), InputDepth::objects);
     const DisplaySettings display = experiment ? experiment->protocol.display : DisplaySettings{};
     const std::vector<Output> outputs = all_outputs();
     constexpr ContextKind kinds[] = {ContextKind::osmesa, ContextKind::egl, ContextKind::window};

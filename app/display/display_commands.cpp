@@ -124,7 +124,7 @@ void add_verify(CLI::App& display, ChosenCommand& chosen) {
     command.add_option("PROTOCOL", given->on_screen.protocol,
                        "Protocol file (TOML): its screen, and its stimuli as it sends them");
     option(command, "--stimulus", given->on_screen.stimulus, "STIMULUS",
-           "SCULPTURE/MATERIAL by their ids (default: all)");
+           "OBJECT/MATERIAL by their ids (default: all)");
     option(command, "--mode", given->on_screen.modes, "MODE", "Output mode, as in a protocol (default: all)",
            one_of(names_of_modes([](const OutputModeRow&) { return true; })));
     add_context_option(command, given->on_screen.context);

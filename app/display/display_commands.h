@@ -30,7 +30,7 @@ int run_doctor(const DoctorOptions& options);
 
 struct DisplayVerifyOptions {
     std::filesystem::path protocol; ///< its screen and its stimuli, too; empty: a screen of 1920 x 1080
-    std::string stimulus;           ///< SCULPTURE/MATERIAL; empty: all of the protocol's
+    std::string stimulus;           ///< OBJECT/MATERIAL; empty: all of the protocol's
     std::vector<std::string> modes; ///< as in a protocol; empty: all
     ContextChoice context;          ///< nothing: all there are
     bool json = false;

@@ -44,9 +44,9 @@ void make_light(StimulusLibrary& library, const Progress& show) {
 /// Of all stimuli: the session keeps them for looking at.
 void make_first_frames(StimulusLibrary& library) {
     const Protocol& protocol = library.cache().protocol();
-    for (int sculpture = 0; sculpture < static_cast<int>(protocol.sculptures.size()); ++sculpture)
+    for (int object = 0; object < static_cast<int>(protocol.objects.size()); ++object)
         for (int material = 0; material < static_cast<int>(protocol.materials.size()); ++material)
-            library.first_frame_file({sculpture, material});
+            library.first_frame_file({object, material});
 }
 
 } // namespace

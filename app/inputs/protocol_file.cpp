@@ -13,8 +13,8 @@ namespace overt {
 
 std::vector<std::string_view> shipped_sculpture_names() {
     std::vector<std::string_view> names;
-    for (const SculptureDescription& sculpture : shipped_sculptures())
-        names.push_back(sculpture.name);
+    for (const SculptureDescription& object : shipped_sculptures())
+        names.push_back(object.name);
     return names;
 }
 
@@ -56,27 +56,27 @@ Observer observer_labelled(const std::string& label) {
 
 Condition stimulus_called(const Protocol& protocol, const std::string& name) {
     std::vector<std::string> names;
-    for (std::size_t sculpture = 0; sculpture < protocol.sculptures.size(); ++sculpture) {
+    for (std::size_t object = 0; object < protocol.objects.size(); ++object) {
         for (std::size_t material = 0; material < protocol.materials.size(); ++material) {
-            names.push_back(protocol.sculptures[sculpture].id + "/" + protocol.materials[material].id);
+            names.push_back(protocol.objects[object].id + "/" + protocol.materials[material].id);
             if (names.back() == name)
-                return {static_cast<int>(sculpture), static_cast<int>(material)};
+                return {static_cast<int>(object), static_cast<int>(material)};
         }
     }
     const std::vector<std::string_view> known(names.begin(), names.end());
     throw InputError(fmt::format("no stimulus is called \"{}\": {}", name, suggest_name(name, known)));
 }
 
-int sculpture_called(const Protocol& protocol, const std::string& name) {
+int object_called(const Protocol& protocol, const std::string& name) {
     if (name.find('/') != std::string::npos)
-        return stimulus_called(protocol, name).sculpture;
+        return stimulus_called(protocol, name).object;
     std::vector<std::string_view> known;
-    for (const SculptureSettings& sculpture : protocol.sculptures) {
-        if (sculpture.id == name)
+    for (const ObjectSettings& object : protocol.objects) {
+        if (object.id == name)
             return static_cast<int>(known.size());
-        known.push_back(sculpture.id);
+        known.push_back(object.id);
     }
-    throw InputError(fmt::format("no sculpture is called \"{}\": {}", name, suggest_name(name, known)));
+    throw InputError(fmt::format("no object is called \"{}\": {}", name, suggest_name(name, known)));
 }
 
 } // namespace overt

@@ -19,10 +19,10 @@ class FindingsPrinted : public InputError {
     using InputError::InputError;
 };
 
-/// Names of the sculptures that overt makes itself.
+/// Names of the objects that overt makes itself.
 std::vector<std::string_view> shipped_sculpture_names();
 
-/// Reads a protocol, with the sculptures that overt makes itself as those it may name. See read_protocol().
+/// Reads a protocol, with the objects that overt makes itself as those it may name. See read_protocol().
 std::optional<Protocol> read_protocol_file(const std::filesystem::path& file, Diagnostics& diagnostics);
 
 /// The same, with all findings printed to standard error; throws FindingsPrinted if one of them is an error.
@@ -35,11 +35,11 @@ void print_findings(const Diagnostics& diagnostics);
 /// no file can be named by the label.
 Observer observer_labelled(const std::string& label);
 
-/// The stimulus called SCULPTURE/MATERIAL. Throws InputError naming those there are.
+/// The stimulus called OBJECT/MATERIAL. Throws InputError naming those there are.
 Condition stimulus_called(const Protocol& protocol, const std::string& name);
 
-/// The sculpture called SCULPTURE, or that of the stimulus SCULPTURE/MATERIAL. Throws InputError naming those
+/// The object called OBJECT, or that of the stimulus OBJECT/MATERIAL. Throws InputError naming those
 /// there are.
-int sculpture_called(const Protocol& protocol, const std::string& name);
+int object_called(const Protocol& protocol, const std::string& name);
 
 } // namespace overt

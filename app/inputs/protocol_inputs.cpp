@@ -7,7 +7,7 @@
 #include "experiment/base/error.h"
 #include "experiment/checks/checked_protocol.h"
 #include "experiment/scene/metal_table.h"
-#include "experiment/stimulus/sculpture_size.h"
+#include "experiment/stimulus/object_size.h"
 #include "render/image/light_probe.h"
 #include "render/image/linear_image.h"
 #include "render/stimulus/given_maps.h"
@@ -34,55 +34,55 @@ void examine(const Protocol& protocol, Place place, Diagnostics& diagnostics, co
     }
 }
 
-void examine_camera(const Protocol& protocol, const Sculpture& sculpture, Diagnostics& diagnostics) {
-    // A camera that overt places itself has the sculpture in its picture.
+void examine_camera(const Protocol& protocol, const Object& object, Diagnostics& diagnostics) {
+    // A camera that overt places itself has the object in its picture.
     if (!protocol.view.camera_position)
         return;
     for (const Degrees angle : distinct_poses(protocol.animation).angles) {
-        if (is_in_picture(sculpture, angle))
+        if (is_in_picture(object, angle))
             continue;
-        diagnostics.error(protocol.file.string(), protocol.places.of("view.camera_position"),
-                          fmt::format("sculpture \"{}\" is nowhere in the picture at {:.3g} degrees",
-                                      sculpture.id, angle.value),
-                          "the camera looks at view.camera_target; lengths are in the unit of the mesh");
+        diagnostics.error(
+            protocol.file.string(), protocol.places.of("view.camera_position"),
+            fmt::format("object \"{}\" is nowhere in the picture at {:.3g} degrees", object.id, angle.value),
+            "the camera looks at view.camera_target; lengths are in the unit of the mesh");
         return;
     }
 }
 
-std::vector<Sculpture> examine_sculptures(const Protocol& protocol, const std::filesystem::path& cache,
-                                          Diagnostics& diagnostics) {
-    std::vector<Sculpture> sculptures;
-    for (std::size_t i = 0; i < protocol.sculptures.size(); ++i) {
-        const SculptureSettings& settings = protocol.sculptures[i];
+std::vector<Object> examine_objects(const Protocol& protocol, const std::filesystem::path& cache,
+                                    Diagnostics& diagnostics) {
+    std::vector<Object> objects;
+    for (std::size_t i = 0; i < protocol.objects.size(); ++i) {
+        const ObjectSettings& settings = protocol.objects[i];
         const Place place = protocol.places.first_written(
-            {fmt::format("sculpture[{}].mesh", i), fmt::format("sculpture[{}].shipped", i)});
+            {fmt::format("object[{}].mesh", i), fmt::format("object[{}].shipped", i)});
         examine(protocol, place, diagnostics, [&] {
-            const Sculpture& sculpture = sculptures.emplace_back(load_sculpture(settings, protocol, cache));
-            for (const std::string& remark : sculpture.remarks)
+            const Object& object = objects.emplace_back(load_object(settings, protocol, cache));
+            for (const std::string& remark : object.remarks)
                 diagnostics.warning(protocol.file.string(), place, as_finding(remark));
-            if (!sculpture.has_mesh())
+            if (!object.has_mesh())
                 return;
-            examine_camera(protocol, sculpture, diagnostics);
-            const std::string unit = fmt::format("sculpture[{}].unit", i);
+            examine_camera(protocol, object, diagnostics);
+            const std::string unit = fmt::format("object[{}].unit", i);
             if (const auto doubt =
-                    doubt_of_size(size_of(sculpture, settings, protocol),
+                    doubt_of_size(size_of(object, settings, protocol),
                                   protocol.places.is_written(unit) || !settings.shipped.empty()))
                 diagnostics.warning(protocol.file.string(), place,
-                                    fmt::format("sculpture \"{}\": {}", settings.id, doubt->message),
+                                    fmt::format("object \"{}\": {}", settings.id, doubt->message),
                                     doubt->hint);
         });
     }
-    return sculptures;
+    return objects;
 }
 
 void examine_given_maps(const Protocol& protocol, Diagnostics& diagnostics) {
     ProgressBar bar;
-    const int count = static_cast<int>(protocol.sculptures.size());
+    const int count = static_cast<int>(protocol.objects.size());
     for (int i = 0; i < count; ++i) {
-        if (protocol.sculptures[static_cast<std::size_t>(i)].lut.empty())
+        if (protocol.objects[static_cast<std::size_t>(i)].lut.empty())
             continue;
         bar.update("reading ready-made maps", i, count);
-        const Place place = protocol.places.of(fmt::format("sculpture[{}].lut", i));
+        const Place place = protocol.places.of(fmt::format("object[{}].lut", i));
         examine(protocol, place, diagnostics, [&] {
             for (const std::string& remark : check_given_maps(protocol, i))
                 diagnostics.warning(protocol.file.string(), place, as_finding(remark));
@@ -133,7 +133,7 @@ std::optional<Experiment> look_into(std::optional<Protocol> protocol, const std:
     if (!protocol)
         return std::nullopt;
     Experiment experiment{*std::move(protocol), {}};
-    experiment.sculptures = examine_sculptures(experiment.protocol, cache, diagnostics);
+    experiment.objects = examine_objects(experiment.protocol, cache, diagnostics);
     examine_surroundings(experiment.protocol, diagnostics);
     if (depth == InputDepth::everything) {
         examine_frames(experiment.protocol, diagnostics);

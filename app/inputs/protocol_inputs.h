@@ -8,19 +8,19 @@
 #include "experiment/base/diagnostics.h"
 #include "experiment/protocol/protocol.h"
 #include "experiment/record/session_header.h"
-#include "experiment/stimulus/sculpture.h"
+#include "experiment/stimulus/object.h"
 
 namespace overt {
 
-/// A sound protocol with its sculptures.
+/// A sound protocol with its objects.
 struct Experiment {
     Protocol protocol;
-    std::vector<Sculpture> sculptures; ///< in the protocol's order
+    std::vector<Object> objects; ///< in the protocol's order
 };
 
 /// How much of what a protocol names is looked into. Ready-made frames are many, and reading all of them
 /// takes seconds.
-enum class InputDepth { sculptures, everything };
+enum class InputDepth { objects, everything };
 
 /// Reads a protocol and what it names. What is wrong with a file is found at the key that names it; remarks
 /// on a mesh are warnings. Nothing if there is an error. Throws only for what is no input's fault.

@@ -11,7 +11,7 @@ namespace overt {
 namespace {
 
 constexpr std::pair<WordKind, std::string_view> asked_kinds[] = {{WordKind::stimulus, "STIMULUS"},
-                                                                 {WordKind::sculpture, "SCULPTURE"},
+                                                                 {WordKind::object, "OBJECT"},
                                                                  {WordKind::further_tracker, "FURTHER"},
                                                                  {WordKind::trial, "TRIAL"}};
 

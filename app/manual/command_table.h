@@ -22,7 +22,7 @@ enum class WordKind {
     session,
     // By what stands in the protocol, or the session, that the line names: see known_words().
     stimulus,
-    sculpture,
+    object,
     further_tracker,
     trial
 };

@@ -50,12 +50,12 @@ std::vector<std::string> words_of_protocol(WordKind kind, const Protocol& protoc
     if (kind == WordKind::further_tracker)
         for (const FurtherTrackerSettings& further : protocol.further_trackers)
             words.push_back(further.id);
-    for (const SculptureSettings& sculpture : protocol.sculptures) {
-        if (kind == WordKind::sculpture)
-            words.push_back(sculpture.id);
+    for (const ObjectSettings& object : protocol.objects) {
+        if (kind == WordKind::object)
+            words.push_back(object.id);
         if (kind == WordKind::stimulus)
             for (const MaterialSettings& material : protocol.materials)
-                words.push_back(fmt::format("{}/{}", sculpture.id, material.id));
+                words.push_back(fmt::format("{}/{}", object.id, material.id));
     }
     return words;
 }

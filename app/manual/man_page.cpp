@@ -97,7 +97,7 @@ std::string man_page(const CommandEntry& entry, const std::string& version) {
         page += ".fi\n";
     }
     page += ".SH EXIT STATUS\n0: done; 1: failed; 2: bad input.\n"
-            ".SH ENVIRONMENT\n.TP\n\\fBOVERT_CACHE\\fR\nFolder of frames, maps and sculptures "
+            ".SH ENVIRONMENT\n.TP\n\\fBOVERT_CACHE\\fR\nFolder of frames, maps and objects "
             "(default: ~/.cache/overt).\n"
             ".TP\n\\fBOVERT_STATE\\fR\nFolder of what is remembered between calls (default: "
             "~/.local/state/overt).\n";

@@ -29,7 +29,7 @@ ObservedEffect planted(const PowerEffect& effect, const Protocol& protocol) {
         else if (column == "material")
             planted.material = index_of(protocol.materials, level);
         else
-            planted.sculpture = index_of(protocol.sculptures, level);
+            planted.object = index_of(protocol.objects, level);
     };
     hold_in(effect.column, effect.level);
     for (const StudyKey& key : effect.within)
@@ -44,13 +44,13 @@ ObservedEffect planted(const PowerEffect& effect, const Protocol& protocol) {
 ObservedScene planned_scene(const Experiment& experiment, std::span<const PowerEffect> effects,
                             const GazeStudySettings& settings) {
     const Protocol& protocol = experiment.protocol;
-    for (const Sculpture& sculpture : experiment.sculptures) {
-        if (!sculpture.has_mesh())
-            throw InputError(fmt::format("sculpture \"{}\" has no mesh, and gaze on it cannot be simulated: "
-                                         "give it a mesh, or plan with sculptures that have one.",
-                                         sculpture.id));
+    for (const Object& object : experiment.objects) {
+        if (!object.has_mesh())
+            throw InputError(fmt::format("object \"{}\" has no mesh, and gaze on it cannot be simulated: "
+                                         "give it a mesh, or plan with objects that have one.",
+                                         object.id));
     }
-    ObservedScene scene = make_observed_scene(protocol, experiment.sculptures, screen_geometry_of(protocol));
+    ObservedScene scene = make_observed_scene(protocol, experiment.objects, screen_geometry_of(protocol));
     scene.effects.clear();
     scene.head_share_sd = settings.head_share_sd;
     for (const PowerEffect& effect : effects) {
@@ -74,24 +74,24 @@ GazeStudies::GazeStudies(const Experiment& experiment, std::vector<PowerEffect> 
       scene_(planned_scene(experiment, effects_, settings)), turn_(scene_),
       spread_of_log_(effects_.size(), 0.0) {
     const Protocol& protocol = experiment.protocol;
-    for (std::size_t i = 0; i < experiment.sculptures.size(); ++i) {
-        const Sculpture& shown = experiment.sculptures[i];
-        targets_.push_back(std::make_unique<GazeTargets>(scene_.sculptures[i], scene_));
-        StudySculpture sculpture;
-        sculpture.id = shown.id;
-        sculpture.part_names = shown.mesh.part_names;
-        sculpture.head = HeadParts(shown.mesh.part_names);
-        sculpture.camera = shown.scene.view.camera;
-        sculpture.axis_point = shown.scene.bounds.centre();
-        sculpture.screen = scene_.screen;
-        SculptureSurface surface;
-        surface.scale = object_scale(sculpture.camera, sculpture.axis_point, sculpture.screen,
-                                     unit_of_lengths(protocol.sculptures[i]));
+    for (std::size_t i = 0; i < experiment.objects.size(); ++i) {
+        const Object& shown = experiment.objects[i];
+        targets_.push_back(std::make_unique<GazeTargets>(scene_.objects[i], scene_));
+        StudyObject object;
+        object.id = shown.id;
+        object.part_names = shown.mesh.part_names;
+        object.head = HeadParts(shown.mesh.part_names);
+        object.camera = shown.scene.view.camera;
+        object.axis_point = shown.scene.bounds.centre();
+        object.screen = scene_.screen;
+        ObjectSurface surface;
+        surface.scale = object_scale(object.camera, object.axis_point, object.screen,
+                                     unit_of_lengths(protocol.objects[i]));
         if (surface.scale) {
-            sculpture.mm_per_unit = surface.scale->mm_per_unit;
-            sculpture.mm_per_deg = surface.scale->mm_per_deg;
+            object.mm_per_unit = surface.scale->mm_per_unit;
+            object.mm_per_deg = surface.scale->mm_per_deg;
         }
-        frame_.sculptures.push_back(std::move(sculpture));
+        frame_.objects.push_back(std::move(object));
         surfaces_.push_back(std::move(surface));
     }
     const auto ids_of = [](const auto& entries) {
@@ -101,7 +101,7 @@ GazeStudies::GazeStudies(const Experiment& experiment, std::vector<PowerEffect> 
         return ids;
     };
     levels_ = {{"task", ids_of(protocol.tasks)},
-               {"sculpture", ids_of(protocol.sculptures)},
+               {"object", ids_of(protocol.objects)},
                {"material", ids_of(protocol.materials)}};
 }
 
@@ -153,16 +153,16 @@ StudyResults GazeStudies::study(std::uint64_t seed, int observers,
 void GazeStudies::add_trial(const Trial& trial, std::uint64_t seed, const ObservedScene& planned,
                             GazeScript& script, StudyResults& results) const {
     const Protocol& protocol = experiment_.protocol;
-    const auto sculpture = static_cast<std::size_t>(trial.condition.sculpture);
-    const GazeTargets& targets = *targets_[sculpture];
+    const auto object = static_cast<std::size_t>(trial.condition.object);
+    const GazeTargets& targets = *targets_[object];
     StudyTrial shown;
     shown.session = static_cast<int>(results.sessions.size()) - 1;
-    shown.sculpture = trial.condition.sculpture;
+    shown.object = trial.condition.object;
     shown.number = trial.index + 1;
     shown.presentation_s = protocol.animation.duration_s;
     shown.keys = {{"observer", results.sessions.back().observer},
                   {"task", protocol.tasks[static_cast<std::size_t>(trial.task)].id},
-                  {"sculpture", protocol.sculptures[sculpture].id},
+                  {"object", protocol.objects[object].id},
                   {"material", protocol.materials[static_cast<std::size_t>(trial.condition.material)].id}};
     shown.first_fixation = results.fixations.size();
 
@@ -193,7 +193,7 @@ void GazeStudies::add_trial(const Trial& trial, std::uint64_t seed, const Observ
             found.position = point->position;
             found.part = point->part;
             found.on_surface = 1.0;
-            if (const auto& scale = surfaces_[sculpture].scale)
+            if (const auto& scale = surfaces_[object].scale)
                 found.sigma_mm = sigma_mm(settings_.sigma, *scale, point->depth);
         } else {
             found.why = NotCounted::not_on_surface;

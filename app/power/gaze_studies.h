@@ -30,7 +30,7 @@ GazeStudySettings gaze_study_settings(const Protocol& protocol);
 
 /// Observers, schedules, plans and scripts of gaze are those of simulated sessions (ScheduleMaker,
 /// gaze_plan, GazeScript). Each fixation is one measurement, halfway through it: what of the surface lies
-/// under the gaze with the trial's constant error, in the sculpture's angle at that time, or within the mean
+/// under the gaze with the trial's constant error, in the object's angle at that time, or within the mean
 /// error of a validation. The noise of samples and the detection of fixations are left out.
 ///
 /// Constant after it was made, and may be used by several threads.
@@ -38,7 +38,7 @@ class GazeStudies {
   public:
     /// `experiment` must outlive this. The protocol's own simulated effects are left out: only `effects`
     /// hold. Where levels of `task` are compared, the head is as attractive in one as in the other but for
-    /// the effect. Effects on WSS need plant_spread() besides. Throws InputError if a sculpture has no mesh.
+    /// the effect. Effects on WSS need plant_spread() besides. Throws InputError if an object has no mesh.
     GazeStudies(const Experiment& experiment, std::vector<PowerEffect> effects,
                 const GazeStudySettings& settings);
 
@@ -51,9 +51,9 @@ class GazeStudies {
     StudyResults study(std::uint64_t seed, int observers,
                        const std::function<bool(const Trial&)>& wanted = {}) const;
 
-    /// By sculpture, only the scale.
-    const std::vector<SculptureSurface>& surfaces() const { return surfaces_; }
-    /// Sculptures with their scale, without trials.
+    /// By object, only the scale.
+    const std::vector<ObjectSurface>& surfaces() const { return surfaces_; }
+    /// Objects with their scale, without trials.
     const StudyResults& frame() const { return frame_; }
     const LevelLists& levels() const { return levels_; }
     const std::vector<PowerEffect>& effects() const { return effects_; }
@@ -77,7 +77,7 @@ class GazeStudies {
     PursuedTurn turn_;
     std::vector<double> spread_of_log_; ///< by effect
     std::vector<std::unique_ptr<GazeTargets>> targets_;
-    std::vector<SculptureSurface> surfaces_;
+    std::vector<ObjectSurface> surfaces_;
     StudyResults frame_;
     LevelLists levels_;
 };

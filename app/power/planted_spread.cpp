@@ -57,8 +57,8 @@ class Pilot {
                 const auto at = static_cast<std::size_t>(number);
                 const StudyResults results = study(at, wanted);
                 for (int t = 0; t < static_cast<int>(results.trials.size()); ++t) {
-                    const int sculpture = results.trials[static_cast<std::size_t>(t)].sculpture;
-                    const auto& scale = studies_.surfaces()[static_cast<std::size_t>(sculpture)].scale;
+                    const int object = results.trials[static_cast<std::size_t>(t)].object;
+                    const auto& scale = studies_.surfaces()[static_cast<std::size_t>(object)].scale;
                     std::vector<glm::dvec3> points;
                     for_each_counted(results, t, [&](const StudyFixation& fixation) {
                         points.push_back(fixation.position);
@@ -103,7 +103,7 @@ std::string plant_spread(GazeStudies& studies, std::size_t index, std::uint64_t 
     const std::vector<std::string>& tasks = studies.levels().at("task");
     const double without = pilot.mean_wss(tasks);
     if (!(without > 0.0))
-        return "No observer sees a sculpture in both levels, so that nothing is planted.";
+        return "No observer sees an object in both levels, so that nothing is planted.";
     const auto log_ratio = [&](double spread) {
         studies.plant_spread(index, spread, 0.0);
         return std::log(pilot.mean_wss(tasks) / without);
@@ -112,7 +112,7 @@ std::string plant_spread(GazeStudies& studies, std::size_t index, std::uint64_t 
     double near = 0.0, of_near = 0.0, far = wanted > 0.0 ? most_spread : least_spread,
            of_far = log_ratio(far);
     if (std::abs(of_far) < std::abs(wanted) || of_far * wanted <= 0.0)
-        throw InputError(fmt::format("--effect {}: on these sculptures WSS can be made {:.2f} times as large "
+        throw InputError(fmt::format("--effect {}: on these objects WSS can be made {:.2f} times as large "
                                      "at {}, by looking at what lies {}.",
                                      effect.text(), std::exp(of_far), wanted > 0.0 ? "most" : "least",
                                      wanted > 0.0 ? "far from the middle" : "about the middle"));
@@ -127,12 +127,11 @@ std::string plant_spread(GazeStudies& studies, std::size_t index, std::uint64_t 
         (is_beyond ? of_far : of_near) = of_spread;
     }
     studies.plant_spread(index, effect.size == 1.0 ? 0.0 : spread, spread / of_spread);
-    return fmt::format(
-        "Gaze in {} {} prefers places {} the middle of the sculpture, such that the mean WSS of "
-        "{} observers is {:.3f} times that without the preference (spread = {:.3f} in a "
-        "[[simulated_effect]]).",
-        effect.column, effect.level, wanted > 0.0 ? "far from" : "near", pilot.observers(),
-        effect.size == 1.0 ? 1.0 : std::exp(of_spread), effect.size == 1.0 ? 0.0 : spread);
+    return fmt::format("Gaze in {} {} prefers places {} the middle of the object, such that the mean WSS of "
+                       "{} observers is {:.3f} times that without the preference (spread = {:.3f} in a "
+                       "[[simulated_effect]]).",
+                       effect.column, effect.level, wanted > 0.0 ? "far from" : "near", pilot.observers(),
+                       effect.size == 1.0 ? 1.0 : std::exp(of_spread), effect.size == 1.0 ? 0.0 : spread);
 }
 
 } // namespace overt

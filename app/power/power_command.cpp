@@ -52,7 +52,7 @@ void print_answers(const PowerResults& results, const std::filesystem::path& out
 
 int run_power(PowerOptions options) {
     const Experiment experiment =
-        read_experiment_or_report(options.protocol, cache_folder(), InputDepth::sculptures);
+        read_experiment_or_report(options.protocol, cache_folder(), InputDepth::objects);
     const std::vector<PowerEffect> effects = power_effects(options.effects, experiment.protocol);
     PowerSettings& settings = options.settings;
     settings.observers = observer_counts(options.observers);
@@ -100,7 +100,7 @@ void add_power_command(CLI::App& app, ChosenCommand& chosen) {
         "An effect is a measure (head, wss, cc), the material or task in which it is, and its size: odds of "
         "the\n"
         "head, ratio of WSS, share of fixations that go to one spot. It may name :against=LEVEL, :sd=… over\n"
-        "observers, and :task=ID or :sculpture=ID for trials of these only. none tests everything without "
+        "observers, and :task=ID or :object=ID for trials of these only. none tests everything without "
         "an\n"
         "effect. docs/power.md says what is simulated, and what is not.\n"
         "Exit codes: 0 done, 1 failed, 2 bad input.");

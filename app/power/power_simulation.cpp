@@ -28,8 +28,8 @@ std::string analysis_of(const PowerEffect& effect) {
     for (const StudyKey& key : effect.within)
         row = fmt::format("the row of {} {}", key.column, key.value);
     return fmt::format("overt analyze SESSION… --by {} --compare {}: {} of {} against {} in table1_pairs, {}",
-                       is_material ? "task,sculpture,material" : "task,sculpture", effect.column, row,
-                       effect.level, effect.against, column);
+                       is_material ? "task,object,material" : "task,object", effect.column, row, effect.level,
+                       effect.against, column);
 }
 
 std::string planted_words(const PowerEffect& effect) {
@@ -40,7 +40,7 @@ std::string planted_words(const PowerEffect& effect) {
         words = fmt::format("In {} {} the odds of the head are multiplied by {}.", effect.column,
                             effect.level, effect.size);
     else if (effect.measure == PowerMeasure::cc)
-        words = fmt::format("In {} {} a share of {} of the fixations goes to one spot of each sculpture.",
+        words = fmt::format("In {} {} a share of {} of the fixations goes to one spot of each object.",
                             effect.column, effect.level, effect.size);
     return words;
 }
@@ -111,7 +111,7 @@ using AllMaps = std::vector<std::unique_ptr<VertexMaps>>;
 /// For effects on CC alone.
 AllMaps maps_for(const Experiment& experiment, const std::vector<PowerEffect>& effects,
                  const PowerSettings& settings, const PowerProgress& progress) {
-    AllMaps maps(experiment.sculptures.size());
+    AllMaps maps(experiment.objects.size());
     if (std::ranges::none_of(effects, [](auto& effect) { return effect.measure == PowerMeasure::cc; }))
         return maps;
     const auto report = [&](std::size_t done) {
@@ -121,7 +121,7 @@ AllMaps maps_for(const Experiment& experiment, const std::vector<PowerEffect>& e
     for (std::size_t i = 0; i < maps.size(); ++i) {
         report(i);
         if (const auto& scale = studies.surfaces()[i].scale)
-            maps[i] = std::make_unique<VertexMaps>(experiment.sculptures[i].mesh, *scale, settings.gaze.sigma,
+            maps[i] = std::make_unique<VertexMaps>(experiment.objects[i].mesh, *scale, settings.gaze.sigma,
                                                    settings.jobs);
     }
     report(maps.size());
@@ -158,7 +158,7 @@ void add_remarks(PowerResults& results, const Protocol& protocol, const PowerSet
         const PowerPoint& most = curve.points.back();
         if (most.without_test > 0)
             results.remarks.push_back(fmt::format(
-                "{} of {} studies with {} have nothing to test for {}: no observer sees a sculpture in both "
+                "{} of {} studies with {} have nothing to test for {}: no observer sees an object in both "
                 "levels{}.",
                 most.without_test, settings.studies, counted(most.observers, "observer"), curve.effect.text(),
                 curve.effect.column == "material" ? " under one task" : ""));

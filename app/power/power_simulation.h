@@ -24,8 +24,8 @@ using PowerProgress = std::function<void(std::string_view what, int done, int to
 
 /// Each study is simulated with the most observers; one with fewer has the first of them. The tests are those
 /// of the table of pairs (study_pairs): between materials within each task, between tasks within each
-/// sculpture. Each effect is simulated alone, with the same seeds. A function of its arguments, whatever the
-/// number of threads. Throws InputError for a spread of fixations that the sculptures do not allow, and as
+/// object. Each effect is simulated alone, with the same seeds. A function of its arguments, whatever the
+/// number of threads. Throws InputError for a spread of fixations that the objects do not allow, and as
 /// GazeStudies does.
 PowerResults simulate_power(const Experiment& experiment, const std::vector<PowerEffect>& effects,
                             const PowerSettings& settings, const PowerProgress& progress);

@@ -36,13 +36,13 @@ std::vector<PairedMaps> paired_maps(const std::vector<std::vector<LevelCompariso
                                     std::span<const std::unique_ptr<VertexMaps>> maps) {
     std::vector<PairedMaps> surfaces;
     for (const std::vector<LevelComparison>& cell : cells) {
-        for (std::size_t sculpture = 0; sculpture < maps.size(); ++sculpture) {
-            if (!maps[sculpture])
+        for (std::size_t object = 0; object < maps.size(); ++object) {
+            if (!maps[object])
                 continue;
-            PairedMaps paired(maps[sculpture]->areas());
+            PairedMaps paired(maps[object]->areas());
             for (const LevelComparison& one : cell) {
-                if (static_cast<std::size_t>(one.sculpture) == sculpture)
-                    paired.add(one.observer, maps[sculpture]->sum_of(one.a), maps[sculpture]->sum_of(one.b));
+                if (static_cast<std::size_t>(one.object) == object)
+                    paired.add(one.observer, maps[object]->sum_of(one.a), maps[object]->sum_of(one.b));
             }
             if (!paired.observers().empty())
                 surfaces.push_back(std::move(paired));
@@ -94,7 +94,7 @@ std::vector<StudyOutcome> tested(const GazeStudies& studies, const StudyResults&
     std::vector<ObserverValue> values;
     for (const std::vector<LevelComparison>& cell : cells) {
         for (const LevelComparison& one : cell) {
-            const auto& scale = studies.surfaces()[static_cast<std::size_t>(one.sculpture)].scale;
+            const auto& scale = studies.surfaces()[static_cast<std::size_t>(one.object)].scale;
             values.push_back({one.observer, effect.measure == PowerMeasure::head
                                                 ? head_difference(one, results)
                                                 : std::optional(wss_difference_deg2(one, *scale))});

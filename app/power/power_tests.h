@@ -13,11 +13,11 @@
 namespace overt {
 
 /// The comparisons of an effect's two levels: within each task where materials are compared, else within
-/// sculptures alone. A cell's comparisons have all that in common but the observer and the sculpture.
+/// objects alone. A cell's comparisons have all that in common but the observer and the object.
 std::vector<std::vector<LevelComparison>>
 compared_cells(const GazeStudies& studies, const StudyResults& results, const PowerEffect& effect);
 
-/// The test of an effect with the first observers of a study, by the numbers of them. `maps` by sculpture,
+/// The test of an effect with the first observers of a study, by the numbers of them. `maps` by object,
 /// needed for CC.
 std::vector<StudyOutcome> tested(const GazeStudies& studies, const StudyResults& results,
                                  const PowerEffect& effect, std::span<const int> observers,

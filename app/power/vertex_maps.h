@@ -12,7 +12,7 @@ namespace overt {
 
 /// The map of one fixation at each vertex of the coarse surface, on which the analysis compares maps. Heat
 /// adds up, so every map is a weighted sum of these. Unlike the analysis, which has each fixation's own, the
-/// kernel has one width everywhere: that in the depth of the sculpture's axis.
+/// kernel has one width everywhere: that in the depth of the object's axis.
 class VertexMaps {
   public:
     /// `most_threads` as in SurfaceSmoother::densities.

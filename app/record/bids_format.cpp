@@ -17,11 +17,11 @@ class Bids final : public ExportFormat {
     }
 
     std::string write(const ExportRequest& request) const override {
-        // Trials of all sculptures come in turn.
+        // Trials of all objects come in turn.
         RecordedSurfaces surfaces(request.record, RecordedSurfaces::Keep::all,
                                   CoordinateMaps::Use::few_lookups);
         const BidsExportCounts counts =
-            export_bids(request.record, [&](int sculpture) { return surfaces.lookup_of(sculpture); },
+            export_bids(request.record, [&](int object) { return surfaces.lookup_of(object); },
                         request.folder, {request.overwrite, with_answers_, request.progress});
         std::string said;
         for (const std::string& remark : counts.remarks)

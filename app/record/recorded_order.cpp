@@ -16,7 +16,7 @@ namespace {
 std::array<std::string, 4> words_of(const Trial& trial, const SessionHeader& header) {
     const auto id = [](const auto& list, int index) { return list.at(static_cast<std::size_t>(index)).id; };
     return {header.blocks.empty() ? "" : header.blocks.at(static_cast<std::size_t>(trial.block)),
-            id(header.tasks, trial.task), id(header.sculptures, trial.condition.sculpture),
+            id(header.tasks, trial.task), id(header.objects, trial.condition.object),
             id(header.materials, trial.condition.material)};
 }
 
@@ -54,8 +54,8 @@ RecordedOrder recorded_order(const SessionHeader& header) {
 std::string to_text(const RecordedOrder& order, const SessionHeader& header) {
     std::string text;
     for (const Trial& trial : order.recorded) {
-        const auto [block, task, sculpture, material] = words_of(trial, header);
-        std::string line = fmt::format("{:>5}  {:<12} {:<12} {:<12} {}", trial.index + 1, task, sculpture,
+        const auto [block, task, object, material] = words_of(trial, header);
+        std::string line = fmt::format("{:>5}  {:<12} {:<12} {:<12} {}", trial.index + 1, task, object,
                                        material, block.empty() ? "" : fmt::format("block {}", block));
         line.erase(line.find_last_not_of(' ') + 1);
         text += line + "\n";
@@ -73,12 +73,12 @@ std::string to_text(const RecordedOrder& order, const SessionHeader& header) {
 nlohmann::ordered_json to_json(const RecordedOrder& order, const SessionHeader& header) {
     auto trials = nlohmann::ordered_json::array();
     for (const Trial& trial : order.recorded) {
-        const auto [block, task, sculpture, material] = words_of(trial, header);
+        const auto [block, task, object, material] = words_of(trial, header);
         nlohmann::ordered_json item{{"trial", trial.index + 1}};
         if (!block.empty())
             item["block"] = block;
         item["task"] = task;
-        item["sculpture"] = sculpture;
+        item["object"] = object;
         item["material"] = material;
         trials.push_back(std::move(item));
     }

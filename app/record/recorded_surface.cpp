@@ -7,7 +7,7 @@
 #include "experiment/base/content_hash.h"
 #include "experiment/base/error.h"
 #include "experiment/scene/mesh_reader.h"
-#include "experiment/stimulus/sculpture.h"
+#include "experiment/stimulus/object.h"
 
 namespace overt {
 
@@ -28,11 +28,11 @@ Mesh recorded_mesh(const std::filesystem::path& file) {
     }
 }
 
-/// A sculpture's maps of one kind, by pose; null where there is none.
-std::vector<const RecordedMap*> maps_of(const SessionHeader& header, int sculpture, RecordedMap::Kind kind) {
+/// An object's maps of one kind, by pose; null where there is none.
+std::vector<const RecordedMap*> maps_of(const SessionHeader& header, int object, RecordedMap::Kind kind) {
     std::vector<const RecordedMap*> maps(header.poses.angles.size(), nullptr);
     for (const RecordedMap& map : header.maps)
-        if (map.sculpture == sculpture && map.kind == kind)
+        if (map.object == object && map.kind == kind)
             maps[static_cast<std::size_t>(map.pose.value)] = &map;
     return maps;
 }
@@ -47,34 +47,34 @@ std::filesystem::path sound_file(const SessionRecord& record, const RecordedMap&
 
 } // namespace
 
-const SurfaceLookup* RecordedSurfaces::lookup_of(int sculpture) {
-    const Surface& surface = surface_of(sculpture);
+const SurfaceLookup* RecordedSurfaces::lookup_of(int object) {
+    const Surface& surface = surface_of(object);
     if (surface.maps)
         return surface.maps.get();
     return surface.images.get();
 }
 
-RecordedSurfaces::Surface& RecordedSurfaces::surface_of(int sculpture) {
-    if (keep_ == Keep::last && !loaded_.contains(sculpture)) {
+RecordedSurfaces::Surface& RecordedSurfaces::surface_of(int object) {
+    if (keep_ == Keep::last && !loaded_.contains(object)) {
         loaded_.clear();
-        malloc_trim(0); // else the C library keeps it, and the next sculpture's comes on top
+        malloc_trim(0); // else the C library keeps it, and the next object's comes on top
     }
-    std::unique_ptr<Surface>& surface = loaded_[sculpture];
+    std::unique_ptr<Surface>& surface = loaded_[object];
     if (surface)
         return *surface;
     auto loading = std::make_unique<Surface>();
-    if (!record_->header().sculptures[static_cast<std::size_t>(sculpture)].mesh_file.empty()) {
-        load_maps(*loading, sculpture);
+    if (!record_->header().objects[static_cast<std::size_t>(object)].mesh_file.empty()) {
+        load_maps(*loading, object);
     } else {
-        load_images(*loading, sculpture);
+        load_images(*loading, object);
     }
     surface = std::move(loading);
     return *surface;
 }
 
-void RecordedSurfaces::load_maps(Surface& surface, int sculpture) const {
+void RecordedSurfaces::load_maps(Surface& surface, int object) const {
     const SessionHeader& header = record_->header();
-    const RecordedSculpture& recorded = header.sculptures[static_cast<std::size_t>(sculpture)];
+    const RecordedObject& recorded = header.objects[static_cast<std::size_t>(object)];
     const std::filesystem::path mesh_file = record_->directory() / recorded.mesh_file;
     surface.mesh = recorded_mesh(mesh_file);
     if (hash_of_mesh(surface.mesh) != recorded.mesh_sha256)
@@ -82,7 +82,7 @@ void RecordedSurfaces::load_maps(Surface& surface, int sculpture) const {
     SceneView scene{{recorded.camera, header.display.screen.image_px}, surface.mesh.bounds()};
     const glm::ivec2 image_px = header.display.screen.image_px;
     const std::size_t pixels = static_cast<std::size_t>(image_px.x) * static_cast<std::size_t>(image_px.y);
-    const auto maps = maps_of(header, sculpture, RecordedMap::Kind::triangles);
+    const auto maps = maps_of(header, object, RecordedMap::Kind::triangles);
     surface.maps = std::make_unique<CoordinateMaps>(
         surface.mesh, scene, header.poses.angles,
         [&](PoseIndex pose) {
@@ -94,10 +94,10 @@ void RecordedSurfaces::load_maps(Surface& surface, int sculpture) const {
         use_);
 }
 
-void RecordedSurfaces::load_images(Surface& surface, int sculpture) const {
+void RecordedSurfaces::load_images(Surface& surface, int object) const {
     const SessionHeader& header = record_->header();
-    const auto maps = maps_of(header, sculpture, RecordedMap::Kind::coordinates);
-    // Without maps there is no surface; a sculpture with ready-made maps has one of every pose.
+    const auto maps = maps_of(header, object, RecordedMap::Kind::coordinates);
+    // Without maps there is no surface; an object with ready-made maps has one of every pose.
     if (!maps.front())
         return;
     surface.images = std::make_unique<CoordinateImageLookup>(

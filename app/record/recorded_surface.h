@@ -10,19 +10,19 @@
 
 namespace overt {
 
-/// Loads each sculpture's mesh and maps when it is first asked for. Every one of these throws InputError or
+/// Loads each object's mesh and maps when it is first asked for. Every one of these throws InputError or
 /// RecordError for damaged or missing files.
 class RecordedSurfaces {
   public:
     enum class Keep : std::uint8_t { all, last };
-    /// `record` must outlive this. What it gives lives as long as this, or until another sculpture is asked
+    /// `record` must outlive this. What it gives lives as long as this, or until another object is asked
     /// for, if only the last is kept.
     explicit RecordedSurfaces(const SessionRecord& record, Keep keep = Keep::all,
                               CoordinateMaps::Use use = CoordinateMaps::Use::many_lookups)
         : record_(&record), keep_(keep), use_(use) {}
 
-    /// Where gaze on a sculpture goes, be its maps of triangles or of coordinates; null if it has none.
-    const SurfaceLookup* lookup_of(int sculpture);
+    /// Where gaze on an object goes, be its maps of triangles or of coordinates; null if it has none.
+    const SurfaceLookup* lookup_of(int object);
 
   private:
     struct Surface {
@@ -30,9 +30,9 @@ class RecordedSurfaces {
         std::unique_ptr<CoordinateMaps> maps;          ///< with a mesh
         std::unique_ptr<CoordinateImageLookup> images; ///< without, if there are maps
     };
-    Surface& surface_of(int sculpture);
-    void load_maps(Surface& surface, int sculpture) const;
-    void load_images(Surface& surface, int sculpture) const;
+    Surface& surface_of(int object);
+    void load_maps(Surface& surface, int object) const;
+    void load_images(Surface& surface, int object) const;
 
     const SessionRecord* record_;
     Keep keep_;

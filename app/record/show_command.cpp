@@ -40,11 +40,11 @@ nlohmann::ordered_json session_json(const SessionRecord& record) {
     const SessionHeader& header = record.header();
     auto trials = nlohmann::ordered_json::array();
     for (const TrialRecord& trial : record.trials()) {
-        const auto sculpture = static_cast<std::size_t>(trial.trial.condition.sculpture);
+        const auto object = static_cast<std::size_t>(trial.trial.condition.object);
         const auto material = static_cast<std::size_t>(trial.trial.condition.material);
         trials.push_back({{"trial", trial.trial.index + 1},
                           {"task", header.tasks[static_cast<std::size_t>(trial.trial.task)].id},
-                          {"sculpture", header.sculptures[sculpture].id},
+                          {"object", header.objects[object].id},
                           {"material", header.materials[material].id},
                           {"attempt", trial.attempt},
                           {"status", name_of(trial.status)},
@@ -151,13 +151,13 @@ void print_session(const SessionRecord& record) {
                    further_record(record.directory(), id).string());
     for (const auto& [sitting, box] : record.display_boxes())
         fmt::print("display box in sitting {}: {}\n", sitting, describe(box));
-    fmt::print("\n{:>5}  {:<12} {:<12} {:<12} {:<21} {:>9} {:>8} {:>7}  {}\n", "trial", "task", "sculpture",
+    fmt::print("\n{:>5}  {:<12} {:<12} {:<12} {:<21} {:>9} {:>8} {:>7}  {}\n", "trial", "task", "object",
                "material", "status", "refreshes", "missed", "gaze", "answer");
     for (std::size_t i = 0; i < record.trials().size(); ++i) {
         const auto& trial = json["trials"][i];
         const std::optional<GazeYield>& gaze = record.trials()[i].outcome.gaze;
         fmt::print("{:>5}  {:<12} {:<12} {:<12} {:<21} {:>9} {:>8} {:>7}  {}\n", trial["trial"].get<int>(),
-                   trial["task"].get<std::string>(), trial["sculpture"].get<std::string>(),
+                   trial["task"].get<std::string>(), trial["object"].get<std::string>(),
                    trial["material"].get<std::string>(), fate_of(record.trials()[i]),
                    trial["shown_refreshes"].get<int>(),
                    header.display.is_timing_unproven() ? "unproven"
@@ -182,8 +182,8 @@ void write_plot(const SessionRecord& record, const std::filesystem::path& file) 
 }
 
 /// Half a degree of visual angle, about the accuracy of a good calibration, in the unit of the mesh.
-double kernel_sigma(const SessionHeader& header, int sculpture) {
-    const RecordedSculpture& recorded = header.sculptures[static_cast<std::size_t>(sculpture)];
+double kernel_sigma(const SessionHeader& header, int object) {
+    const RecordedObject& recorded = header.objects[static_cast<std::size_t>(object)];
     const double depth = glm::distance(recorded.camera.position, recorded.bounds.centre());
     const double image_height = 2.0 * depth * std::tan(0.5 * to_radians(recorded.camera.vertical_fov).value);
     return 0.5 * header.display.screen.px_per_deg_at_centre() * image_height /
@@ -192,12 +192,12 @@ double kernel_sigma(const SessionHeader& header, int sculpture) {
 
 void write_picture(const SessionRecord& record, const TrialRecord& trial, const std::filesystem::path& file) {
     const SessionHeader& header = record.header();
-    const int sculpture = trial.trial.condition.sculpture;
+    const int object = trial.trial.condition.object;
     RecordedSurfaces surfaces(record);
-    const SurfaceLookup* surface = surfaces.lookup_of(sculpture);
+    const SurfaceLookup* surface = surfaces.lookup_of(object);
     if (!surface)
-        throw InputError(fmt::format("sculpture \"{}\" has no map: there is no surface to show gaze on",
-                                     header.sculptures[static_cast<std::size_t>(sculpture)].id));
+        throw InputError(fmt::format("object \"{}\" has no map: there is no surface to show gaze on",
+                                     header.objects[static_cast<std::size_t>(object)].id));
     const SampleJoin join(record, trial, surface);
     std::vector<glm::dvec3> gaze;
     for (const GazeSample& sample : record.samples(trial)) {
@@ -208,15 +208,14 @@ void write_picture(const SessionRecord& record, const TrialRecord& trial, const 
     const Condition condition = trial.trial.condition;
     TrialPictureContent content;
     content.surface = surface;
-    content.bounds = header.sculptures[static_cast<std::size_t>(sculpture)].bounds;
+    content.bounds = header.objects[static_cast<std::size_t>(object)].bounds;
     content.pose = header.poses.pose_of({0});
     content.frame =
         read_linear_image(record.directory() / preview_file(header, condition), FrameEncoding::srgb);
     content.gaze_on_surface = gaze;
-    content.kernel_sigma = kernel_sigma(header, sculpture);
-    content.frame_caption =
-        fmt::format("{}, {}", header.sculptures[static_cast<std::size_t>(sculpture)].title,
-                    header.materials[static_cast<std::size_t>(condition.material)].title);
+    content.kernel_sigma = kernel_sigma(header, object);
+    content.frame_caption = fmt::format("{}, {}", header.objects[static_cast<std::size_t>(object)].title,
+                                        header.materials[static_cast<std::size_t>(condition.material)].title);
     content.map_caption = "Hidden map: place on the surface as colour";
     content.gaze_caption =
         fmt::format("Gaze of trial {}: {} samples on the surface, by their density; 1 is the densest place",

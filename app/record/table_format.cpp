@@ -17,7 +17,7 @@ class Tables final : public ExportFormat {
         command
             .add_option(
                 "--cone-deg", cone_deg_,
-                "Add the probability that the gaze was on the sculpture, and on each of its parts, for a "
+                "Add the probability that the gaze was on the object, and on each of its parts, for a "
                 "tracker that is so far off on average (a usual accuracy: 0.5); in tables")
             ->type_name("DEG")
             ->check(CLI::Range(0.0, 20.0));
@@ -35,14 +35,13 @@ class Tables final : public ExportFormat {
             options.cone_accuracy = Degrees{*cone_deg_};
         options.progress = request.progress;
         const TableExportCounts counts = export_tables(
-            request.record, [&](int sculpture) { return surfaces.lookup_of(sculpture); }, request.folder,
-            options);
+            request.record, [&](int object) { return surfaces.lookup_of(object); }, request.folder, options);
         const auto share = [&](std::int64_t part) {
             return counts.samples > 0
                        ? 100.0 * static_cast<double>(part) / static_cast<double>(counts.samples)
                        : 0.0;
         };
-        return fmt::format("{}, {}, {}: {:.1f} % on the sculpture, {:.1f} % without gaze, "
+        return fmt::format("{}, {}, {}: {:.1f} % on the object, {:.1f} % without gaze, "
                            "{} that the planned times would have put on another frame\nexport: {}\n",
                            counted(counts.trials, "trial"), counted(counts.flips, "refresh", "refreshes"),
                            counted(counts.samples, "sample"), share(counts.samples_on_object),

@@ -47,7 +47,7 @@ std::optional<RecordDifference> changed_content(const SessionRecord& record) {
             return RecordDifference{"map",
                                     {},
                                     {},
-                                    fmt::format("sculpture {}, pose {}", map.sculpture, map.pose.value),
+                                    fmt::format("object {}, pose {}", map.object, map.pose.value),
                                     "sha256",
                                     map.sha256,
                                     fmt::format("its file {} has {}", map.file, found)};
@@ -60,9 +60,9 @@ Experiment recorded_experiment(const SessionRecord& record, const fs::path& file
     std::optional<Experiment> experiment =
         read_recorded_experiment(record.header().protocol, place, cache, diagnostics);
     if (experiment) {
-        const auto& sculptures = experiment->protocol.sculptures;
+        const auto& objects = experiment->protocol.objects;
         const bool has_meshes =
-            std::ranges::any_of(sculptures, [](const auto& sculpture) { return !sculpture.mesh.empty(); });
+            std::ranges::any_of(objects, [](const auto& object) { return !object.mesh.empty(); });
         // The meshes in the session's folder are those that were made of the protocol's.
         if (has_meshes && files.empty() && record.run_options(1).empty())
             throw InputError(

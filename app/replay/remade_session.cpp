@@ -41,7 +41,7 @@ void keep_recorded_maps(const SessionHeader& recorded, SessionHeader& now) {
     std::erase_if(now.maps, [&](RecordedMap& map) {
         const auto same =
             std::find_if(recorded.maps.begin(), recorded.maps.end(), [&](const RecordedMap& other) {
-                return other.sculpture == map.sculpture && other.pose == map.pose;
+                return other.object == map.object && other.pose == map.pose;
             });
         if (same != recorded.maps.end())
             map.made = same->made;
@@ -81,7 +81,7 @@ void remake_session(const RemakeRequest& request, ReplayReport& report) {
     const std::string no_frames = stimuli.prepare(record, experiment.protocol);
     const bool has_pictures = no_frames.empty() && fs::exists(record.directory() / "stimuli");
     SessionHeader now =
-        make_session_header(experiment.protocol, schedule, experiment.sculptures, stimuli.library(),
+        make_session_header(experiment.protocol, schedule, experiment.objects, stimuli.library(),
                             stimuli.context().description(), header.tracker, header.clock, true);
     now.session_number = header.session_number;
     now.display.timing = header.display.timing; // what the display proved cannot be found again
@@ -89,7 +89,7 @@ void remake_session(const RemakeRequest& request, ReplayReport& report) {
     SessionDirectory directory(
         {request.work / "sessions", header.protocol.name, header.schedule.observer.label},
         header.session_number);
-    put_files(directory, now, experiment.sculptures, stimuli.library(), has_pictures);
+    put_files(directory, now, experiment.objects, stimuli.library(), has_pictures);
     directory.publish();
 
     const fs::path recorded_file = request.work / "recorded.sqlite";

@@ -82,7 +82,7 @@ class TrialPictures {
         if (record.header().stimuli.empty())
             throw InputError(fmt::format("{}: this session was imported: the program has no frames of it",
                                          record.directory().string()));
-        return surfaces.lookup_of(trial.trial.condition.sculpture);
+        return surfaces.lookup_of(trial.trial.condition.object);
     }
 
     const SessionRecord& record_;
@@ -101,15 +101,13 @@ void require_room_for(const fs::path& file, bool overwrite) {
 }
 
 std::string part_of(const SessionHeader& header, const TrialRecord& trial, const SurfacePoint& point) {
-    const auto& names =
-        header.sculptures[static_cast<std::size_t>(trial.trial.condition.sculpture)].part_names;
+    const auto& names = header.objects[static_cast<std::size_t>(trial.trial.condition.object)].part_names;
     return point.part < names.size() ? names[point.part] : "";
 }
 
 nlohmann::ordered_json json_of(const SessionRecord& record, const TrialRecord& trial,
                                const ShownFrame& shown) {
-    const auto& sculpture =
-        record.header().sculptures[static_cast<std::size_t>(trial.trial.condition.sculpture)];
+    const auto& object = record.header().objects[static_cast<std::size_t>(trial.trial.condition.object)];
     nlohmann::ordered_json json{{"trial", trial.trial.index + 1},
                                 {"attempt", trial.attempt},
                                 {"frame", shown.number},
@@ -127,7 +125,7 @@ nlohmann::ordered_json json_of(const SessionRecord& record, const TrialRecord& t
         json["surface_point"] = {{"x", shown.surface->position.x},
                                  {"y", shown.surface->position.y},
                                  {"z", shown.surface->position.z},
-                                 {"unit", sculpture.unit},
+                                 {"unit", object.unit},
                                  {"part", part_of(record.header(), trial, *shown.surface)}};
     return json;
 }
@@ -144,13 +142,12 @@ std::string sentence_on(const SessionRecord& record, const TrialRecord& trial, c
         return text;
     text += fmt::format(", at {:.1f}, {:.1f} px of the image on average", shown.mean_px->x, shown.mean_px->y);
     if (!shown.surface)
-        return text + ", beside the sculpture";
+        return text + ", beside the object";
     const glm::dvec3& at = shown.surface->position;
     const std::string part = part_of(record.header(), trial, *shown.surface);
-    const auto& sculpture =
-        record.header().sculptures[static_cast<std::size_t>(trial.trial.condition.sculpture)];
+    const auto& object = record.header().objects[static_cast<std::size_t>(trial.trial.condition.object)];
     return text + fmt::format(": surface point {:.2f}, {:.2f}, {:.2f} {}{}", at.x, at.y, at.z,
-                              sculpture.unit == "mm" ? "mm" : "in the unit of the mesh",
+                              object.unit == "mm" ? "mm" : "in the unit of the mesh",
                               part.empty() ? "" : ", on the " + part);
 }
 

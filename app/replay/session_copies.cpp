@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "experiment/base/error.h"
+#include "experiment/record/schema_migration.h"
 
 namespace overt {
 
@@ -22,6 +23,7 @@ void copy_session_file(const fs::path& from, const fs::path& to) {
     const fs::path log = from.string() + "-wal";
     if (fs::exists(log))
         copy_file_to(log, to.string() + "-wal");
+    migrate_session_file(to, KeptCopy::none);
 }
 
 void take_map_files(const SessionRecord& from, const fs::path& into) {

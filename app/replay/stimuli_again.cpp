@@ -11,8 +11,8 @@ namespace fs = std::filesystem;
 
 StimuliAgain::StimuliAgain(const Experiment& experiment, const fs::path& cache, ContextChoice context)
     : display_({.context = context, .headless = true}),
-      library_(std::make_unique<StimulusLibrary>(display_.context(), experiment.protocol,
-                                                 experiment.sculptures, cache)) {}
+      library_(std::make_unique<StimulusLibrary>(display_.context(), experiment.protocol, experiment.objects,
+                                                 cache)) {}
 
 std::string StimuliAgain::prepare(const SessionRecord& record, const Protocol& protocol) {
     const std::vector<RecordedOption> options = record.run_options(1);

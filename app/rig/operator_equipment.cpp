@@ -37,7 +37,7 @@ OperatorServer::Options operator_view_of(const SessionHeader& header, const Prot
     for (const Trial& trial : header.schedule.trials) {
         const Task& task = protocol.tasks[static_cast<std::size_t>(trial.task)];
         ViewedTrial viewed{task.id, task.question,
-                           protocol.sculptures[static_cast<std::size_t>(trial.condition.sculpture)].id,
+                           protocol.objects[static_cast<std::size_t>(trial.condition.object)].id,
                            protocol.materials[static_cast<std::size_t>(trial.condition.material)].id,
                            light_file(header, trial.condition)};
         if (!std::filesystem::exists(folder / viewed.light_file))

@@ -64,7 +64,7 @@ void record_verification(PagePresenter& presenter, const FrameSource& pages, con
     for (const Condition& stimulus : stimuli) {
         if (progress)
             progress(done++, static_cast<int>(stimuli.size()));
-        const std::string name = protocol.sculptures[static_cast<std::size_t>(stimulus.sculpture)].id + "/" +
+        const std::string name = protocol.objects[static_cast<std::size_t>(stimulus.object)].id + "/" +
                                  protocol.materials[static_cast<std::size_t>(stimulus.material)].id;
         for (const PageVerification& page :
              verify_pages(presenter, pages, stimulus, geometry, protocol.display)) {

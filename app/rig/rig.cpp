@@ -65,14 +65,14 @@ void refuse_doubtful_times(const std::vector<std::string>& doubts) {
 
 } // namespace
 
-Rig::Rig(const Protocol& protocol, std::span<const Sculpture> sculptures, const RigRequest& request,
+Rig::Rig(const Protocol& protocol, std::span<const Object> objects, const RigRequest& request,
          const std::filesystem::path& cache)
-    : protocol_(&protocol), sculptures_(sculptures), request_(request),
+    : protocol_(&protocol), objects_(objects), request_(request),
       operator_keys_(read_operator_keys(request, protocol.operators)),
       display_(display_of(protocol, request)),
       screen_findings_(display_.is_real() ? examine_screen(*display_.window(), protocol)
                                           : std::vector<ScreenFinding>()),
-      library_(display_.context(), protocol, sculptures, cache) {
+      library_(display_.context(), protocol, objects, cache) {
     if (!display_.is_real())
         return;
     const std::vector<ScreenFinding>& quiet = quiet_desktop_.emplace(display_.window()->native()).findings();
@@ -114,9 +114,9 @@ void Rig::open(SimulatedFaults faults, SessionTime start) {
     presenter_ = std::make_unique<PagePresenter>(display_.context(), display_.surface(), frames, geometry,
                                                  protocol_->display, protocol_->screens);
     if (maps_are_live())
-        live_maps_ = std::make_unique<LiveMaps>(display_.context(), sculptures_, library_.cache().poses(),
+        live_maps_ = std::make_unique<LiveMaps>(display_.context(), objects_, library_.cache().poses(),
                                                 geometry.image_px);
-    observer_ = std::make_unique<SimulatedObserver>(make_observed_scene(*protocol_, sculptures_, geometry),
+    observer_ = std::make_unique<SimulatedObserver>(make_observed_scene(*protocol_, objects_, geometry),
                                                     request_.seed);
     MadeTracker made = make_tracker({.protocol = *protocol_,
                                      .clock = clock(),

@@ -41,16 +41,16 @@ struct RigRequest {
     MapTime maps = MapTime::automatic;
     std::string monitor = {};                    ///< see WindowRequest
     std::vector<std::string> operator_keys = {}; ///< of a simulated operator, see read_operator_key()
-    bool draws_stimuli = true; ///< without: see UndrawnFrames; for a display that only keeps time
+    bool draws_stimuli = true;      ///< without: see UndrawnFrames; for a display that only keeps time
     std::string observer = "overt"; ///< whom files on a tracker's host are for
 };
 
 class Rig {
   public:
-    /// `protocol` and `sculptures` must outlive the rig. Opens the display. Throws GraphicsError, also for a
+    /// `protocol` and `objects` must outlive the rig. Opens the display. Throws GraphicsError, also for a
     /// screen that would not show what the protocol says, or InputError for a request that this machine
     /// cannot meet.
-    Rig(const Protocol& protocol, std::span<const Sculpture> sculptures, const RigRequest& request,
+    Rig(const Protocol& protocol, std::span<const Object> objects, const RigRequest& request,
         const std::filesystem::path& cache);
     ~Rig();
 
@@ -122,7 +122,7 @@ class Rig {
     void open_further_trackers();
 
     const Protocol* protocol_;
-    std::span<const Sculpture> sculptures_;
+    std::span<const Object> objects_;
     RigRequest request_;
     std::vector<ScriptedOperatorKey> operator_keys_;
     OpenDisplay display_; // objects of OpenGL go before the context they live in

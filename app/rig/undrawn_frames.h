@@ -6,7 +6,7 @@
 namespace overt {
 
 /// As many animation frames as the stimuli have, all of them the background. A simulated observer looks at
-/// the sculptures' meshes, and of a display that only keeps time no picture goes anywhere: reading and
+/// the objects' meshes, and of a display that only keeps time no picture goes anywhere: reading and
 /// encoding them would take nine tenths of such a session.
 class UndrawnFrames final : public FrameSource {
   public:

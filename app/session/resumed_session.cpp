@@ -257,19 +257,18 @@ void require_same_trackers(const std::filesystem::path& session, std::vector<std
 void require_same_stimuli(const ResumedSession& session, const SessionHeader& now) {
     const SessionHeader& then = session.header;
     std::vector<std::string> changed;
-    for (std::size_t i = 0; i < std::min(then.sculptures.size(), now.sculptures.size()); ++i)
-        if (then.sculptures[i].mesh_sha256 != now.sculptures[i].mesh_sha256)
-            changed.push_back("the mesh of " + then.sculptures[i].id);
+    for (std::size_t i = 0; i < std::min(then.objects.size(), now.objects.size()); ++i)
+        if (then.objects[i].mesh_sha256 != now.objects[i].mesh_sha256)
+            changed.push_back("the mesh of " + then.objects[i].id);
     for (const RecordedStimulus& stimulus : then.stimuli) {
         const auto same =
             std::find_if(now.stimuli.begin(), now.stimuli.end(), [&](const RecordedStimulus& other) {
                 return other.condition == stimulus.condition && other.frames_sha256 == stimulus.frames_sha256;
             });
         if (same == now.stimuli.end())
-            changed.push_back(
-                fmt::format("the frames of {}/{}",
-                            then.sculptures[static_cast<std::size_t>(stimulus.condition.sculpture)].id,
-                            then.materials[static_cast<std::size_t>(stimulus.condition.material)].id));
+            changed.push_back(fmt::format(
+                "the frames of {}/{}", then.objects[static_cast<std::size_t>(stimulus.condition.object)].id,
+                then.materials[static_cast<std::size_t>(stimulus.condition.material)].id));
     }
     const auto light_of = [](const SessionHeader& header) {
         return header.characterisation ? header.characterisation->sha256 : ContentHash();

@@ -45,7 +45,7 @@ struct SessionFolder {
 SessionFolder open_folder(const RunOptions& options, const SessionPlace& place, const Experiment& experiment,
                           const SessionPlan& plan, Rig& rig) {
     SessionHeader now = make_session_header(
-        experiment.protocol, plan.schedule, experiment.sculptures, rig.library(), rig.context().description(),
+        experiment.protocol, plan.schedule, experiment.objects, rig.library(), rig.context().description(),
         rig.tracker().description(), rig.clock_kind(), !rig.maps_are_live());
     now.display.timing = rig.timing_word();
     if (plan.resumed) {
@@ -59,7 +59,7 @@ SessionFolder open_folder(const RunOptions& options, const SessionPlace& place, 
     }
     SessionDirectory directory(place, options.session_number);
     now.session_number = directory.session_number();
-    put_files(directory, now, experiment.sculptures, rig.library(), options.draws_stimuli);
+    put_files(directory, now, experiment.objects, rig.library(), options.draws_stimuli);
     for (const Rig::Further& further : rig.further_trackers())
         put_further_record(directory.path(), header_of_further(now, further));
     directory.publish();
@@ -126,7 +126,7 @@ int run_session_of(Experiment experiment, const RunOptions& options, const Prese
     const SessionPlan plan = plan_session(options, place, protocol, observer);
     const FoundBox found_box = find_box(protocol.display, options);
 
-    Rig rig(protocol, experiment.sculptures,
+    Rig rig(protocol, experiment.objects,
             {options.context, options.virtual_time, options.windowed, options.simulate_observer.has_value(),
              seed_of_simulated(options, plan), options.maps, options.monitor, options.operator_keys,
              options.draws_stimuli, observer.label},

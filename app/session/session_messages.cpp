@@ -101,7 +101,7 @@ void TrialProgress::operator()(const Trial& trial, const TrialOutcome& outcome, 
         return;
     bar_.make_room();
     fmt::print(stderr, "trial {} ({}, {}, {}): {}\n", trial.index + 1, name(protocol_->tasks, trial.task),
-               name(protocol_->sculptures, trial.condition.sculpture),
+               name(protocol_->objects, trial.condition.object),
                name(protocol_->materials, trial.condition.material), fmt::join(remarks, ", "));
 }
 

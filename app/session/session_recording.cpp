@@ -24,40 +24,39 @@ void copy_into(const std::filesystem::path& from, const std::filesystem::path& t
         throw RecordError(fmt::format("{}: cannot be written: {}", to.string(), error.message()));
 }
 
-std::string map_name(const std::string& sculpture, PoseIndex pose) {
-    return fmt::format("maps/{}/pose_{:02}.exr", sculpture, pose.value);
+std::string map_name(const std::string& object, PoseIndex pose) {
+    return fmt::format("maps/{}/pose_{:02}.exr", object, pose.value);
 }
 
-void add_prepared_maps(SessionHeader& header, const std::string& id, int sculpture,
+void add_prepared_maps(SessionHeader& header, const std::string& id, int object,
                        const StimulusLibrary& library) {
-    const auto kind = library.cache().has_given_maps(sculpture) ? RecordedMap::Kind::coordinates
-                                                                : RecordedMap::Kind::triangles;
+    const auto kind = library.cache().has_given_maps(object) ? RecordedMap::Kind::coordinates
+                                                             : RecordedMap::Kind::triangles;
     for (int pose = 0; pose < static_cast<int>(library.cache().poses().angles.size()); ++pose) {
-        header.maps.push_back({sculpture,
+        header.maps.push_back({object,
                                {pose},
                                map_name(id, {pose}),
-                               hash_of_file(library.cache().map_file(sculpture, {pose})),
+                               hash_of_file(library.cache().map_file(object, {pose})),
                                RecordedMap::Made::prepared,
                                kind});
     }
 }
 
-void describe_sculptures(SessionHeader& header, const Protocol& protocol,
-                         std::span<const Sculpture> sculptures, const StimulusLibrary& library,
-                         bool with_prepared_maps) {
-    for (std::size_t i = 0; i < sculptures.size(); ++i) {
-        const Sculpture& sculpture = sculptures[i];
-        RecordedSculpture recorded;
-        recorded.id = sculpture.id;
-        recorded.title = protocol.sculptures[i].title;
-        recorded.mesh_sha256 = sculpture.mesh_hash;
-        recorded.part_names = sculpture.mesh.part_names;
-        recorded.unit = unit_of_lengths(protocol.sculptures[i]);
-        if (sculpture.has_mesh()) {
-            recorded.mesh_file = fmt::format("meshes/{}.ply", sculpture.id);
-            recorded.camera = sculpture.scene.view.camera;
-            recorded.bounds = sculpture.scene.bounds;
-            recorded.axis_point = sculpture.scene.bounds.centre();
+void describe_objects(SessionHeader& header, const Protocol& protocol, std::span<const Object> objects,
+                      const StimulusLibrary& library, bool with_prepared_maps) {
+    for (std::size_t i = 0; i < objects.size(); ++i) {
+        const Object& object = objects[i];
+        RecordedObject recorded;
+        recorded.id = object.id;
+        recorded.title = protocol.objects[i].title;
+        recorded.mesh_sha256 = object.mesh_hash;
+        recorded.part_names = object.mesh.part_names;
+        recorded.unit = unit_of_lengths(protocol.objects[i]);
+        if (object.has_mesh()) {
+            recorded.mesh_file = fmt::format("meshes/{}.ply", object.id);
+            recorded.camera = object.scene.view.camera;
+            recorded.bounds = object.scene.bounds;
+            recorded.axis_point = object.scene.bounds.centre();
             if (with_prepared_maps)
                 add_prepared_maps(header, recorded.id, static_cast<int>(i), library);
         } else if (library.cache().has_given_maps(static_cast<int>(i))) {
@@ -67,7 +66,7 @@ void describe_sculptures(SessionHeader& header, const Protocol& protocol,
             recorded.axis_point = scene.bounds.centre();
             add_prepared_maps(header, recorded.id, static_cast<int>(i), library);
         }
-        header.sculptures.push_back(std::move(recorded));
+        header.objects.push_back(std::move(recorded));
     }
 }
 
@@ -102,7 +101,7 @@ std::vector<RecordedDatasetEntry> recorded(const DatasetSettings& dataset) {
 } // namespace
 
 SessionHeader make_session_header(const Protocol& protocol, const Schedule& schedule,
-                                  std::span<const Sculpture> sculptures, const StimulusLibrary& library,
+                                  std::span<const Object> objects, const StimulusLibrary& library,
                                   const GlDescription& graphics, const TrackerDescription& tracker,
                                   ClockKind clock, bool with_prepared_maps) {
     SessionHeader header;
@@ -129,35 +128,34 @@ SessionHeader make_session_header(const Protocol& protocol, const Schedule& sche
         header.tasks.push_back({task.id, task.question});
     for (const MaterialSettings& material : protocol.materials)
         header.materials.push_back({material.id, material.title});
-    for (int sculpture = 0; sculpture < static_cast<int>(sculptures.size()); ++sculpture) {
+    for (int object = 0; object < static_cast<int>(objects.size()); ++object) {
         for (int material = 0; material < static_cast<int>(protocol.materials.size()); ++material) {
-            const Condition condition{sculpture, material};
+            const Condition condition{object, material};
             header.stimuli.push_back(
                 {condition, library.source_of(condition), library.frames_hash(condition)});
         }
     }
-    describe_sculptures(header, protocol, sculptures, library, with_prepared_maps);
+    describe_objects(header, protocol, objects, library, with_prepared_maps);
     return header;
 }
 
 namespace {
 
 void put_all_files(const SessionDirectory& directory, const SessionHeader& header,
-                   std::span<const Sculpture> sculptures, const StimulusLibrary& library,
-                   bool with_pictures) {
-    for (std::size_t i = 0; i < sculptures.size(); ++i) {
-        if (!sculptures[i].has_mesh())
+                   std::span<const Object> objects, const StimulusLibrary& library, bool with_pictures) {
+    for (std::size_t i = 0; i < objects.size(); ++i) {
+        if (!objects[i].has_mesh())
             continue;
-        const std::filesystem::path file = directory.path() / header.sculptures[i].mesh_file;
+        const std::filesystem::path file = directory.path() / header.objects[i].mesh_file;
         std::filesystem::create_directories(file.parent_path());
-        write_ply(file, sculptures[i].mesh);
+        write_ply(file, objects[i].mesh);
     }
     for (const RecordedMap& map : header.maps)
-        copy_into(library.cache().map_file(map.sculpture, map.pose), directory.path() / map.file);
+        copy_into(library.cache().map_file(map.object, map.pose), directory.path() / map.file);
     for (const RecordedStimulus& stimulus : header.stimuli) {
-        const auto& sculpture = header.sculptures[static_cast<std::size_t>(stimulus.condition.sculpture)];
+        const auto& object = header.objects[static_cast<std::size_t>(stimulus.condition.object)];
         // Without a surface there is nothing to ask of it.
-        if (sculpture.camera.vertical_fov.value > 0.0) {
+        if (object.camera.vertical_fov.value > 0.0) {
             if (const auto light = library.light_file(stimulus.condition, with_pictures))
                 copy_into(*light, directory.path() / light_file(header, stimulus.condition));
         }
@@ -183,9 +181,9 @@ void put_all_files(const SessionDirectory& directory, const SessionHeader& heade
 } // namespace
 
 void put_files(const SessionDirectory& directory, const SessionHeader& header,
-               std::span<const Sculpture> sculptures, const StimulusLibrary& library, bool with_pictures) {
+               std::span<const Object> objects, const StimulusLibrary& library, bool with_pictures) {
     try {
-        put_all_files(directory, header, sculptures, library, with_pictures);
+        put_all_files(directory, header, objects, library, with_pictures);
     } catch (const std::exception& error) {
         throw RecordError(
             fmt::format("{}\nThe session was not begun, and nothing is left of it. Make room on the "
@@ -216,21 +214,21 @@ std::vector<RecordedMap> record_live_maps(std::vector<LiveMap> maps, const std::
                                           const SessionHeader& header) {
     std::erase_if(maps, [&](const LiveMap& map) {
         return std::any_of(header.maps.begin(), header.maps.end(), [&](const RecordedMap& recorded) {
-            return recorded.sculpture == map.sculpture && recorded.pose == map.pose;
+            return recorded.object == map.object && recorded.pose == map.pose;
         });
     });
     std::vector<RecordedMap> recorded(maps.size());
     parallel_for(static_cast<int>(maps.size()), [&](int i) {
         const LiveMap& map = maps[static_cast<std::size_t>(i)];
-        const RecordedSculpture& sculpture = header.sculptures[static_cast<std::size_t>(map.sculpture)];
-        const std::string name = map_name(sculpture.id, map.pose);
+        const RecordedObject& object = header.objects[static_cast<std::size_t>(map.object)];
+        const std::string name = map_name(object.id, map.pose);
         const std::filesystem::path file = folder / name;
         std::filesystem::create_directories(file.parent_path());
         const double angle_deg = header.poses.angles[static_cast<std::size_t>(map.pose.value)].value;
         write_triangle_map(
             file, map.map,
-            {{"mesh_sha256", sculpture.mesh_sha256}, {"angle_deg", fmt::format("{}", angle_deg)}});
-        recorded[static_cast<std::size_t>(i)] = {map.sculpture, map.pose, name, hash_of_file(file),
+            {{"mesh_sha256", object.mesh_sha256}, {"angle_deg", fmt::format("{}", angle_deg)}});
+        recorded[static_cast<std::size_t>(i)] = {map.object, map.pose, name, hash_of_file(file),
                                                  RecordedMap::Made::live};
     });
     return recorded;

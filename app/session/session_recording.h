@@ -15,7 +15,7 @@ namespace overt {
 /// What a session is made of, gathered for its record. The library's frames must be prepared, and its maps if
 /// they are to be in it. File names are those that put_files() gives.
 SessionHeader make_session_header(const Protocol& protocol, const Schedule& schedule,
-                                  std::span<const Sculpture> sculptures, const StimulusLibrary& library,
+                                  std::span<const Object> objects, const StimulusLibrary& library,
                                   const GlDescription& graphics, const TrackerDescription& tracker,
                                   ClockKind clock, bool with_prepared_maps);
 
@@ -23,8 +23,7 @@ SessionHeader make_session_header(const Protocol& protocol, const Schedule& sche
 /// them, the header itself into a new session file, a copy of the protocol beside it, and a manifest of it
 /// all. Throws RecordError.
 void put_files(const SessionDirectory& directory, const SessionHeader& header,
-               std::span<const Sculpture> sculptures, const StimulusLibrary& library,
-               bool with_pictures = true);
+               std::span<const Object> objects, const StimulusLibrary& library, bool with_pictures = true);
 
 /// Makes the record of a further tracker in a session's directory whose files have been put there: they are
 /// shared with it. Throws RecordError.

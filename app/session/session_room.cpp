@@ -17,11 +17,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The files that are going to be copied, instead of what is assumed of them. Sculptures that are frames only
+/// The files that are going to be copied, instead of what is assumed of them. Objects that are frames only
 /// have none.
-double bytes_of_maps(const StimulusLibrary& library, std::size_t sculptures) {
+double bytes_of_maps(const StimulusLibrary& library, std::size_t objects) {
     double bytes = 0.0;
-    for (std::size_t i = 0; i < sculptures; ++i) {
+    for (std::size_t i = 0; i < objects; ++i) {
         for (std::size_t pose = 0; pose < library.cache().poses().angles.size(); ++pose) {
             std::error_code missing;
             const std::uintmax_t size = fs::file_size(
@@ -36,10 +36,10 @@ RecordingSize still_to_record(const Experiment& experiment, const SessionPlan& p
                               const StimulusLibrary& library, bool with_prepared_maps) {
     const int all = static_cast<int>(plan.schedule.trials.size());
     const int done = plan.resumed ? plan.resumed->history.counted_trials : 0;
-    RecordingSize size = recording_size(experiment.protocol, experiment.sculptures, std::max(0, all - done),
+    RecordingSize size = recording_size(experiment.protocol, experiment.objects, std::max(0, all - done),
                                         DesignAssumptions().answer_s);
     if (with_prepared_maps)
-        size.maps = bytes_of_maps(library, experiment.sculptures.size());
+        size.maps = bytes_of_maps(library, experiment.objects.size());
     if (plan.resumed)
         size.maps = size.meshes = size.pictures = 0.0;
     return size;

@@ -179,7 +179,7 @@ void remove_remnants(const BakeJob& job, const StimulusLibrary& library, const F
     std::set<std::filesystem::path> folders;
     for (const BakeUnit& unit : job.units) {
         folders.insert(library.cache().frame_file_of(unit.condition, job.quality, unit.pose).parent_path());
-        folders.insert(library.cache().map_file(unit.condition.sculpture, unit.pose).parent_path());
+        folders.insert(library.cache().map_file(unit.condition.object, unit.pose).parent_path());
         if (job.exports())
             folders.insert(output.folder_of(unit.condition));
     }
@@ -193,7 +193,7 @@ void say_plan(const BakeJob& job, const Experiment& experiment, const std::vecto
                counted(job.units.size(), "frame"), job.units.size() - missing.size());
     if (missing.empty())
         return;
-    const PathProbe probe(experiment.protocol, experiment.sculptures);
+    const PathProbe probe(experiment.protocol, experiment.objects);
     double seconds = 0.0;
     for (const BakeUnit& unit : missing)
         seconds += probe.seconds_of_frame(unit.condition, job.quality);
@@ -271,16 +271,16 @@ void draw_overviews(const BakeOptions& options, const BakeJob& job, const Protoc
 
 int run_bake(const BakeOptions& options) {
     const Experiment experiment =
-        read_experiment_or_report(options.protocol, cache_folder(), InputDepth::sculptures);
+        read_experiment_or_report(options.protocol, cache_folder(), InputDepth::objects);
     const Protocol& protocol = experiment.protocol;
     const auto context = make_headless_context(options.context);
-    StimulusLibrary library(*context, protocol, experiment.sculptures, cache_folder());
+    StimulusLibrary library(*context, protocol, experiment.objects, cache_folder());
     const BakeJob job = job_of(options, protocol, library);
     if (!options.strip.empty())
         stimulus_of_strip(job);
     if (!options.sheet.empty() && job.stimuli.size() != library.cache().rendered_stimuli().size())
         throw InputError("--sheet shows all stimuli: leave out --stimulus");
-    const FrameExport output(job.output, protocol, experiment.sculptures, library, job.quality);
+    const FrameExport output(job.output, protocol, experiment.objects, library, job.quality);
     if (job.exports())
         output.refuse_to_replace(job.units);
     std::vector<BakeUnit> missing;

@@ -47,21 +47,21 @@ double seconds_per_path(const BakeScene& scene, const SpectralLight& light, cons
 
 } // namespace
 
-PathProbe::PathProbe(const Protocol& protocol, std::span<const Sculpture> sculptures)
+PathProbe::PathProbe(const Protocol& protocol, std::span<const Object> objects)
     : protocol_(&protocol), seconds_per_path_(protocol.materials.size(), 0.0),
-      traced_share_(sculptures.size(), 0.0) {
+      traced_share_(objects.size(), 0.0) {
     const SpectralLight light(protocol.light);
     bool measured = false;
-    for (std::size_t i = 0; i < sculptures.size(); ++i) {
-        const Sculpture& sculpture = sculptures[i];
-        if (!sculpture.has_mesh())
+    for (std::size_t i = 0; i < objects.size(); ++i) {
+        const Object& object = objects[i];
+        if (!object.has_mesh())
             continue;
-        const SceneView view = small_view(sculpture.scene);
+        const SceneView view = small_view(object.scene);
         std::vector<std::uint8_t> covered;
         for (std::size_t material = 0; material < protocol.materials.size(); ++material) {
             if (!covered.empty() && measured)
                 break;
-            const BakeScene scene(sculpture.mesh, protocol.materials[material]);
+            const BakeScene scene(object.mesh, protocol.materials[material]);
             if (covered.empty()) {
                 covered = covered_pixels(scene, view, Degrees{0.0});
                 traced_share_[i] = share_of(covered);
@@ -78,7 +78,7 @@ double PathProbe::seconds_of_frame(const Condition& condition, const FrameQualit
     const BakeSettings settings =
         bake_settings(quality, protocol_->bake, protocol_->materials[material].kind);
     const double pixels = static_cast<double>(protocol_->view.width_px) * protocol_->view.height_px;
-    const double paths = pixels * traced_share_[static_cast<std::size_t>(condition.sculpture)] *
+    const double paths = pixels * traced_share_[static_cast<std::size_t>(condition.object)] *
                          settings.samples / (settings.pixel_step * settings.pixel_step);
     return paths * seconds_per_path_[material] + pixels * writing_s_per_px;
 }
@@ -105,7 +105,7 @@ BakeEstimate bake_estimate(const Experiment& experiment, const StimulusLibrary& 
             if (missing == 0)
                 continue;
             if (!probe)
-                probe.emplace(experiment.protocol, experiment.sculptures);
+                probe.emplace(experiment.protocol, experiment.objects);
             one.seconds_left += missing * probe->seconds_of_frame(stimulus, one.quality);
         }
         estimate.qualities.push_back(one);

@@ -26,11 +26,11 @@ struct BakeEstimate {
     BakeQuality wanted_by_simulated = BakeQuality::preview;
 };
 
-/// How long paths take on this machine: traces a small picture of one sculpture in each material.
+/// How long paths take on this machine: traces a small picture of one object in each material.
 class PathProbe {
   public:
-    /// Takes a second or two. The sculptures need a mesh to count.
-    PathProbe(const Protocol& protocol, std::span<const Sculpture> sculptures);
+    /// Takes a second or two. The objects need a mesh to count.
+    PathProbe(const Protocol& protocol, std::span<const Object> objects);
 
     /// For one frame of a stimulus, writing it included.
     double seconds_of_frame(const Condition& condition, const FrameQuality& quality) const;
@@ -38,7 +38,7 @@ class PathProbe {
   private:
     const Protocol* protocol_;
     std::vector<double> seconds_per_path_; ///< of each material
-    std::vector<double> traced_share_;     ///< of the picture, for each sculpture
+    std::vector<double> traced_share_;     ///< of the picture, for each object
 };
 
 /// Looks into the cache; measures only if something is missing.
@@ -47,8 +47,8 @@ BakeEstimate bake_estimate(const Experiment& experiment, const StimulusLibrary& 
 /// "40 s", "12 min", "7.5 h".
 std::string duration_text(double seconds);
 
-/// For the top of what is said of a protocol: what a session with a person needs before it can begin, how long
-/// that takes here, and the cheapest way that is honest with what it leaves.
+/// For the top of what is said of a protocol: what a session with a person needs before it can begin, how
+/// long that takes here, and the cheapest way that is honest with what it leaves.
 std::string needs_of_person(const BakeEstimate& estimate, const Protocol& protocol);
 
 std::string to_text(const BakeEstimate& estimate);

@@ -54,7 +54,7 @@ LinearImage label(const std::string& text, int width_px, int line_px) {
 
 LinearImage contact_sheet(const Protocol& protocol, const StimulusLibrary& library, int frame, int cell_px) {
     const int columns = static_cast<int>(protocol.materials.size()),
-              rows = static_cast<int>(protocol.sculptures.size());
+              rows = static_cast<int>(protocol.objects.size());
     std::vector<LinearImage> cells(static_cast<std::size_t>(columns * rows));
     parallel_for(columns * rows, [&](int i) {
         const Condition condition{i / columns, i % columns};
@@ -67,7 +67,7 @@ LinearImage contact_sheet(const Protocol& protocol, const StimulusLibrary& libra
     for (int i = 0; i < columns * rows; ++i) {
         const glm::ivec2 origin(gap_px + i % columns * (cell.x + gap_px), i / columns * (cell.y + label_px));
         const std::string title =
-            fmt::format("{}, {}", protocol.sculptures[static_cast<std::size_t>(i / columns)].title,
+            fmt::format("{}, {}", protocol.objects[static_cast<std::size_t>(i / columns)].title,
                         protocol.materials[static_cast<std::size_t>(i % columns)].title);
         const LinearImage text = label(title, cell.x, line_px);
         paste(sheet, text, origin + glm::ivec2((cell.x - text.size_px.x) / 2, gap_px / 2));

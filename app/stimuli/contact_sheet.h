@@ -5,7 +5,7 @@
 
 namespace overt {
 
-/// A frame of each stimulus, sculptures below one another, materials side by side, with their titles; cells
+/// A frame of each stimulus, objects below one another, materials side by side, with their titles; cells
 /// at most `cell_px` wide and high. Linear light, for write_srgb_png.
 LinearImage contact_sheet(const Protocol& protocol, const StimulusLibrary& library, int frame, int cell_px);
 

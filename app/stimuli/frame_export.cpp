@@ -76,14 +76,13 @@ std::vector<std::uint16_t> codes_of(const ChannelPicture& picture, double backgr
 } // namespace
 
 FrameExport::FrameExport(const FrameExportOptions& options, const Protocol& protocol,
-                         std::span<const Sculpture> sculptures, const StimulusLibrary& library,
+                         std::span<const Object> objects, const StimulusLibrary& library,
                          const FrameQuality& quality)
-    : options_(&options), protocol_(&protocol), sculptures_(sculptures), library_(&library),
-      quality_(&quality) {}
+    : options_(&options), protocol_(&protocol), objects_(objects), library_(&library), quality_(&quality) {}
 
 std::filesystem::path FrameExport::folder_of(const Condition& condition) const {
     return options_->folder /
-           fmt::format("{}_{}", sculptures_[static_cast<std::size_t>(condition.sculpture)].id,
+           fmt::format("{}_{}", objects_[static_cast<std::size_t>(condition.object)].id,
                        protocol_->materials[static_cast<std::size_t>(condition.material)].id);
 }
 
@@ -178,7 +177,7 @@ ImageAttributes FrameExport::attributes_of(const BakeUnit& unit) const {
         protocol_->materials[static_cast<std::size_t>(unit.condition.material)];
     const Degrees angle = library_->cache().poses().angles[static_cast<std::size_t>(unit.pose.value)];
     ImageAttributes attributes = describe_stimulus(
-        *protocol_, sculptures_[static_cast<std::size_t>(unit.condition.sculpture)], material, angle);
+        *protocol_, objects_[static_cast<std::size_t>(unit.condition.object)], material, angle);
     for (auto& attribute : describe_tracing(*quality_, *protocol_, material.kind))
         attributes.push_back(std::move(attribute));
     attributes.emplace_back("overt:exposure", fmt::format("{}", protocol_->light.exposure));

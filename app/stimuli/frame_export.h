@@ -26,14 +26,13 @@ struct FrameExportOptions {
     bool is_png() const { return file == ExportedFile::png16; }
 };
 
-/// Writes FOLDER/SCULPTURE_MATERIAL/frame_NNNN.exr, a file for each frame of the animation, with everything
+/// Writes FOLDER/OBJECT_MATERIAL/frame_NNNN.exr, a file for each frame of the animation, with everything
 /// that made it in its header; with png16 .png with a .json beside each.
 class FrameExport {
   public:
     /// All must outlive it.
-    FrameExport(const FrameExportOptions& options, const Protocol& protocol,
-                std::span<const Sculpture> sculptures, const StimulusLibrary& library,
-                const FrameQuality& quality);
+    FrameExport(const FrameExportOptions& options, const Protocol& protocol, std::span<const Object> objects,
+                const StimulusLibrary& library, const FrameQuality& quality);
 
     /// Whether the files of a unit are there, whole and made of the very same.
     bool has(const BakeUnit& unit) const;
@@ -58,7 +57,7 @@ class FrameExport {
 
     const FrameExportOptions* options_;
     const Protocol* protocol_;
-    std::span<const Sculpture> sculptures_;
+    std::span<const Object> objects_;
     const StimulusLibrary* library_;
     const FrameQuality* quality_;
 };

@@ -42,7 +42,7 @@ class HeadOutline {
 PartRegion transformed(const PartRegion& region, const glm::dmat3& turn, double scale,
                        glm::dvec3 move = glm::dvec3(0.0));
 
-/// As [[sculpture]] of a protocol has it: "head = { spheres = [[…]], planes = [[[…], […]]] }", numbers to six
+/// As [[object]] of a protocol has it: "head = { spheres = [[…]], planes = [[[…], […]]] }", numbers to six
 /// digits, and to as many more as the first sphere lies away from the origin.
 std::string head_key(const PartRegion& region);
 

@@ -16,7 +16,7 @@ namespace overt {
 namespace {
 
 constexpr const char* keys_text =
-    "drag: turn    wheel: nearer    ← →: material    ↑ ↓: sculpture    space: animation    Esc: end";
+    "drag: turn    wheel: nearer    ← →: material    ↑ ↓: object    space: animation    Esc: end";
 
 int next_of(int index, int by, std::size_t count) {
     const int all = static_cast<int>(count);
@@ -32,11 +32,11 @@ struct Wishes {
     bool has_changed = true;
 };
 
-void take_keys(WindowContext& window, const Protocol& protocol, std::span<const Sculpture> sculptures,
+void take_keys(WindowContext& window, const Protocol& protocol, std::span<const Object> objects,
                Wishes& wishes) {
     WindowKeyPress press{};
     while (window.next_key_press(press)) {
-        int sculpture_step = 0;
+        int object_step = 0;
         switch (press.key) {
         case WindowKey::left:
         case WindowKey::right:
@@ -45,12 +45,11 @@ void take_keys(WindowContext& window, const Protocol& protocol, std::span<const 
             break;
         case WindowKey::up:
         case WindowKey::down:
-            sculpture_step = press.key == WindowKey::up ? -1 : 1;
+            object_step = press.key == WindowKey::up ? -1 : 1;
             // One that is there only as frames cannot be turned.
             do {
-                wishes.stimulus.sculpture =
-                    next_of(wishes.stimulus.sculpture, sculpture_step, sculptures.size());
-            } while (!sculptures[static_cast<std::size_t>(wishes.stimulus.sculpture)].has_mesh());
+                wishes.stimulus.object = next_of(wishes.stimulus.object, object_step, objects.size());
+            } while (!objects[static_cast<std::size_t>(wishes.stimulus.object)].has_mesh());
             break;
         case WindowKey::space:
             wishes.is_turning = !wishes.is_turning;
@@ -73,7 +72,7 @@ void take_keys(WindowContext& window, const Protocol& protocol, std::span<const 
 }
 
 void play_until_closed(OpenDisplay& opened, LiveView& view, const Protocol& protocol,
-                       std::span<const Sculpture> sculptures, const Condition& first) {
+                       std::span<const Object> objects, const Condition& first) {
     opened.start();
     WindowContext& window = *opened.window();
     PictureWindow picture(opened);
@@ -82,7 +81,7 @@ void play_until_closed(OpenDisplay& opened, LiveView& view, const Protocol& prot
     wishes.stimulus = first;
     while (!window.close_requested()) {
         window.poll_events();
-        take_keys(window, protocol, sculptures, wishes);
+        take_keys(window, protocol, objects, wishes);
         if (wishes.has_ended)
             return;
         if (!wishes.has_changed && !wishes.is_turning) {
@@ -103,7 +102,7 @@ void play_until_closed(OpenDisplay& opened, LiveView& view, const Protocol& prot
 
 } // namespace
 
-int play_live(const Protocol& protocol, std::span<const Sculpture> sculptures, const Condition& stimulus,
+int play_live(const Protocol& protocol, std::span<const Object> objects, const Condition& stimulus,
               const PlayOptions& options) {
     if (options.picture.empty()) {
         if (!display_is_available())
@@ -115,13 +114,13 @@ int play_live(const Protocol& protocol, std::span<const Sculpture> sculptures, c
                             .title = "overt play --live",
                             .refresh_hz = protocol.display.refresh_hz,
                             .windowed = true});
-        LiveView view(window.context(), protocol, sculptures, image_px);
-        play_until_closed(window, view, protocol, sculptures, stimulus);
+        LiveView view(window.context(), protocol, objects, image_px);
+        play_until_closed(window, view, protocol, objects, stimulus);
         return 0;
     }
     const auto context =
         make_headless_context(options.context == ContextKind::window ? std::nullopt : options.context);
-    LiveView view(*context, protocol, sculptures, {protocol.view.width_px, protocol.view.height_px});
+    LiveView view(*context, protocol, objects, {protocol.view.width_px, protocol.view.height_px});
     view.choose(stimulus);
     Orbit orbit;
     orbit.turn_deg = protocol.animation.angle_of({options.frame.value_or(0)}).value;

@@ -39,9 +39,9 @@ std::map<PoseIndex, std::vector<int>> frames_by_pose(const Animation& animation,
 /// Where the maps go, and as what.
 class MapFiles {
   public:
-    MapFiles(const LutOptions& options, std::string sculpture)
-        : folder_(options.out.empty() ? std::filesystem::path("luts") / sculpture : options.out),
-          sculpture_(std::move(sculpture)), exr_(options.format != "png16"), png_(options.format != "exr") {}
+    MapFiles(const LutOptions& options, std::string object)
+        : folder_(options.out.empty() ? std::filesystem::path("luts") / object : options.out),
+          object_(std::move(object)), exr_(options.format != "png16"), png_(options.format != "exr") {}
 
     /// Throws InputError if a file of these frames is there already.
     void refuse_to_overwrite(const std::map<PoseIndex, std::vector<int>>& frames) const {
@@ -59,7 +59,7 @@ class MapFiles {
     }
 
     std::vector<std::filesystem::path> files_of(int frame) const {
-        const std::filesystem::path stem = folder_ / fmt::format("{}_frame_{:04}", sculpture_, frame);
+        const std::filesystem::path stem = folder_ / fmt::format("{}_frame_{:04}", object_, frame);
         std::vector<std::filesystem::path> files;
         for (const auto& [wanted, extension] : {std::pair{exr_, ".exr"}, {png_, ".png"}, {png_, ".json"}}) {
             if (wanted)
@@ -85,39 +85,39 @@ class MapFiles {
 
   private:
     std::filesystem::path folder_;
-    std::string sculpture_;
+    std::string object_;
     bool exr_, png_;
 };
 
-MapDescription description_of(const Sculpture& sculpture, std::string_view unit, int scale) {
+MapDescription description_of(const Object& object, std::string_view unit, int scale) {
     MapDescription description;
-    description.sculpture = sculpture.id;
+    description.object = object.id;
     description.unit = unit == "mm" ? unit : own_unit;
-    description.bounds = sculpture.scene.bounds;
+    description.bounds = object.scene.bounds;
     description.scale = scale;
-    description.camera = sculpture.scene.view.camera;
-    description.size_px = sculpture.scene.view.image_px;
-    description.mesh_sha256 = sculpture.mesh_hash;
+    description.camera = object.scene.view.camera;
+    description.size_px = object.scene.view.image_px;
+    description.mesh_sha256 = object.mesh_hash;
     return description;
 }
 
 /// The exact maps of some poses, drawn anew.
-CoordinateMaps draw_maps(StimulusLibrary& library, const Sculpture& sculpture, int index,
+CoordinateMaps draw_maps(StimulusLibrary& library, const Object& object, int index,
                          const std::map<PoseIndex, std::vector<int>>& frames, ProgressBar& bar) {
     std::vector<Degrees> angles;
     std::vector<TriangleMap> maps;
     for (const auto& [pose, numbers] : frames) {
-        bar.update("mapping " + sculpture.id, static_cast<int>(maps.size()), static_cast<int>(frames.size()));
+        bar.update("mapping " + object.id, static_cast<int>(maps.size()), static_cast<int>(frames.size()));
         angles.push_back(library.cache().poses().angles[static_cast<std::size_t>(pose.value)]);
         maps.push_back(library.maps().draw_map(index, pose));
         if (maps.back().covered_pixels() == 0) {
-            throw InputError(fmt::format(
-                "sculpture \"{}\" is nowhere in the picture at {:.3g} degrees: correct the camera "
-                "under [view]",
-                sculpture.id, angles.back().value));
+            throw InputError(
+                fmt::format("object \"{}\" is nowhere in the picture at {:.3g} degrees: correct the camera "
+                            "under [view]",
+                            object.id, angles.back().value));
         }
     }
-    return {sculpture.mesh, sculpture.scene, angles, std::move(maps)};
+    return {object.mesh, object.scene, angles, std::move(maps)};
 }
 
 void print_outcome(const LutOptions& options, const std::vector<std::string>& files,
@@ -137,42 +137,42 @@ void print_outcome(const LutOptions& options, const std::vector<std::string>& fi
 
 int run_lut(const LutOptions& options) {
     const Protocol protocol = read_protocol_or_report(options.protocol);
-    const int index = sculpture_called(protocol, options.stimulus);
-    const SculptureSettings& settings = protocol.sculptures[static_cast<std::size_t>(index)];
-    std::vector<Sculpture> sculptures(protocol.sculptures.size());
-    Sculpture& sculpture = sculptures[static_cast<std::size_t>(index)];
-    sculpture = load_sculpture(settings, protocol, cache_folder());
-    if (!sculpture.has_mesh()) {
-        throw InputError(fmt::format("sculpture \"{}\" has no mesh to make maps of, or to check them against",
-                                     sculpture.id));
+    const int index = object_called(protocol, options.stimulus);
+    const ObjectSettings& settings = protocol.objects[static_cast<std::size_t>(index)];
+    std::vector<Object> objects(protocol.objects.size());
+    Object& object = objects[static_cast<std::size_t>(index)];
+    object = load_object(settings, protocol, cache_folder());
+    if (!object.has_mesh()) {
+        throw InputError(
+            fmt::format("object \"{}\" has no mesh to make maps of, or to check them against", object.id));
     }
 
     const auto context = make_headless_context(options.context);
-    StimulusLibrary library(*context, protocol, sculptures, cache_folder());
+    StimulusLibrary library(*context, protocol, objects, cache_folder());
     const auto frames = frames_by_pose(protocol.animation, library.cache().poses(), options.frame);
-    const MapFiles files(options, sculpture.id);
+    const MapFiles files(options, object.id);
     // A check alone leaves nothing behind.
     const bool writes = !options.check || !options.out.empty();
     if (writes && !options.overwrite)
         files.refuse_to_overwrite(frames);
 
     ProgressBar bar;
-    const CoordinateMaps maps = draw_maps(library, sculpture, index, frames, bar);
+    const CoordinateMaps maps = draw_maps(library, object, index, frames, bar);
     std::optional<RayCaster> rays;
     if (options.check)
-        rays.emplace(sculpture.mesh);
+        rays.emplace(object.mesh);
     std::optional<MapCheck> check;
     std::vector<std::string> written;
-    MapDescription description = description_of(sculpture, unit_of_lengths(settings), options.scale);
+    MapDescription description = description_of(object, unit_of_lengths(settings), options.scale);
     std::future<void> writing; // one map is compressed and written while the next is worked out
     int drawn = 0;
     for (const auto& [pose, numbers] : frames) {
-        bar.update(fmt::format("{} {}", writes ? "writing maps of" : "checking", sculpture.id), drawn,
+        bar.update(fmt::format("{} {}", writes ? "writing maps of" : "checking", object.id), drawn,
                    static_cast<int>(frames.size()));
         description.angle = library.cache().poses().angles[static_cast<std::size_t>(pose.value)];
-        CoordinateImage image = coordinate_image(maps, {drawn++}, sculpture.scene.view.image_px);
+        CoordinateImage image = coordinate_image(maps, {drawn++}, object.scene.view.image_px);
         if (rays) {
-            const MapCheck one = check_map(image, *rays, sculpture.scene, *description.angle, options.scale);
+            const MapCheck one = check_map(image, *rays, object.scene, *description.angle, options.scale);
             check = check ? worst_of(*check, one) : one;
         }
         if (!writes)
@@ -190,10 +190,10 @@ int run_lut(const LutOptions& options) {
     }
     if (writing.valid())
         writing.get();
-    bar.update(fmt::format("{} {}", writes ? "writing maps of" : "checking", sculpture.id), drawn, drawn);
+    bar.update(fmt::format("{} {}", writes ? "writing maps of" : "checking", object.id), drawn, drawn);
     bar.finish();
     const BenchFigures figures =
-        check ? figures_of(*check, sculpture.scene.view.image_px, sculpture.id) : BenchFigures{};
+        check ? figures_of(*check, object.scene.view.image_px, object.id) : BenchFigures{};
     print_outcome(options, written, figures, files.folder());
     return all_hold(figures) ? 0 : 1;
 }

@@ -6,7 +6,7 @@
 
 namespace overt {
 
-/// `name` of the sculpture stands in front of each figure. The targets of coverage are for 1024 x 1024 pixels
+/// `name` of the object stands in front of each figure. The targets of coverage are for 1024 x 1024 pixels
 /// and grow with a larger image's area.
 BenchFigures figures_of(const MapCheck& check, glm::ivec2 image_px, const std::string& name);
 

@@ -23,15 +23,15 @@ constexpr double radius_step = 1.05;
 constexpr const char* picking_keys = "drag: turn    wheel: nearer    ↑ ↓: larger, smaller    "
                                      "backspace: take back    enter: done    Esc: end";
 
-/// A protocol that shows one sculpture in a plain material, without a head.
+/// A protocol that shows one object in a plain material, without a head.
 Protocol plain_protocol(const PickHeadOptions& options) {
     Protocol protocol;
-    SculptureSettings sculpture;
-    sculpture.id = options.mesh.stem().string();
-    sculpture.mesh = options.mesh;
-    sculpture.up = options.up;
-    sculpture.unit = options.unit;
-    protocol.sculptures = {sculpture};
+    ObjectSettings object;
+    object.id = options.mesh.stem().string();
+    object.mesh = options.mesh;
+    object.up = options.up;
+    object.unit = options.unit;
+    protocol.objects = {object};
     MaterialSettings material;
     material.id = "grey";
     material.kind = MaterialKind::diffuse;
@@ -62,17 +62,16 @@ PartRegion given_head(const PickHeadOptions& options) {
 /// The mesh, its head so far, and pictures of both.
 class HeadView {
   public:
-    HeadView(const GlContext& context, const Protocol& protocol, const Sculpture& sculpture,
-             glm::ivec2 image_px)
-        : sculpture_(&sculpture), caster_(sculpture.mesh),
-          view_(context, protocol, {&sculpture, 1}, image_px), scene_(sculpture.scene) {
+    HeadView(const GlContext& context, const Protocol& protocol, const Object& object, glm::ivec2 image_px)
+        : object_(&object), caster_(object.mesh), view_(context, protocol, {&object, 1}, image_px),
+          scene_(object.scene) {
         scene_.view.image_px = image_px;
         view_.choose({0, 0});
     }
 
     /// Share of the surface's area that belongs to it, by triangles, as a protocol has it.
     double take(const std::optional<PartRegion>& head) {
-        is_head_.assign(sculpture_->mesh.triangles.size(), false);
+        is_head_.assign(object_->mesh.triangles.size(), false);
         double area = 0.0;
         for (std::size_t t = 0; head && t < is_head_.size(); ++t) {
             const auto [a, b, c] = corners(t);
@@ -81,7 +80,7 @@ class HeadView {
                 area += 0.5 * glm::length(glm::cross(b - a, c - a));
             }
         }
-        return area / sculpture_->mesh.area();
+        return area / object_->mesh.area();
     }
 
     /// The surface under a point of the picture.
@@ -100,7 +99,7 @@ class HeadView {
 
   private:
     std::array<glm::dvec3, 3> corners(std::size_t triangle) const {
-        const Mesh& mesh = sculpture_->mesh;
+        const Mesh& mesh = object_->mesh;
         const glm::uvec3& t = mesh.triangles[triangle];
         return {glm::dvec3(mesh.positions[t.x]), glm::dvec3(mesh.positions[t.y]),
                 glm::dvec3(mesh.positions[t.z])};
@@ -147,7 +146,7 @@ class HeadView {
         }
     }
 
-    const Sculpture* sculpture_;
+    const Object* object_;
     RayCaster caster_;
     LiveView view_;
     SceneView scene_;
@@ -217,24 +216,24 @@ int run_pick_head(const PickHeadOptions& options) {
         throw InputError("there is no display to pick a head on: look at one that is given with --sphere and "
                          "--plane by --picture FILE");
     const Protocol protocol = plain_protocol(options);
-    const SculptureSettings& settings = protocol.sculptures.front();
+    const ObjectSettings& settings = protocol.objects.front();
     const PartRegion given = given_head(options);
     fmt::print(stderr, "reading {} …\n", options.mesh.string());
-    const Sculpture sculpture = load_sculpture(settings, protocol, cache_folder());
+    const Object object = load_object(settings, protocol, cache_folder());
     const glm::dmat3 object_from_file = z_up_from_file(up_axis_named(options.up));
     const double scale = mm_of_unit(settings.unit);
     const bool is_given = !given.spheres.empty() || !given.half_spaces.empty();
-    const double height = sculpture.scene.bounds.max.z - sculpture.scene.bounds.min.z;
-    HeadOutline outline(
-        0.1 * height, is_given ? std::optional(transformed(given, object_from_file, scale, -sculpture.origin))
-                               : std::nullopt);
+    const double height = object.scene.bounds.max.z - object.scene.bounds.min.z;
+    HeadOutline outline(0.1 * height,
+                        is_given ? std::optional(transformed(given, object_from_file, scale, -object.origin))
+                                 : std::nullopt);
     double share = 0.0;
     if (in_window) {
         OpenDisplay window({.context = ContextKind::window,
                             .size_px = picture_window_size(protocol.view),
                             .title = "overt pick-head",
                             .windowed = true});
-        HeadView view(window.context(), protocol, sculpture, window.window()->framebuffer_px());
+        HeadView view(window.context(), protocol, object, window.window()->framebuffer_px());
         fmt::print(stderr, "{}\n", picking_keys);
         if (!pick_in_window(window, view, outline)) {
             fmt::print(stderr, "ended without a head\n");
@@ -244,7 +243,7 @@ int run_pick_head(const PickHeadOptions& options) {
     } else {
         const auto context =
             make_headless_context(options.context == ContextKind::window ? std::nullopt : options.context);
-        HeadView view(*context, protocol, sculpture, {protocol.view.width_px, protocol.view.height_px});
+        HeadView view(*context, protocol, object, {protocol.view.width_px, protocol.view.height_px});
         share = view.take(outline.region());
         Orbit orbit;
         orbit.turn_deg = options.turn_deg;
@@ -259,7 +258,7 @@ int run_pick_head(const PickHeadOptions& options) {
                         "mesh file",
                         options.mesh.string()));
     fmt::print("# {:.1f} % of the surface\n{}\n", 100.0 * share,
-               head_key(transformed(transformed(*outline.region(), glm::dmat3(1.0), 1.0, sculpture.origin),
+               head_key(transformed(transformed(*outline.region(), glm::dmat3(1.0), 1.0, object.origin),
                                     glm::transpose(object_from_file), 1.0 / scale)));
     return 0;
 }

@@ -60,9 +60,9 @@ void play_in_window(OpenDisplay& window, StimulusLibrary& library, const Conditi
 
 int run_play(const PlayOptions& options) {
     const Experiment experiment =
-        read_experiment_or_report(options.protocol, cache_folder(), InputDepth::sculptures);
+        read_experiment_or_report(options.protocol, cache_folder(), InputDepth::objects);
     const Protocol& protocol = experiment.protocol;
-    const std::vector<Sculpture>& sculptures = experiment.sculptures;
+    const std::vector<Object>& objects = experiment.objects;
     const Condition stimulus = stimulus_called(protocol, options.stimulus);
     if (options.frame.value_or(0) >= protocol.animation.frame_count) {
         throw InputError(fmt::format("--frame {}: the animation has frames 0 to {}", *options.frame,
@@ -70,7 +70,7 @@ int run_play(const PlayOptions& options) {
     }
     const bool in_window = options.picture.empty();
     if (options.live)
-        return play_live(protocol, sculptures, stimulus, options);
+        return play_live(protocol, objects, stimulus, options);
     if (in_window && !display_is_available())
         throw InputError("there is no display to play on: write a frame with --picture FILE instead");
 
@@ -84,7 +84,7 @@ int run_play(const PlayOptions& options) {
     else if (options.context == ContextKind::window)
         request.context = {};
     OpenDisplay display(request);
-    StimulusLibrary library(display.context(), protocol, sculptures, cache_folder());
+    StimulusLibrary library(display.context(), protocol, objects, cache_folder());
     ProgressBar bar;
     library.prepare_frames(stimulus, std::ref(bar),
                            in_window ? std::nullopt

@@ -31,31 +31,30 @@ void refuse(const ReconstructOptions& options, const Protocol& protocol) {
     }
 }
 
-/// A sculpture's maps in all poses, be they drawn from its mesh or made by another program.
+/// An object's maps in all poses, be they drawn from its mesh or made by another program.
 class StimulusMaps {
   public:
     StimulusMaps(const Protocol& protocol, int index, const ContextChoice& context, ProgressBar& bar)
-        : poses_(distinct_poses(protocol.animation)), sculptures_(protocol.sculptures.size()) {
+        : poses_(distinct_poses(protocol.animation)), objects_(protocol.objects.size()) {
         const auto place = static_cast<std::size_t>(index);
-        const SculptureSettings& settings = protocol.sculptures[place];
-        sculptures_[place] = load_sculpture(settings, protocol, cache_folder());
-        const Sculpture& sculpture = sculptures_[place];
-        part_names_ = sculpture.mesh.part_names;
+        const ObjectSettings& settings = protocol.objects[place];
+        objects_[place] = load_object(settings, protocol, cache_folder());
+        const Object& object = objects_[place];
+        part_names_ = object.mesh.part_names;
         size_px_ = {protocol.view.width_px, protocol.view.height_px};
-        if (sculpture.has_mesh()) {
+        if (object.has_mesh()) {
             const auto headless = make_headless_context(context);
-            StimulusLibrary library(*headless, protocol, sculptures_, cache_folder());
+            StimulusLibrary library(*headless, protocol, objects_, cache_folder());
             library.maps().prepare_maps(index, std::ref(bar));
             maps_.emplace(library.cache().maps_of(index));
             return;
         }
         if (settings.lut.empty())
-            throw InputError(
-                fmt::format("sculpture \"{}\" has neither a mesh nor maps: nothing is known of its surface",
-                            sculpture.id));
+            throw InputError(fmt::format(
+                "object \"{}\" has neither a mesh nor maps: nothing is known of its surface", object.id));
         std::vector<CoordinateImageFile> images;
         for (std::size_t pose = 0; pose < poses_.angles.size(); ++pose) {
-            bar.update("reading maps of " + sculpture.id, static_cast<int>(pose),
+            bar.update("reading maps of " + object.id, static_cast<int>(pose),
                        static_cast<int>(poses_.angles.size()));
             images.push_back(
                 read_given_map(protocol, index, first_frame_of(poses_, {static_cast<int>(pose)})));
@@ -74,7 +73,7 @@ class StimulusMaps {
 
   private:
     PoseTable poses_;
-    std::vector<Sculpture> sculptures_;
+    std::vector<Object> objects_;
     std::vector<std::string> part_names_;
     glm::ivec2 size_px_{0};
     std::optional<CoordinateMaps> maps_;
@@ -99,7 +98,7 @@ Reconstruction reconstruct(const ReconstructOptions& options, const StimulusMaps
 
 int run_reconstruct(const ReconstructOptions& options) {
     const Protocol protocol = read_protocol_or_report(options.protocol);
-    const int index = sculpture_called(protocol, options.stimulus);
+    const int index = object_called(protocol, options.stimulus);
     refuse(options, protocol);
     ProgressBar bar;
     const StimulusMaps maps(protocol, index, options.context, bar);

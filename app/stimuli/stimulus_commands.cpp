@@ -11,7 +11,7 @@ void add_play(CLI::App& app, ChosenCommand& chosen) {
         app, chosen, run_play, "play", "Shows one animation, or one of its frames as a picture",
         "overt play protocols/overt_2019.toml --stimulus muse/smooth --frame 15 --picture frame.png");
     command.add_option("PROTOCOL", options.protocol, "Protocol file (TOML)")->required();
-    option(command, "--stimulus", options.stimulus, "STIMULUS", "SCULPTURE/MATERIAL by their ids",
+    option(command, "--stimulus", options.stimulus, "STIMULUS", "OBJECT/MATERIAL by their ids",
            must_be_given);
     option(command, "--frame", options.frame, "K", "Animation frame for --picture (default: 0)",
            not_negative());
@@ -19,7 +19,7 @@ void add_play(CLI::App& app, ChosenCommand& chosen) {
     option(command, "--seconds", options.repeat_s, "S", "How long to play", shown_default);
     command.add_flag("--live", options.live,
                      "Draw it now, as an approximation, to be turned with the mouse: drag to turn and tilt, "
-                     "wheel to go nearer, left and right for the material, up and down for the sculpture, "
+                     "wheel to go nearer, left and right for the material, up and down for the object, "
                      "space for the animation, Escape to end");
     add_context_option(command, options.context);
 }
@@ -62,13 +62,13 @@ void add_bake(CLI::App& app, ChosenCommand& chosen) {
     option(command, "--target-error", options.target_error_de, "DE",
            "Leave a pixel when its standard error is below this colour difference", CLI::Range(0.01, 100.0));
     option(command, "--stimulus", options.only, "STIMULUS",
-           "Only this stimulus, SCULPTURE/MATERIAL by their ids; may be given several times");
+           "Only this stimulus, OBJECT/MATERIAL by their ids; may be given several times");
     option(command, "--frames", options.frames, "RANGE", "Frames of the animation: K, A-B or all",
            shown_default);
     option(command, "--shard", options.shard, "I/N",
            "The part of machine I of N, I from 1; they share the cache, or join their caches later");
     option(command, "--out", options.out, "DIR",
-           "Also write numbered frames: DIR/SCULPTURE_MATERIAL/frame_0000.exr, floats of 24 bits");
+           "Also write numbered frames: DIR/OBJECT_MATERIAL/frame_0000.exr, floats of 24 bits");
     option(command, "--as", options.as, "",
            "What is in those files: the display's linear light, XYZ, or 31 bins of radiance",
            one_of({"display", "xyz", "spectra"}), shown_default);
@@ -94,12 +94,11 @@ void add_lut(CLI::App& app, ChosenCommand& chosen) {
                     "overt lut protocols/overt_2019.toml --stimulus muse --frame 15 --out maps\n"
                     "  overt lut protocols/overt_2019.toml --stimulus muse --frame all --check");
     command.add_option("PROTOCOL", options.protocol, "Protocol file (TOML)")->required();
-    option(command, "--stimulus", options.stimulus, "SCULPTURE",
-           "SCULPTURE or SCULPTURE/MATERIAL by their ids; the map is the same for all materials",
-           must_be_given);
+    option(command, "--stimulus", options.stimulus, "OBJECT",
+           "OBJECT or OBJECT/MATERIAL by their ids; the map is the same for all materials", must_be_given);
     add_frame_option(command, options.frame, "Animation frame, or all");
     option(command, "--out", options.out, "DIR",
-           "Folder to write to (default: luts/SCULPTURE; with --check nothing is written)");
+           "Folder to write to (default: luts/OBJECT; with --check nothing is written)");
     option(command, "--format", options.format, "",
            "exr: coordinates as floats; png16: 16-bit codes as colours, with a JSON sidecar; both",
            one_of({"exr", "png16", "both"}), shown_default);
@@ -119,9 +118,8 @@ void add_reconstruct(CLI::App& app, ChosenCommand& chosen) {
         "overt reconstruct protocols/overt_2019.toml --stimulus muse --frame 15 --out muse_15.ply\n"
         "  overt reconstruct protocols/overt_2019.toml --stimulus muse --frame all --out muse_cloud.ply");
     command.add_option("PROTOCOL", options.protocol, "Protocol file (TOML)")->required();
-    option(command, "--stimulus", options.stimulus, "SCULPTURE",
-           "SCULPTURE or SCULPTURE/MATERIAL by their ids; the maps are the same for all materials",
-           must_be_given);
+    option(command, "--stimulus", options.stimulus, "OBJECT",
+           "OBJECT or OBJECT/MATERIAL by their ids; the maps are the same for all materials", must_be_given);
     add_frame_option(
         command, options.frame,
         "Animation frame: the triangles between its pixels, cut at silhouettes and where one part hides "

@@ -28,7 +28,7 @@ int run_play(const PlayOptions& options);
 
 struct PickHeadOptions {
     std::filesystem::path mesh;
-    std::string up = "z", unit = "mm"; ///< as [[sculpture]] has them
+    std::string up = "z", unit = "mm"; ///< as [[object]] has them
     // A head to begin with, in the file's coordinates.
     std::vector<std::array<double, 4>> spheres; ///< x, y, z, radius
     std::vector<std::array<double, 6>> planes;  ///< a point, and the direction in which the head lies
@@ -36,7 +36,7 @@ struct PickHeadOptions {
     double turn_deg = 0.0;                      ///< of the picture
     ContextChoice context;
 };
-/// Prints the key `head` of a sculpture. Throws InputError, GraphicsError, RecordError.
+/// Prints the key `head` of an object. Throws InputError, GraphicsError, RecordError.
 int run_pick_head(const PickHeadOptions& options);
 
 struct BakeOptions {
@@ -45,7 +45,7 @@ struct BakeOptions {
         quality; ///< nothing: the protocol's, if it is better than a preview, else standard
     std::optional<int> samples;
     std::optional<double> target_error_de;
-    std::vector<std::string> only; ///< SCULPTURE/MATERIAL; empty: all that are not given as frames
+    std::vector<std::string> only; ///< OBJECT/MATERIAL; empty: all that are not given as frames
     std::string frames = "all";    ///< "7", "0-30"
     std::string shard;             ///< "1/4"
     std::filesystem::path out;     ///< folder for numbered frames, or empty
@@ -62,9 +62,9 @@ int run_bake(const BakeOptions& options);
 
 struct LutOptions {
     std::filesystem::path protocol;
-    std::string stimulus;        ///< SCULPTURE or SCULPTURE/MATERIAL: the map is the same for all materials
+    std::string stimulus;        ///< OBJECT or OBJECT/MATERIAL: the map is the same for all materials
     std::optional<int> frame;    ///< nothing: all
-    std::filesystem::path out;   ///< folder; empty: luts/SCULPTURE, or with `check` nothing is written
+    std::filesystem::path out;   ///< folder; empty: luts/OBJECT, or with `check` nothing is written
     std::string format = "both"; ///< exr, png16 or both
     int scale = 65535;           ///< of 16-bit codes, or 65536
     ContextChoice context;
@@ -76,7 +76,7 @@ int run_lut(const LutOptions& options);
 
 struct ReconstructOptions {
     std::filesystem::path protocol;
-    std::string stimulus;      ///< SCULPTURE or SCULPTURE/MATERIAL
+    std::string stimulus;      ///< OBJECT or OBJECT/MATERIAL
     std::optional<int> frame;  ///< nothing: all
     bool points = false;       ///< a cloud also of one frame
     double spacing = 0.0;      ///< of a cloud's points, in the unit of the mesh; 0: as the pixels have it

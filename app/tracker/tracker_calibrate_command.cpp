@@ -36,15 +36,14 @@ class PrintingLog final : public SessionLog {
 } // namespace
 
 int run_tracker_calibrate(const TrackerCalibrateOptions& options) {
-    Experiment experiment =
-        read_experiment_or_report(options.protocol, cache_folder(), InputDepth::sculptures);
+    Experiment experiment = read_experiment_or_report(options.protocol, cache_folder(), InputDepth::objects);
     Protocol& protocol = experiment.protocol;
     protocol = with_one_tracker(protocol, options.further);
     if (!options.kind.empty())
         protocol.tracker.kind = tracker_kind_called(options.kind);
     if (options.by_overt)
         protocol.calibration.by = CalibratedBy::overt;
-    Rig rig(protocol, experiment.sculptures,
+    Rig rig(protocol, experiment.objects,
             {.context = options.context,
              .virtual_time = options.virtual_time,
              .windowed = options.windowed,

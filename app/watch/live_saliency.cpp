@@ -27,8 +27,8 @@ std::uint32_t nearest_corner(const Mesh& mesh, const RayHit& hit) {
 
 /// What a map is made with; of a large mesh only the coarse surface is kept.
 struct LiveSaliency::Surface {
-    explicit Surface(const WatchedSculpture& sculpture) : sigma(kernel_deg * sculpture.degree_on_surface()) {
-        const SurfaceGeometry fine(sculpture.mesh());
+    explicit Surface(const WatchedObject& object) : sigma(kernel_deg * object.degree_on_surface()) {
+        const SurfaceGeometry fine(object.mesh());
         const CoarseSurface coarse(fine, most_nodes);
         mesh = std::make_shared<Mesh>(coarse.mesh());
         vertex_near.resize(fine.vertex_count());
@@ -52,9 +52,9 @@ struct LiveSaliency::Surface {
         trial_s[near] += seconds;
     }
 
-    SaliencyMap map(Of of, const std::string& sculpture) const {
+    SaliencyMap map(Of of, const std::string& object) const {
         const std::vector<double>& seconds = of == Of::session ? session_s : trial_s;
-        SaliencyMap map{sculpture, mesh, {}, 0.0};
+        SaliencyMap map{object, mesh, {}, 0.0};
         std::vector<SurfaceWeight> weights;
         for (std::size_t v = 0; v < seconds.size(); ++v)
             if (seconds[v] > 0.0) {
@@ -74,7 +74,7 @@ struct LiveSaliency::Surface {
 
     double sigma;
     std::shared_ptr<const Mesh> mesh;
-    std::vector<std::uint32_t> vertex_near; ///< by vertex of the sculpture's mesh: of `mesh`
+    std::vector<std::uint32_t> vertex_near; ///< by vertex of the object's mesh: of `mesh`
     std::vector<SurfacePlace> places;       ///< by vertex of `mesh`
     std::unique_ptr<SurfaceGeometry> geometry;
     std::unique_ptr<SurfaceSmoother> smoother;
@@ -89,19 +89,19 @@ LiveSaliency::~LiveSaliency() {
     wakes_.notify_all();
 }
 
-void LiveSaliency::looked(const std::shared_ptr<const WatchedSculpture>& sculpture, int trial,
-                          const RayHit& hit, double seconds) {
+void LiveSaliency::looked(const std::shared_ptr<const WatchedObject>& object, int trial, const RayHit& hit,
+                          double seconds) {
     {
         const std::lock_guard lock(lock_);
-        looks_.push_back({sculpture, trial, nearest_corner(sculpture->mesh(), hit), seconds});
+        looks_.push_back({object, trial, nearest_corner(object->mesh(), hit), seconds});
     }
     wakes_.notify_one();
 }
 
-void LiveSaliency::prepare(const std::shared_ptr<const WatchedSculpture>& sculpture) {
+void LiveSaliency::prepare(const std::shared_ptr<const WatchedObject>& object) {
     {
         const std::lock_guard lock(lock_);
-        looks_.push_back({sculpture, -1, 0, 0.0});
+        looks_.push_back({object, -1, 0, 0.0});
     }
     wakes_.notify_one();
 }
@@ -115,16 +115,16 @@ void LiveSaliency::show(Of what) {
     wakes_.notify_one();
 }
 
-std::shared_ptr<const SaliencyMap> LiveSaliency::newest(const std::string& sculpture) const {
+std::shared_ptr<const SaliencyMap> LiveSaliency::newest(const std::string& object) const {
     const std::lock_guard lock(lock_);
-    const auto found = newest_.find(sculpture);
+    const auto found = newest_.find(object);
     return found == newest_.end() ? nullptr : found->second;
 }
 
-LiveSaliency::Surface& LiveSaliency::surface_of(const WatchedSculpture& sculpture) {
-    std::unique_ptr<Surface>& surface = surfaces_[sculpture.id()];
+LiveSaliency::Surface& LiveSaliency::surface_of(const WatchedObject& object) {
+    std::unique_ptr<Surface>& surface = surfaces_[object.id()];
     if (!surface)
-        surface = std::make_unique<Surface>(sculpture);
+        surface = std::make_unique<Surface>(object);
     return *surface;
 }
 
@@ -143,8 +143,8 @@ void LiveSaliency::work(const std::stop_token& stop) {
             of = of_;
         }
         for (const Look& look : looks) {
-            Surface& surface = surface_of(*look.sculpture);
-            last = look.sculpture->id();
+            Surface& surface = surface_of(*look.object);
+            last = look.object->id();
             if (look.seconds > 0.0)
                 surface.add(look.trial, look.vertex, look.seconds);
         }

@@ -1,4 +1,4 @@
-/// Where gaze has been on a sculpture, as a map that grows while a session is watched.
+/// Where gaze has been on an object, as a map that grows while a session is watched.
 #pragma once
 
 #include <condition_variable>
@@ -10,14 +10,14 @@
 #include <thread>
 #include <vector>
 
-#include "app/watch/watched_sculpture.h"
+#include "app/watch/watched_object.h"
 
 namespace overt {
 
 /// A surface to be drawn, with at most 8,000 nodes, and the density of gaze on it.
 struct SaliencyMap {
-    std::string sculpture;
-    std::shared_ptr<const Mesh> surface; ///< in the sculpture's unit; the same object while it is the same
+    std::string object;
+    std::shared_ptr<const Mesh> surface; ///< in the object's unit; the same object while it is the same
     std::vector<float> share;            ///< by vertex: of the highest density, 0 … 1; all 0 without gaze
     double gaze_s = 0.0;                 ///< that is in it
 };
@@ -36,26 +36,26 @@ class LiveSaliency {
     LiveSaliency& operator=(const LiveSaliency&) = delete;
 
     /// Gaze rested on this place for a while. Never waits for a map to be made.
-    void looked(const std::shared_ptr<const WatchedSculpture>& sculpture, int trial, const RayHit& hit,
+    void looked(const std::shared_ptr<const WatchedObject>& object, int trial, const RayHit& hit,
                 double seconds);
-    /// Which gaze the map shows: all that this view has seen of the sculpture, or that of the last trial.
+    /// Which gaze the map shows: all that this view has seen of the object, or that of the last trial.
     void show(Of what);
     /// Has the surface prepared, so that it can be shown before anybody looked at it.
-    void prepare(const std::shared_ptr<const WatchedSculpture>& sculpture);
+    void prepare(const std::shared_ptr<const WatchedObject>& object);
 
-    /// The newest map of a sculpture; null while there is none.
-    std::shared_ptr<const SaliencyMap> newest(const std::string& sculpture) const;
+    /// The newest map of an object; null while there is none.
+    std::shared_ptr<const SaliencyMap> newest(const std::string& object) const;
 
   private:
     struct Look {
-        std::shared_ptr<const WatchedSculpture> sculpture;
+        std::shared_ptr<const WatchedObject> object;
         int trial = -1;
-        std::uint32_t vertex = 0; ///< of the sculpture's mesh
+        std::uint32_t vertex = 0; ///< of the object's mesh
         double seconds = 0.0;     ///< 0: the surface is to be prepared
     };
     struct Surface;
     void work(const std::stop_token& stop);
-    Surface& surface_of(const WatchedSculpture& sculpture);
+    Surface& surface_of(const WatchedObject& object);
 
     mutable std::mutex lock_;
     std::condition_variable_any wakes_;

@@ -28,19 +28,19 @@ ViewedPicture grey_of(const ViewedCamera& camera) {
 } // namespace
 
 /// A view without a surface is still a view: what cannot be read is left out.
-void WatchedSession::read_sculpture() {
-    const std::string& now = client_.view().sculpture;
+void WatchedSession::read_object() {
+    const std::string& now = client_.view().object;
     if (reading_.valid() && reading_.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
-        sculpture_ = reading_.get();
+        object_ = reading_.get();
     if (now == wanted_ || now.empty() || reading_.valid())
         return;
     wanted_ = now;
-    sculpture_.reset();
+    object_.reset();
     reading_ = std::async(std::launch::async,
                           [folder = std::filesystem::path(client_.facts().folder),
-                           id = now]() -> std::shared_ptr<const WatchedSculpture> {
+                           id = now]() -> std::shared_ptr<const WatchedObject> {
                               try {
-                                  return std::make_shared<const WatchedSculpture>(folder, id);
+                                  return std::make_shared<const WatchedObject>(folder, id);
                               } catch (const Error&) {
                                   return nullptr;
                               }
@@ -49,18 +49,18 @@ void WatchedSession::read_sculpture() {
 
 bool WatchedSession::read(std::chrono::milliseconds wait) {
     const bool goes_on = client_.read(wait);
-    read_sculpture();
+    read_object();
     news_ = client_.take_events();
     for (const ViewedEvent& event : news_)
         events_.push_back(event);
     while (events_.size() > most_kept_events)
         events_.pop_front();
     new_gaze_.clear();
-    const bool is_known = sculpture_ && sculpture_->id() == client_.view().sculpture;
+    const bool is_known = object_ && object_->id() == client_.view().object;
     for (const ViewedGaze& one : client_.take_gaze()) {
         gaze_.push_back(one);
         new_gaze_.push_back({one, is_known && one.place && one.trial == client_.view().trial
-                                      ? sculpture_->met_at(*one.place, one.pose)
+                                      ? object_->met_at(*one.place, one.pose)
                                       : std::nullopt});
         last_gaze_ = new_gaze_.back();
     }
@@ -83,13 +83,13 @@ bool WatchedSession::read(std::chrono::milliseconds wait) {
 }
 
 std::string WatchedSession::surface_text() const {
-    if (!last_gaze_ || !last_gaze_->gaze.place || !sculpture_)
+    if (!last_gaze_ || !last_gaze_->gaze.place || !object_)
         return {};
     if (!last_gaze_->hit)
-        return "beside the sculpture";
+        return "beside the object";
     const glm::dvec3& at = last_gaze_->hit->position;
-    return fmt::format("{}, at {:.1f}, {:.1f}, {:.1f}{}", sculpture_->part_of(*last_gaze_->hit), at.x, at.y,
-                       at.z, sculpture_->unit() == "mm" ? " mm" : "");
+    return fmt::format("{}, at {:.1f}, {:.1f}, {:.1f}{}", object_->part_of(*last_gaze_->hit), at.x, at.y,
+                       at.z, object_->unit() == "mm" ? " mm" : "");
 }
 
 ViewText WatchedSession::text() {

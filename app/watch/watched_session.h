@@ -9,7 +9,7 @@
 #include <string>
 
 #include "app/watch/viewed_pictures.h"
-#include "app/watch/watched_sculpture.h"
+#include "app/watch/watched_object.h"
 #include "devices/operator/operator_client.h"
 #include "experiment/watch/view_text.h"
 
@@ -18,7 +18,7 @@ namespace overt {
 /// A point of gaze and what it met.
 struct GazeOnSurface {
     ViewedGaze gaze;
-    std::optional<RayHit> hit; ///< nothing beside the sculpture, or while it is being read
+    std::optional<RayHit> hit; ///< nothing beside the object, or while it is being read
 };
 
 /// For one thread.
@@ -40,13 +40,13 @@ class WatchedSession {
     const std::vector<GazeOnSurface>& new_gaze() const { return new_gaze_; }
     /// The newest point of the eye that is shown, while an animation is.
     const std::optional<GazeOnSurface>& last_gaze() const { return last_gaze_; }
-    /// The sculpture of the trial under way, or the last; null while it is read or has no mesh.
-    const std::shared_ptr<const WatchedSculpture>& sculpture() const { return sculpture_; }
+    /// The object of the trial under way, or the last; null while it is read or has no mesh.
+    const std::shared_ptr<const WatchedObject>& object() const { return object_; }
     /// The tracker's camera, of the last two seconds.
     const std::optional<ViewedCamera>& camera() const { return camera_; }
 
   private:
-    void read_sculpture();
+    void read_object();
     std::string surface_text() const;
 
     OperatorClient& client_;
@@ -55,9 +55,9 @@ class WatchedSession {
     std::vector<GazeOnSurface> new_gaze_;
     std::optional<GazeOnSurface> last_gaze_;
     ViewedPictures pictures_;
-    std::string wanted_; ///< sculpture
-    std::shared_ptr<const WatchedSculpture> sculpture_;
-    std::future<std::shared_ptr<const WatchedSculpture>> reading_;
+    std::string wanted_; ///< object
+    std::shared_ptr<const WatchedObject> object_;
+    std::future<std::shared_ptr<const WatchedObject>> reading_;
     std::optional<ViewedCamera> camera_;
     std::chrono::steady_clock::time_point camera_came_{};
     ViewedPicture camera_picture_;

@@ -7,7 +7,7 @@
 # 2. Logarithm of the mean within-cluster sum of squares (WSS, mm^2) of a trial: normal.
 #
 # Fixed effects: the factors below and their interactions in pairs (sum contrasts, so that a main effect is one over
-# the mean of the other factors). Random intercepts: of observers, of sculptures, and of each observer at each level of
+# the mean of the other factors). Random intercepts: of observers, of objects, and of each observer at each level of
 # a factor (observer:task); without the last a difference that observers have among themselves would pass for one
 # of the factor (Barr, Levy, Scheepers and Tily 2013, Journal of Memory and Language 68, 255-278). The binomial model
 # also has one of each trial, for the fixations of a trial depend on each other. Terms are tested by the likelihood
@@ -38,7 +38,7 @@ trials <- read.table(path, header = TRUE, sep = if (grepl("\\.tsv$", path)) "\t"
                      comment.char = "", na.strings = "n/a", check.names = FALSE,
                      colClasses = c(observer = "character"))
 trials <- trials[trials$excluded == 0, ]
-for (column in c("observer", "sculpture", intersect(factors, names(trials))))
+for (column in c("observer", "object", intersect(factors, names(trials))))
   trials[[column]] <- factor(trials[[column]])
 trials$trial_of_all <- factor(seq_len(nrow(trials)))
 
@@ -50,7 +50,7 @@ fit_all <- function(what, response, data, is_binomial) {
   used <- Filter(function(name) name %in% names(data) && nlevels(data[[name]]) > 1, factors)
   left_out <- setdiff(factors, used)
   if (length(left_out) > 0) say("%s: %s has a single level, and is left out.", what, paste(left_out, collapse = ", "))
-  groups <- setdiff(Filter(function(name) nlevels(data[[name]]) > 1, c("observer", "sculpture")), used)
+  groups <- setdiff(Filter(function(name) nlevels(data[[name]]) > 1, c("observer", "object")), used)
   if (!"observer" %in% groups || nrow(data) < 10) {
     say("%s: there are too few observers or trials (%d) for a model.", what, nrow(data))
     return(NULL)

@@ -53,19 +53,19 @@ const remark_column = (rows, of) => (rows.some(of) ? [text_column('remark', of, 
         number_column('corrected for tracker error', r => r.corrected), number_column('pooled', r => r.pooled), number_column('observers', r => r.observers),
         number_column('trials', r => r.trials), number_column('fixations', r => r.fixations)],
         note: `Dots: single observers. In brackets the ${level} over observers. Pooled: all fixations as if they were independent, as in the paper's figure 4. The paper's numbers are raw shares (by count, pooled); corrected: the share under which the measured places are most probable, given the tracker's error.`}));
-  } else by_id('figure4_chart').append(element('p', {class: 'note'}, 'No sculpture has a part named "head".'));
+  } else by_id('figure4_chart').append(element('p', {class: 'note'}, 'No object has a part named "head".'));
 }
 
 // Figure 5.
 function draw_figure5() {
   const deg = by_id('unit5').value === 'deg', rows = data.tables.distributions;
   const wss = r => (deg ? r.wss_deg : r.wss), unit = deg ? 'deg²' : 'mm²', keys_of = r => data.groups[r.group].keys;
-  const sculpture_of = r => data.sculptures[r.sculpture], with_sculpture = !data.by.includes('sculpture');
+  const object_of = r => data.objects[r.object], with_object = !data.by.includes('object');
   bars(by_id('figure5_chart'), panels_of(rows, r => (keys_of(r)[0] || ['', 'all'])[1],
-           r => ({label: [...(with_sculpture ? [sculpture_of(r).id] : []), ...keys_of(r).slice(1).map(k => k[1])].join(', ') || sculpture_of(r).id, estimate: wss(r)})),
+           r => ({label: [...(with_object ? [object_of(r).id] : []), ...keys_of(r).slice(1).map(k => k[1])].join(', ') || object_of(r).id, estimate: wss(r)})),
        {x_label: 'mean WSS / ' + unit, most: 0, label: 'Figure 5: mean within-cluster sum of squares in ' + unit});
   by_id('figure5_table').replaceChildren(table({name: 'figure_5', title: 'How widely they looked', rows, columns: [
-      ...factor_columns(rows, keys_of).filter(c => c.name !== 'sculpture'), text_column('sculpture', r => sculpture_of(r).title),
+      ...factor_columns(rows, keys_of).filter(c => c.name !== 'object'), text_column('object', r => object_of(r).title),
       number_column('mean WSS / ' + unit, wss, {digits: 4}),
       ...['x', 'y', 'z'].map((axis, i) => number_column(`Var ${axis} / ${unit}`, r => (deg ? r.variance_deg : r.variance)[i], {digits: 4})),
       number_column('map: peak / (ms/mm²)', r => r.peak), number_column('map: mean / (ms/mm²)', r => r.mean),
@@ -84,11 +84,11 @@ draw_figure5();
       number_column('CC of all maps', r => r.maps_cc), p_column('CC of all maps: p', r => r.maps_p), p_column('CC of all maps: p after Holm', r => r.maps_holm),
       ...[['CC', 'cc'], ['SIM', 'sim']].flatMap(([name, key]) => [number_column(name, r => r[key].value), number_column(name + ': halves of a and b', r => r[key].between), number_column(name + ': halves of one', r => r[key].within)]),
       number_column('observers', r => r.observers), ...remark_column(rows, r => r.absent)],
-      note: `WSS, CC and SIM are of one observer and one sculpture, then averaged; in brackets the ${level} over observers. CC of all maps: the maps of all observers are added up for each level. ` +
+      note: `WSS, CC and SIM are of one observer and one object, then averaged; in brackets the ${level} over observers. CC of all maps: the maps of all observers are added up for each level. ` +
       'Whether maps differ is told by its p, for which an observer\'s two levels are swapped, whole maps at once; for the p of WSS the signs of observers\' differences are flipped. After Holm: corrected for the rows of the table, those over all groups apart. ' +
       'A similarity grows with the number of fixations and is below 1 even where nothing differs. Halves all have as many fixations, so those of a and b can be held against two halves of one level. ' +
       'The latter are somewhat more alike even without a difference where the fixations of a trial share an error of calibration. SIM: maps scaled from 0 to 1 first (MIT benchmark); table1_pairs has it without scaling, too.'})
-      : element('p', {class: 'note'}, 'There is no factor whose levels the same observers saw on the same sculpture.'));
+      : element('p', {class: 'note'}, 'There is no factor whose levels the same observers saw on the same object.'));
 }
 
 // Maps of differences, cluster by cluster.
@@ -98,27 +98,27 @@ draw_figure5();
     if (!d.values || !d.clusters.length) rows.push({d, c: null, where: d.absent || 'no vertex beyond the threshold'});
     d.clusters.forEach((c, i) => {
       // Small ones are in the table of clusters.
-      if (i === 0 || c.p <= 0.2) rows.push({d, c, where: (c.part !== null ? data.sculptures[d.sculpture].parts[c.part] : 'n/a') + `, cluster ${i + 1} of ${d.clusters.length}`});
+      if (i === 0 || c.p <= 0.2) rows.push({d, c, where: (c.part !== null ? data.objects[d.object].parts[c.part] : 'n/a') + `, cluster ${i + 1} of ${d.clusters.length}`});
     });
   }
   const of_cluster = of => row => (row.c ? of(row.c) : null);
   by_id('differences').hidden = rows.length === 0;
   if (rows.length) by_id('differences_body').append(table({name: 'differences', title: 'Where conditions differ', rows, columns: [
-      ...factor_columns(rows, r => r.d.keys).filter(c => c.name !== 'sculpture'), text_column('sculpture', r => data.sculptures[r.d.sculpture].title), text_column('a', r => r.d.a), text_column('b', r => r.d.b),
+      ...factor_columns(rows, r => r.d.keys).filter(c => c.name !== 'object'), text_column('object', r => data.objects[r.d.object].title), text_column('a', r => r.d.a), text_column('b', r => r.d.b),
       number_column('observers', r => r.d.observers), text_column('where', r => r.where),
       number_column('area / mm²', of_cluster(c => c.area)), ...['x', 'y', 'z'].map((axis, i) => mm_column(`centre ${axis} / mm`, of_cluster(c => c.centre[i]))),
       share_column('a less b, of the fixation time', of_cluster(c => c.difference)), p_column('p', of_cluster(c => c.p)), p_column('p over all maps', of_cluster(c => c.p_all)),
       p_column('smallest p there can be', r => r.d.least_p)],
       note:
       'Each observer with fixations in both conditions gives a map of differences; clusters of vertices with a t beyond the threshold are tested by flipping the signs of ' +
-      'observers\' maps (largest cluster, sum of t times area). p holds for the whole surface of one sculpture; "over all maps" also for all rows (Bonferroni). ' +
+      'observers\' maps (largest cluster, sum of t times area). p holds for the whole surface of one object; "over all maps" also for all rows (Bonferroni). ' +
       'Shown are the largest cluster of each map, and others with p up to 0.2.'}));
 }
 
 // Exposure, prediction, reliability, errors.
 {
-  const t = data.tables, title = text_column('sculpture', r => data.sculptures[r.sculpture].title), keys_of = r => data.groups[r.group].keys;
-  const conditions = (rows, of = keys_of) => [...factor_columns(rows, of).filter(c => c.name !== 'sculpture'), title];
+  const t = data.tables, title = text_column('object', r => data.objects[r.object].title), keys_of = r => data.groups[r.group].keys;
+  const conditions = (rows, of = keys_of) => [...factor_columns(rows, of).filter(c => c.name !== 'object'), title];
   const put = (id, rows, make) => {
     by_id(id).hidden = by_id(id).previousElementSibling.hidden = rows.length === 0;
     if (rows.length) by_id(id).append(table({name: id.replace('_body', ''), title: by_id(id).previousElementSibling.textContent, rows, ...make()}));
@@ -126,7 +126,7 @@ draw_figure5();
   put('exposure_body', t.exposures, () => ({columns: [
       title, text_column('part', e => e.part), number_column('area / mm²', e => e.area), share_column('of the area', e => e.share_of_area), share_column('of the exposure', e => e.share),
       share_column('of the fixations', e => e.fixations), number_column('visible / s', e => e.seconds), share_column('never visible', e => e.never), number_column('mean cosine of view', e => e.foreshortening)],
-      note: 'What one presentation shows of each part: the exposure is the share of time and picture area that a part fills among all that shows the sculpture. Gaze that looks at all of the picture alike has the same share of fixations.'}));
+      note: 'What one presentation shows of each part: the exposure is the share of time and picture area that a part fills among all that shows the object. Gaze that looks at all of the picture alike has the same share of fixations.'}));
   put('predictions_body', t.predictions, () => ({columns: [
       ...conditions(t.predictions), text_column('predicted by', r => r.by + (r.level ? ': ' + r.level : '')), number_column('KL / nat', r => r.kl), number_column('NSS', r => r.nss),
       number_column('AUC (Judd)', r => r.auc), number_column('AUC (Borji)', r => r.borji), number_column('gain over exposure / bit', r => r.gain),
@@ -142,7 +142,7 @@ draw_figure5();
       number_column('least kernel sigma / mm', m => m.sigma[0]), number_column('largest kernel sigma / mm', m => m.sigma[1]),
       share_column('Euclidean leak', m => m.leak), share_column('cone beyond an edge', m => m.error.at_edge), share_column('samples near an edge', m => m.error.near_edge)],
       note: 'Root mean squares over the fixations, along the surface. Accuracy: the gaze cone of the validation before each trial. Precision: of a single sample (RMS-S2S divided by the root of 2). ' +
-      'Timing: uncertainty of the clocks times the speed of the surface under gaze. An edge is where the sculpture ends or another sheet of it begins.'}));
+      'Timing: uncertainty of the clocks times the speed of the surface under gaze. An edge is where the object ends or another sheet of it begins.'}));
   by_id('metrics').hidden = !t.exposures.length && !t.predictions.length && !t.reliabilities.length && !errors.length;
 }
 
@@ -167,7 +167,7 @@ draw_figure5();
          {x_label: 'gain of gaze along the surface', most: 1.1, label: 'Gain of gaze along the motion of the surface'});
     by_id('motion_body').append(table({name: 'motion', title: 'Does gaze go with the surface?', rows, columns: [
         ...factor_columns(rows, r => r.keys), number_column('gain', r => r.gain), number_column('speed of the surface / (deg/s)', r => r.speed), number_column('observers', r => r.observers), number_column('fixations', r => r.fixations)],
-        note: `While a fixation lasts the sculpture turns on. Gain 1: gaze goes with the place that it looks at; 0: it stays on the screen. In brackets the ${level} over observers.`}));
+        note: `While a fixation lasts the object turns on. Gain 1: gaze goes with the place that it looks at; 0: it stays on the screen. In brackets the ${level} over observers.`}));
   } else by_id('motion').hidden = true;
 }
 

@@ -5,7 +5,7 @@ const kind = by_id('map_kind'), weighting = by_id('map_weighting'), scale = by_i
 const common = {};
 for (const w of ['duration', 'count']) common[w] = Math.max(1e-300, ...data.maps.filter(m => m.by === w && m.values).map(m => m.peak));
 const exposure_kinds = {exposure: ['exposure', 'share of the exposure per mm²'], seconds: ['time visible', 's of a presentation']};
-for (const what of Object.keys(exposure_kinds)) common[what] = Math.max(1e-300, ...data.sculptures.filter(s => s[what]).map(s => s[what].most));
+for (const what of Object.keys(exposure_kinds)) common[what] = Math.max(1e-300, ...data.objects.filter(s => s[what]).map(s => s[what].most));
 const common_difference = Math.max(1e-300, ...data.differences.filter(d => d.values).map(d => d.most));
 
 class Panel {
@@ -31,11 +31,11 @@ class Panel {
       this.picks.append(element('label', {}, name + ' ', select));
     };
     if (kind.value === 'exposure') {
-      add('sculpture', data.sculptures.map((s, i) => [String(i), s.title || s.id]));
+      add('object', data.objects.map((s, i) => [String(i), s.title || s.id]));
       if (this.first && this.chosen.quantity === undefined) this.chosen.quantity = 'seconds';
       add('quantity', Object.entries(exposure_kinds).map(([what, texts]) => [what, texts[0]]));
     } else if (kind.value === 'difference') {
-      const options = data.differences.map((d, i) => [String(i), `${data.sculptures[d.sculpture].title}: ${words(d.keys)}, ${d.a} less ${d.b}`]);
+      const options = data.differences.map((d, i) => [String(i), `${data.objects[d.object].title}: ${words(d.keys)}, ${d.a} less ${d.b}`]);
       add('difference', options);
       if (this.first && options.length > 1 && this.chosen.seen === undefined) {
         this.chosen.seen = true;
@@ -43,9 +43,9 @@ class Panel {
         this.chosen.difference = this.picks.querySelector('select').value;
       }
     } else {
-      const columns = data.by.filter(c => c !== 'sculpture');
+      const columns = data.by.filter(c => c !== 'object');
       const values = column => [...new Set(data.groups.flatMap(g => g.keys.filter(k => k[0] === column).map(k => k[1])))];
-      add('sculpture', data.sculptures.map((s, i) => [String(i), s.title || s.id]));
+      add('object', data.objects.map((s, i) => [String(i), s.title || s.id]));
       columns.forEach((column, i) => {
         const list = values(column).map(v => [v, v]);
         if (this.first && this.chosen[column] === undefined && i === columns.length - 1 && list.length > 1) this.chosen[column] = list[1][0];
@@ -56,38 +56,38 @@ class Panel {
   }
   map() {
     if (kind.value === 'exposure') {
-      const sculpture = Number(this.chosen.sculpture), found = data.sculptures[sculpture] && data.sculptures[sculpture][this.chosen.quantity];
-      return found ? {sculpture, ...found} : null;
+      const object = Number(this.chosen.object), found = data.objects[object] && data.objects[object][this.chosen.quantity];
+      return found ? {object, ...found} : null;
     }
     if (kind.value === 'difference') return data.differences[Number(this.chosen.difference)];
-    return data.maps.find(m => m.by === weighting.value && m.sculpture === Number(this.chosen.sculpture) &&
-                               data.groups[m.group].keys.every(([c, v]) => c === 'sculpture' || this.chosen[c] === v));
+    return data.maps.find(m => m.by === weighting.value && m.object === Number(this.chosen.object) &&
+                               data.groups[m.group].keys.every(([c, v]) => c === 'object' || this.chosen[c] === v));
   }
   // What is shown, in words that stand without the controls: on paper there are none.
-  title(map, sculpture) {
-    const of_sculpture = sculpture ? sculpture.title || sculpture.id : '', others = keys => words(keys.filter(([column]) => column !== 'sculpture'));
-    if (kind.value === 'exposure') return `${of_sculpture}: ${exposure_kinds[this.chosen.quantity][0]}`;
-    if (kind.value === 'difference') return map ? `${of_sculpture}: ${others(map.keys)}, ${map.column} ${map.a} less ${map.b}` + (clusters_shown.value === 'all' ? '' : ', significant clusters alone') : 'No difference';
-    const chosen = data.by.filter(column => column !== 'sculpture').map(column => [column, this.chosen[column]]);
-    return `${of_sculpture}: ${words(chosen)}, fixations weighted by ${weighting.value === 'duration' ? 'duration' : 'number'}`;
+  title(map, object) {
+    const of_object = object ? object.title || object.id : '', others = keys => words(keys.filter(([column]) => column !== 'object'));
+    if (kind.value === 'exposure') return `${of_object}: ${exposure_kinds[this.chosen.quantity][0]}`;
+    if (kind.value === 'difference') return map ? `${of_object}: ${others(map.keys)}, ${map.column} ${map.a} less ${map.b}` + (clusters_shown.value === 'all' ? '' : ', significant clusters alone') : 'No difference';
+    const chosen = data.by.filter(column => column !== 'object').map(column => [column, this.chosen[column]]);
+    return `${of_object}: ${words(chosen)}, fixations weighted by ${weighting.value === 'duration' ? 'duration' : 'number'}`;
   }
   show() {
     const map = this.map(), [title, text, here] = this.caption.children;
     here.textContent = '';
-    const index = map ? map.sculpture : Number(this.chosen.sculpture || 0);
-    const sculpture = data.sculptures[index], geometry = sculpture ? geometry_of(sculpture, index) : null;
-    title.textContent = this.title(map, sculpture) + '. ';
+    const index = map ? map.object : Number(this.chosen.object || 0);
+    const object = data.objects[index], geometry = object ? geometry_of(object, index) : null;
+    title.textContent = this.title(map, object) + '. ';
     if (!map || !map.values) {
-      text.textContent = (map && map.absent) || (sculpture && sculpture.remark) || 'There is no map of these.';
+      text.textContent = (map && map.absent) || (object && object.remark) || 'There is no map of these.';
       this.view.show(geometry, null, colour_tables.viridis, null);
       return;
     }
-    const coarse = sculpture.mesh.vertices < sculpture.mesh.of ?
-        ` Shown with ${sculpture.mesh.vertices.toLocaleString('en')} of ${sculpture.mesh.of.toLocaleString('en')} vertices.` : '';
+    const coarse = object.mesh.vertices < object.mesh.of ?
+        ` Shown with ${object.mesh.vertices.toLocaleString('en')} of ${object.mesh.of.toLocaleString('en')} vertices.` : '';
     if (kind.value === 'exposure') {
       const [name, unit] = exposure_kinds[this.chosen.quantity], most = scale.value === 'own' ? map.most : common[this.chosen.quantity];
       const values = Float32Array.from(bytes_of(map.values), q => q / 255 * map.most / most);
-      const all = data.tables.exposures.find(e => e.sculpture === index && e.part === 'all');
+      const all = data.tables.exposures.find(e => e.object === index && e.part === 'all');
       text.textContent = (this.chosen.quantity === 'exposure' ? 'Where gaze would lie that is spread evenly over the picture all the time, blurred as the maps are'
                                                               : 'How long each place is visible in one presentation') +
           `; highest ${digits(map.most)} ${unit}` + (all ? `; ${percent(all.never)} of the surface is never visible` : '') + '.' + coarse;
@@ -138,7 +138,7 @@ function draw_legend(panels) {
 }
 
 if (!data.differences.some(d => d.values)) kind.querySelector('[value=difference]').disabled = true;
-if (!data.sculptures.some(s => s.exposure || s.seconds)) kind.querySelector('[value=exposure]').disabled = true;
+if (!data.objects.some(s => s.exposure || s.seconds)) kind.querySelector('[value=exposure]').disabled = true;
 const panels = [new Panel('a', 0), new Panel('b', 1)];
 const renew = rebuild => { for (const p of panels) rebuild ? p.rebuild() : p.show(); draw_legend(panels); };
 kind.addEventListener('change', () => {

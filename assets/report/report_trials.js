@@ -1,4 +1,4 @@
-// Single trials: the sculpture as it turned, and the trace of gaze.
+// Single trials: the object as it turned, and the trace of gaze.
 'use strict';
 
 const traces = new Map(data.traces.map(t => [t.trial, t]));
@@ -34,12 +34,12 @@ function samples_of(trace) {
 
 // The path of one axis of gaze; `place` gives the point of a time and an angle from the middle of the screen.
 function gaze_path({times, places}, of_trial, axis, place) {
-  const sculpture = data.sculptures[of_trial.sculpture], ppd = sculpture.px_per_deg || 1;
+  const object = data.objects[of_trial.object], ppd = object.px_per_deg || 1;
   let d = '', down = false;
   times.forEach((t, i) => {
     const q = places[2 * i + axis];
     if (q === -32768) { down = false; return; }
-    const [x, y] = place(t, (axis ? -1 : 1) * (q / 10 - sculpture.screen[axis] / 2) / ppd);
+    const [x, y] = place(t, (axis ? -1 : 1) * (q / 10 - object.screen[axis] / 2) / ppd);
     d += (down ? 'L' : 'M') + x.toFixed(1) + ' ' + y.toFixed(1);
     down = true;
   });
@@ -48,10 +48,10 @@ function gaze_path({times, places}, of_trial, axis, place) {
 
 // How far gaze goes from the middle, in degrees; a sample far beside the screen does not make all else small.
 function reach_of({places}, of_trial) {
-  const sculpture = data.sculptures[of_trial.sculpture], ppd = sculpture.px_per_deg || 1;
+  const object = data.objects[of_trial.object], ppd = object.px_per_deg || 1;
   let most = 2;
-  places.forEach((q, i) => { if (q !== -32768) most = Math.max(most, Math.abs(q / 10 - sculpture.screen[i % 2] / 2) / ppd); });
-  return Math.min(1.05 * most, Math.max(...sculpture.screen) / ppd);
+  places.forEach((q, i) => { if (q !== -32768) most = Math.max(most, Math.abs(q / 10 - object.screen[i % 2] / 2) / ppd); });
+  return Math.min(1.05 * most, Math.max(...object.screen) / ppd);
 }
 
 const axis_colours = [colour_of(0), colour_of(5)];
@@ -108,7 +108,7 @@ function draw_all_traces() {
 function load_trial() {
   trial = data.trials[chosen_trial()];
   angles = {times: numbers_of(trial.times, Float32Array), angles: numbers_of(trial.angles, Float32Array)};
-  view.load(data.sculptures[trial.sculpture], trial.sculpture);
+  view.load(data.objects[trial.object], trial.object);
   by_id('time').max = trial.seconds || 8;
   by_id('time').value = trial.seconds || 8;
   const q = trial.quality;

@@ -1,4 +1,4 @@
-// The views in three dimensions: sculptures with colours at their vertices, and one that turns as it did.
+// The views in three dimensions: objects with colours at their vertices, and one that turns as it did.
 
 function bytes_of(text) {
   const raw = atob(text), bytes = new Uint8Array(raw.length);
@@ -7,12 +7,12 @@ function bytes_of(text) {
 }
 function numbers_of(text, Kind) { const bytes = bytes_of(text); return new Kind(bytes.buffer, 0, bytes.length / Kind.BYTES_PER_ELEMENT); }
 
-// Geometry of a sculpture, made when it is first shown.
+// Geometry of an object, made when it is first shown.
 const geometries = new Map();
-function geometry_of(sculpture, index) {
-  if (!sculpture.mesh) return null;
+function geometry_of(object, index) {
+  if (!object.mesh) return null;
   if (!geometries.has(index)) {
-    const mesh = sculpture.mesh, coded = numbers_of(mesh.positions, Uint16Array), places = new Float32Array(coded.length);
+    const mesh = object.mesh, coded = numbers_of(mesh.positions, Uint16Array), places = new Float32Array(coded.length);
     for (let i = 0; i < coded.length; ++i) {
       const axis = i % 3;
       places[i] = mesh.low[axis] + coded[i] / 65535 * (mesh.high[axis] - mesh.low[axis]);
@@ -57,7 +57,7 @@ function lit(scene, camera) {
   scene.add(camera, new THREE.AmbientLight(0xffffff, 0.62));
 }
 
-// One orbit for all linked views: angles about the sculpture and a distance in radii.
+// One orbit for all linked views: angles about the object and a distance in radii.
 const orbit = {turn: 0, tilt: 0.12, away: 4.7, views: [],
   change(turn, tilt, factor) {
     this.turn += turn;
@@ -82,7 +82,7 @@ class MapView {
     const canvas = this.renderer.domElement;
     canvas.tabIndex = 0;
     canvas.setAttribute('role', 'img');
-    canvas.setAttribute('aria-label', 'Sculpture with the density of gaze; arrows turn it');
+    canvas.setAttribute('aria-label', 'Object with the density of gaze; arrows turn it');
     let from = null, moved = 0;
     canvas.addEventListener('pointerdown', e => { from = [e.clientX, e.clientY]; moved = 0; canvas.setPointerCapture(e.pointerId); });
     canvas.addEventListener('pointermove', e => {
@@ -131,7 +131,7 @@ class MapView {
     fit(this.renderer, this.camera, this.stage);
     if (this.mesh) {
       const {center, radius} = this.mesh.geometry.boundingSphere, away = orbit.away * radius;
-      // The front of a sculpture looks towards -y, and +z is up.
+      // The front of an object looks towards -y, and +z is up.
       this.camera.up.set(0, 0, 1);
       this.camera.position.set(center.x + away * Math.sin(orbit.turn) * Math.cos(orbit.tilt),
                                center.y - away * Math.cos(orbit.turn) * Math.cos(orbit.tilt),
@@ -155,7 +155,7 @@ class MapView {
   }
 }
 
-// A sculpture as it turned in a trial, seen through the study's own camera.
+// An object as it turned in a trial, seen through the study's own camera.
 class TrialView {
   constructor(stage) {
     this.stage = stage;
@@ -169,32 +169,32 @@ class TrialView {
     if (this.renderer) new ResizeObserver(() => this.draw && this.redraw && this.redraw()).observe(stage);
   }
 
-  load(sculpture, index) {
+  load(object, index) {
     if (this.mesh) this.scene.remove(this.mesh);
     this.mesh = null;
-    this.sculpture = sculpture;
-    const geometry = geometry_of(sculpture, index);
+    this.object = object;
+    const geometry = geometry_of(object, index);
     if (!geometry) return;
     this.mesh = new THREE.Mesh(geometry, new THREE.MeshLambertMaterial({color: 0xc9b48a, side: THREE.DoubleSide}));
     this.mesh.matrixAutoUpdate = false;
     this.scene.add(this.mesh);
-    const {radius} = geometry.boundingSphere, place = new THREE.Vector3(...sculpture.camera);
-    const away = place.distanceTo(new THREE.Vector3(...sculpture.target));
-    this.camera.fov = sculpture.fov;
+    const {radius} = geometry.boundingSphere, place = new THREE.Vector3(...object.camera);
+    const away = place.distanceTo(new THREE.Vector3(...object.target));
+    this.camera.fov = object.fov;
     this.camera.up.set(0, 0, 1);
     this.camera.position.copy(place);
     this.camera.near = Math.max(0.01 * away, away - 3 * radius);
     this.camera.far = away + 4 * radius;
-    this.camera.lookAt(new THREE.Vector3(...sculpture.target));
+    this.camera.lookAt(new THREE.Vector3(...object.target));
   }
 
-  // Draws the sculpture at an angle and circles: {position or place, number, radius, now, counted}.
+  // Draws the object at an angle and circles: {position or place, number, radius, now, counted}.
   draw(angle_deg, circles) {
     while (this.overlay.firstChild) this.overlay.firstChild.remove();
     if (this.renderer) fit(this.renderer, this.camera, this.stage);
     let turned = null;
     if (this.mesh) {
-      const [x, y] = this.sculpture.axis;
+      const [x, y] = this.object.axis;
       turned = new THREE.Matrix4().makeTranslation(x, y, 0)
                    .multiply(new THREE.Matrix4().makeRotationZ(angle_deg * Math.PI / 180))
                    .multiply(new THREE.Matrix4().makeTranslation(-x, -y, 0));
@@ -207,7 +207,7 @@ class TrialView {
         const p = new THREE.Vector3(...circle.position).applyMatrix4(turned).project(this.camera);
         return [500 * (p.x + 1), 500 * (1 - p.y)];
       }
-      const s = this.sculpture;
+      const s = this.object;
       return [(circle.place[0] - s.origin[0]) / s.image[0] * 1000, (circle.place[1] - s.origin[1]) / s.image[1] * 1000];
     });
     for (let i = 1; i < places.length; ++i)

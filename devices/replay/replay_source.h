@@ -18,7 +18,7 @@ struct ReplayedTrial {
     std::int64_t attempt_id = 0;      ///< in the record
     std::optional<TrackerTime> onset; ///< of the presentation; nothing: the recording does not tell it
     std::optional<Degrees> drift;     ///< that its drift check found
-    std::string sculpture, material;  ///< empty: the recording does not tell them
+    std::string object, material;     ///< empty: the recording does not tell them
     std::vector<TrackerItem> items;   ///< in the order of their times
 };
 

@@ -19,7 +19,7 @@ constexpr SessionDuration drift_window = std::chrono::milliseconds(100);
 constexpr TrackerClock::duration rounding = std::chrono::microseconds(100);
 
 constexpr std::string_view onset_mark = "SYNCTIME";
-constexpr std::string_view sculpture_mark = "!V TRIAL_VAR sculpture ";
+constexpr std::string_view object_mark = "!V TRIAL_VAR object ";
 constexpr std::string_view material_mark = "!V TRIAL_VAR material ";
 
 std::string listed(const std::set<int>& trials) {
@@ -122,7 +122,7 @@ void ReplayTracker::mark(const TrackerMark& mark) noexcept {
         return mark.text.starts_with(prefix) && !recorded.empty() &&
                mark.text.substr(prefix.size()) != recorded;
     };
-    if (differs(sculpture_mark, replayed_->sculpture) || differs(material_mark, replayed_->material))
+    if (differs(object_mark, replayed_->object) || differs(material_mark, replayed_->material))
         unlike_.insert(*trial_);
 }
 

@@ -18,7 +18,7 @@ struct GazePlan {
     double head_share = 0.0; ///< of those that go to no spot
     std::array<Spot, most_simulated_spots> spots{};
     int spot_count = 0;
-    /// How far from the sculpture's middle head and elsewhere are looked at: a place at r times the usual
+    /// How far from the object's middle head and elsewhere are looked at: a place at r times the usual
     /// distance is looked at as often as by area, times exp(spread r^2). 0: by area alone.
     double spread = 0.0;
 };

@@ -65,7 +65,7 @@ class GazeScript {
     /// Sets aside room for a presentation of the scene's animation.
     GazeScript(const ObservedScene& scene, const ObserverSettings& settings);
 
-    /// Writes the script of a trial: a function of its arguments alone. `targets` is nullptr for a sculpture
+    /// Writes the script of a trial: a function of its arguments alone. `targets` is nullptr for an object
     /// without a mesh. Allocates nothing; some thousand rays are cast.
     ///
     /// Each fixation goes where the plan says, by chance: to a spot, to the head or elsewhere, at a point

@@ -31,8 +31,8 @@ glm::dvec3 turned_back(glm::dvec3 world_point, const TurntablePose& pose) {
 
 } // namespace
 
-GazeTargets::GazeTargets(const ObservedSculpture& sculpture, const ObservedScene& scene)
-    : mesh_(sculpture.mesh), scene_(sculpture.scene), caster_(*sculpture.mesh) {
+GazeTargets::GazeTargets(const ObservedObject& object, const ObservedScene& scene)
+    : mesh_(object.mesh), scene_(object.scene), caster_(*object.mesh) {
     for (std::uint32_t i = 0; i < mesh_->triangles.size(); ++i) {
         const std::string_view part = mesh_->part_names[mesh_->triangle_parts[i]];
         const double area = glm::length(corners_of(*mesh_, i).normal_times_area());

@@ -1,4 +1,4 @@
-/// Places on one sculpture that an observer may look at.
+/// Places on one object that an observer may look at.
 #pragma once
 
 #include <cstdint>
@@ -18,14 +18,14 @@ enum class Region : std::uint8_t { head, elsewhere };
 /// Draws surface points and knows what is visible of them. Constant queries allocate nothing.
 class GazeTargets {
   public:
-    /// The sculpture's mesh must outlive this and have triangles. Each effect of the scene has a spot on it,
+    /// The object's mesh must outlive this and have triangles. Each effect of the scene has a spot on it,
     /// the same for all observers: a place that is seen at every angle of the animation, if there is one, and
     /// what of the surface lies within `spot_radius` of the mesh's height about it and faces the same way.
-    GazeTargets(const ObservedSculpture& sculpture, const ObservedScene& scene);
+    GazeTargets(const ObservedObject& object, const ObservedScene& scene);
     static constexpr double spot_radius = 0.04;
 
     /// A point of the region, all of its area equally probable, save that the part "plinth" is looked at a
-    /// tenth as often. A sculpture without that region gives a point of the other. `spread`: see GazePlan;
+    /// tenth as often. An object without that region gives a point of the other. `spread`: see GazePlan;
     /// the usual distance is the root mean square one of both regions.
     SurfacePoint draw(RandomStream& random, Region region, double spread = 0.0) const noexcept;
 

@@ -15,15 +15,15 @@ SessionDuration ObservedScene::frame_period() const {
     return from_seconds(refreshes > 0 ? refreshes / refresh_hz : 1.0 / animation.frame_rate_hz);
 }
 
-ObservedScene make_observed_scene(const Protocol& protocol, std::span<const Sculpture> sculptures,
+ObservedScene make_observed_scene(const Protocol& protocol, std::span<const Object> objects,
                                   const ScreenGeometry& screen) {
     ObservedScene scene;
     scene.screen = screen;
     scene.animation = protocol.animation;
     scene.refresh_hz = protocol.display.refresh_hz;
     scene.display_latency = from_seconds(1e-3 * protocol.display.latency_ms);
-    for (const Sculpture& sculpture : sculptures)
-        scene.sculptures.push_back({sculpture.has_mesh() ? &sculpture.mesh : nullptr, sculpture.scene});
+    for (const Object& object : objects)
+        scene.objects.push_back({object.has_mesh() ? &object.mesh : nullptr, object.scene});
     for (const Task& task : protocol.tasks)
         scene.tasks.push_back({task.id, task.simulated_head_share});
     const auto number_of = [](const std::string& id, const auto& entries) {
@@ -32,7 +32,7 @@ ObservedScene make_observed_scene(const Protocol& protocol, std::span<const Scul
     };
     for (const SimulatedEffect& effect : protocol.simulated_effects)
         scene.effects.push_back({number_of(effect.task, protocol.tasks),
-                                 number_of(effect.sculpture, protocol.sculptures),
+                                 number_of(effect.object, protocol.objects),
                                  number_of(effect.material, protocol.materials), effect.head_odds,
                                  effect.spot_share, effect.spread});
     scene.head_share_sd = protocol.simulated_observers.head_share_sd;

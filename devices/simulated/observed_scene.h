@@ -11,12 +11,12 @@
 #include "experiment/scene/viewing.h"
 #include "experiment/screen_geometry.h"
 #include "experiment/session_time.h"
-#include "experiment/stimulus/sculpture.h"
+#include "experiment/stimulus/object.h"
 #include "experiment/trial.h"
 
 namespace overt {
 
-struct ObservedSculpture {
+struct ObservedObject {
     const Mesh* mesh = nullptr; ///< nullptr or without triangles: ready-made frames whose surface is unknown
     SceneView scene;
 };
@@ -28,12 +28,12 @@ struct ObservedTask {
 
 /// What the gaze depends on besides the task; -1: any.
 struct ObservedEffect {
-    int task = -1, sculpture = -1, material = -1;
+    int task = -1, object = -1, material = -1;
     double head_odds = 1.0, spot_share = 0.0;
     double spread = 0.0; ///< see GazePlan
 
     bool holds_in(int of_task, Condition condition) const {
-        return (task < 0 || task == of_task) && (sculpture < 0 || sculpture == condition.sculpture) &&
+        return (task < 0 || task == of_task) && (object < 0 || object == condition.object) &&
                (material < 0 || material == condition.material);
     }
 };
@@ -42,9 +42,9 @@ struct ObservedScene {
     ScreenGeometry screen;
     Animation animation;
     double refresh_hz = 120.0;
-    SessionDuration display_latency{};         ///< from vertical blank to the first row's light
-    std::vector<ObservedSculpture> sculptures; ///< by Condition::sculpture
-    std::vector<ObservedTask> tasks;           ///< by Trial::task
+    SessionDuration display_latency{};   ///< from vertical blank to the first row's light
+    std::vector<ObservedObject> objects; ///< by Condition::object
+    std::vector<ObservedTask> tasks;     ///< by Trial::task
     std::vector<ObservedEffect> effects = {};
     double head_share_sd = 0.0; ///< of the logit, over observers
 
@@ -56,8 +56,8 @@ struct ObservedScene {
     SessionDuration frame_period() const;
 };
 
-/// The scene of a protocol. Its meshes stay where they are: `sculptures` must outlive the result.
-ObservedScene make_observed_scene(const Protocol& protocol, std::span<const Sculpture> sculptures,
+/// The scene of a protocol. Its meshes stay where they are: `objects` must outlive the result.
+ObservedScene make_observed_scene(const Protocol& protocol, std::span<const Object> objects,
                                   const ScreenGeometry& screen);
 
 /// Pixels per degree at the middle of the screen, along each axis.

@@ -36,9 +36,9 @@ SimulatedObserver::SimulatedObserver(ObservedScene scene, std::uint64_t seed,
       px_per_deg_(px_per_deg_at_centre(scene_.screen)) {
     for (int frame = 0; frame < scene_.animation.frame_count; ++frame)
         angle_of_frame_.push_back(scene_.animation.angle_of({frame}));
-    for (const ObservedSculpture& sculpture : scene_.sculptures) {
-        const bool has_surface = sculpture.mesh && !sculpture.mesh->triangles.empty();
-        targets_.push_back(has_surface ? std::make_unique<GazeTargets>(sculpture, scene_) : nullptr);
+    for (const ObservedObject& object : scene_.objects) {
+        const bool has_surface = object.mesh && !object.mesh->triangles.empty();
+        targets_.push_back(has_surface ? std::make_unique<GazeTargets>(object, scene_) : nullptr);
     }
     prepare_next();
 }
@@ -52,7 +52,7 @@ void SimulatedObserver::presentation_begins(const Trial& trial) noexcept {
     OVERT_EXPECTS(begun_ < presentations_.size());
     Presentation& presentation = *presentations_[begun_++];
     presentation.trial = trial.index;
-    presentation.targets = targets_[static_cast<std::size_t>(trial.condition.sculpture)].get();
+    presentation.targets = targets_[static_cast<std::size_t>(trial.condition.object)].get();
     presentation.script.compose(scene_, presentation.targets, turn_, settings_, seed_, trial.index,
                                 gaze_plan(scene_, seed_, trial.task, trial.condition));
 }

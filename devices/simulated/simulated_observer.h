@@ -1,4 +1,4 @@
-/// An observer with known eyes: sees the flips, looks at places of the sculpture's surface, and can be asked
+/// An observer with known eyes: sees the flips, looks at places of the object's surface, and can be asked
 /// for the truth at any time.
 #pragma once
 
@@ -54,7 +54,7 @@ struct SimulatedAnswer {
 /// nothing is allocated.
 class SimulatedObserver final : public PresentationListener {
   public:
-    /// Throws GraphicsError if a sculpture's rays cannot be cast. The scene's meshes must outlive this.
+    /// Throws GraphicsError if an object's rays cannot be cast. The scene's meshes must outlive this.
     SimulatedObserver(ObservedScene scene, std::uint64_t seed, const ObserverSettings& settings = {});
 
     /// A screen must have been seen since the presentation before. Casts some thousand rays, which takes
@@ -125,7 +125,7 @@ class SimulatedObserver final : public PresentationListener {
     BlinkTrain blinks_;
     glm::dvec2 px_per_deg_;
     std::vector<Degrees> angle_of_frame_;
-    std::vector<std::unique_ptr<GazeTargets>> targets_;        ///< by sculpture; nullptr without a mesh
+    std::vector<std::unique_ptr<GazeTargets>> targets_;        ///< by object; nullptr without a mesh
     std::vector<std::unique_ptr<Presentation>> presentations_; ///< in order; the last ones still empty
     std::size_t begun_ = 0;                                    ///< presentations that have begun
     std::vector<Place> places_; ///< in order of their times; none: always in the middle

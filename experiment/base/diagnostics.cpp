@@ -87,7 +87,17 @@ std::string indent_to(std::string_view line, int column) {
     return indent;
 }
 
-std::string_view name_of(Severity severity) { return severity == Severity::error ? "error" : "warning"; }
+std::string_view name_of(Severity severity) {
+    switch (severity) {
+    case Severity::error:
+        return "error";
+    case Severity::warning:
+        return "warning";
+    case Severity::note:
+        break;
+    }
+    return "note";
+}
 
 std::string lower_case(std::string_view text) {
     std::string lower(text);
@@ -159,6 +169,10 @@ void Diagnostics::warning(std::string file, Place place, std::string message, st
     add(Severity::warning, std::move(file), place, std::move(message), std::move(hint));
 }
 
+void Diagnostics::note(std::string file, Place place, std::string message, std::string hint) {
+    add(Severity::note, std::move(file), place, std::move(message), std::move(hint));
+}
+
 void Diagnostics::take(const Diagnostics& other) {
     findings_.insert(findings_.end(), other.findings_.begin(), other.findings_.end());
     lines_of_.insert(other.lines_of_.begin(), other.lines_of_.end());
@@ -172,13 +186,12 @@ std::vector<Finding> Diagnostics::findings() const {
     return sorted;
 }
 
-int Diagnostics::error_count() const {
-    return static_cast<int>(std::count_if(findings_.begin(), findings_.end(), [](const Finding& finding) {
-        return finding.severity == Severity::error;
-    }));
+int Diagnostics::count_of(Severity severity) const {
+    return static_cast<int>(std::ranges::count(findings_, severity, &Finding::severity));
 }
 
-int Diagnostics::warning_count() const { return static_cast<int>(findings_.size()) - error_count(); }
+int Diagnostics::error_count() const { return count_of(Severity::error); }
+int Diagnostics::warning_count() const { return count_of(Severity::warning); }
 
 std::string Diagnostics::quoted_line(const Finding& finding) const {
     const auto known = lines_of_.find(finding.file);
@@ -205,9 +218,8 @@ std::string Diagnostics::print() const {
         if (!finding.hint.empty())
             text += fmt::format("      = {}\n", printable(finding.hint));
     }
-    if (!findings_.empty()) {
+    if (error_count() + warning_count() > 0)
         text += fmt::format("{}, {}\n", counted(error_count(), "error"), counted(warning_count(), "warning"));
-    }
     return text;
 }
 

@@ -21,9 +21,9 @@ struct Place {
     friend constexpr auto operator<=>(const Place&, const Place&) = default;
 };
 
-enum class Severity { error, warning };
+enum class Severity { error, warning, note };
 
-/// One thing that is wrong (error) or probably not meant (warning).
+/// One thing that is wrong (error), probably not meant (warning), or good to know (note).
 struct Finding {
     Severity severity = Severity::error;
     std::string file;
@@ -44,6 +44,7 @@ class Diagnostics {
 
     void error(std::string file, Place place, std::string message, std::string hint = {});
     void warning(std::string file, Place place, std::string message, std::string hint = {});
+    void note(std::string file, Place place, std::string message, std::string hint = {});
 
     /// Adds the findings of another, with the texts that it quotes from.
     void take(const Diagnostics& other);
@@ -56,7 +57,7 @@ class Diagnostics {
     bool has_errors() const { return error_count() > 0; }
 
     /// As a compiler prints them: `file:line:column: error: message`, the line quoted with a caret under the
-    /// column, the hint; at last how many there are. Ends with a newline; empty if nothing was found.
+    /// column, the hint; at last how many errors and warnings there are. Ends with a newline; empty if nothing was found.
     std::string print() const;
 
     /// For `--json`: {"errors", "warnings", "findings": [{"severity", "file", "line", "column", "message",
@@ -64,6 +65,7 @@ class Diagnostics {
     nlohmann::ordered_json to_json() const;
 
   private:
+    int count_of(Severity severity) const;
     void add(Severity severity, std::string file, Place place, std::string message, std::string hint);
     std::string quoted_line(const Finding& finding) const;
 

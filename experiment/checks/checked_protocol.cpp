@@ -17,9 +17,8 @@ void require_lists(ProtocolExamination& examination) {
     const Protocol& protocol = examination.protocol;
     if (protocol.tasks.empty())
         examination.error({"task"}, "there is no [[task]]", "add [[task]] with id and question");
-    if (protocol.sculptures.empty())
-        examination.error({"sculpture"}, "there is no [[sculpture]]",
-                          "add [[sculpture]] with id and shipped or mesh");
+    if (protocol.objects.empty())
+        examination.error({"object"}, "there is no [[object]]", "add [[object]] with id and shipped or mesh");
     if (protocol.materials.empty())
         examination.error({"material"}, "there is no [[material]]", "add [[material]] with id and kind");
 }
@@ -47,7 +46,7 @@ std::optional<Protocol> read_text(std::string_view text, const std::filesystem::
         check_breaks(examination);
         check_sitting(examination);
         check_devices(examination);
-        check_sculptures(examination, shipped_sculptures);
+        check_objects(examination, shipped_sculptures);
         check_materials(examination);
         check_frames(examination);
         check_bake(examination);

@@ -21,20 +21,19 @@ bool is_drawn(const Protocol& protocol) {
 }
 
 std::size_t cell_of(const Protocol& protocol, int task, const Condition& condition) {
-    const std::size_t sculptures = protocol.sculptures.size(), materials = protocol.materials.size();
-    return (static_cast<std::size_t>(task) * sculptures + static_cast<std::size_t>(condition.sculpture)) *
+    const std::size_t objects = protocol.objects.size(), materials = protocol.materials.size();
+    return (static_cast<std::size_t>(task) * objects + static_cast<std::size_t>(condition.object)) *
                materials +
            static_cast<std::size_t>(condition.material);
 }
 
 /// Zeros for what a block shows to an observer.
 Presentations::Part empty_part(const Protocol& protocol, const BlockScope& scope) {
-    Presentations::Part part(protocol.tasks.size() * protocol.sculptures.size() * protocol.materials.size(),
-                             -1);
+    Presentations::Part part(protocol.tasks.size() * protocol.objects.size() * protocol.materials.size(), -1);
     for (const int task : scope.tasks)
-        for (const int sculpture : scope.sculptures)
+        for (const int object : scope.objects)
             for (const int material : scope.materials)
-                part[cell_of(protocol, task, {sculpture, material})] = 0;
+                part[cell_of(protocol, task, {object, material})] = 0;
     return part;
 }
 
@@ -72,9 +71,9 @@ std::string place_of_part(const Protocol& protocol, std::pair<int, int> block_an
 Presentations count_presentations(const Protocol& protocol, ScheduleMaker& maker, std::uint64_t seed) {
     Presentations counted;
     for (int task = 0; task < static_cast<int>(protocol.tasks.size()); ++task) {
-        for (int sculpture = 0; sculpture < static_cast<int>(protocol.sculptures.size()); ++sculpture) {
+        for (int object = 0; object < static_cast<int>(protocol.objects.size()); ++object) {
             for (int material = 0; material < static_cast<int>(protocol.materials.size()); ++material)
-                counted.cells.push_back({task, {sculpture, material}, 0});
+                counted.cells.push_back({task, {object, material}, 0});
         }
     }
     for (const Observer& observer : planned_observers(protocol)) {

@@ -14,7 +14,7 @@ namespace overt {
 
 /// Counted over the planned observers.
 struct Presentations {
-    std::vector<IncidenceCell> cells; ///< task by task, sculpture by sculpture, material by material
+    std::vector<IncidenceCell> cells; ///< task by task, object by object, material by material
     /// The same cells for one block and one group (-1 without groups): how often each is shown there; -1 for
     /// what the block does not show to them at all.
     using Part = std::vector<int>;

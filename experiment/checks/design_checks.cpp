@@ -67,7 +67,7 @@ void check_block(ProtocolExamination& examination, int index) {
     const BlockSettings& block = protocol.blocks[static_cast<std::size_t>(index)];
     const auto path = [&](std::string_view key) { return fmt::format("block[{}].{}", index, key); };
     check_names(examination, path("tasks"), block.tasks, protocol.tasks, "task");
-    check_names(examination, path("sculptures"), block.sculptures, protocol.sculptures, "sculpture");
+    check_names(examination, path("objects"), block.objects, protocol.objects, "object");
     check_names(examination, path("materials"), block.materials, protocol.materials, "material");
     const bool is_blocked = block.order == OrderMethod::blocked,
                is_weighted = block.order == OrderMethod::weighted;
@@ -179,7 +179,7 @@ void check_rotation(ProtocolExamination& examination) {
         examination.warning(
             {"schedule.observers"},
             fmt::format(
-                "{} cannot see {} materials equally often under the tasks that are asked once per sculpture",
+                "{} cannot see {} materials equally often under the tasks that are asked once per object",
                 counted(observers, "observer"), protocol.materials.size()),
             below > 0 ? fmt::format("{} or {} observers would", below, below + rotation)
                       : fmt::format("{} observers would", rotation));
@@ -224,8 +224,8 @@ void check_practice_of_groups(ProtocolExamination& examination) {
             };
             if (lacks(group.tasks, practice.task))
                 warn("task", "task", practice.task);
-            if (lacks(group.sculptures, practice.sculpture))
-                warn("sculpture", "sculpture", practice.sculpture);
+            if (lacks(group.objects, practice.object))
+                warn("object", "object", practice.object);
             if (lacks(group.materials, practice.material))
                 warn("material", "material", practice.material);
         }
@@ -241,7 +241,7 @@ void check_groups(ProtocolExamination& examination) {
         const auto path = [&](std::string_view key) { return fmt::format("group[{}].{}", i, key); };
         check_names(examination, path("blocks"), group.blocks, protocol.blocks, "block");
         check_names(examination, path("tasks"), group.tasks, protocol.tasks, "task");
-        check_names(examination, path("sculptures"), group.sculptures, protocol.sculptures, "sculpture");
+        check_names(examination, path("objects"), group.objects, protocol.objects, "object");
         check_names(examination, path("materials"), group.materials, protocol.materials, "material");
     }
     const std::optional<int> capacity = group_capacity(protocol);

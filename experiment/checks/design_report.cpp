@@ -108,8 +108,7 @@ MemoryNeed memory_need(const Protocol& protocol, int poses) {
     MemoryNeed need;
     need.pages_per_stimulus_bytes = most_pages(protocol) * page_bytes(protocol);
     need.next_fits = 2.0 * need.pages_per_stimulus_bytes <= 1e6 * protocol.display.frame_store_mb;
-    need.maps_per_sculpture_bytes =
-        bytes_per_map_px * poses * protocol.view.width_px * protocol.view.height_px;
+    need.maps_per_object_bytes = bytes_per_map_px * poses * protocol.view.width_px * protocol.view.height_px;
     return need;
 }
 
@@ -190,7 +189,7 @@ DesignReport make_design_report(const Protocol& protocol, const std::vector<Obse
     report.name = protocol.name;
     report.title = protocol.title;
     report.tasks = ids_of(protocol.tasks);
-    report.sculptures = ids_of(protocol.sculptures);
+    report.objects = ids_of(protocol.objects);
     report.materials = ids_of(protocol.materials);
     add_observers(report, protocol);
     report.practice_trials = static_cast<int>(protocol.practice.size());

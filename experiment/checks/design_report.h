@@ -12,7 +12,7 @@
 #include "experiment/checks/recording_size.h"
 #include "experiment/checks/rotation_balance.h"
 #include "experiment/protocol/protocol.h"
-#include "experiment/stimulus/sculpture_size.h"
+#include "experiment/stimulus/object_size.h"
 #include "experiment/trial.h"
 
 namespace overt {
@@ -56,11 +56,11 @@ struct SessionLength {
     }
 };
 
-/// Pages on the graphics card, and one map for each distinct pose of a sculpture.
+/// Pages on the graphics card, and one map for each distinct pose of an object.
 struct MemoryNeed {
     double pages_per_stimulus_bytes = 0.0; ///< of the stimulus that has most
     bool next_fits = true;                 ///< the frame store has room for the next stimulus, too
-    double maps_per_sculpture_bytes = 0.0;
+    double maps_per_object_bytes = 0.0;
     double pages_at_once_bytes() const { return (next_fits ? 2.0 : 1.0) * pages_per_stimulus_bytes; }
 };
 
@@ -86,22 +86,22 @@ struct GroupFacts {
     int trials = 0;    ///< of each
 };
 
-/// A sculpture's surface, as statistics will have it.
+/// An object's surface, as statistics will have it.
 struct SurfaceFacts {
-    std::string sculpture; ///< id
+    std::string object; ///< id
     std::size_t triangles = 0;
-    SculptureSize size;
+    ObjectSize size;
     std::vector<std::pair<std::string, double>> part_shares; ///< of the area, by name; sum 1
 };
 
 /// All that `overt check` says about a sound protocol. Indices are those of the protocol's lists.
 struct DesignReport {
     std::string name, title;
-    std::vector<std::string> tasks, sculptures, materials; ///< ids
-    int trials_per_observer = 0;                           ///< of the planned observer who has most
-    int fewest_trials = 0;                                 ///< of the one who has fewest
-    int observers = 0;                                     ///< planned
-    std::vector<std::string> blocks;                       ///< ids; empty if the protocol has none
+    std::vector<std::string> tasks, objects, materials; ///< ids
+    int trials_per_observer = 0;                        ///< of the planned observer who has most
+    int fewest_trials = 0;                              ///< of the one who has fewest
+    int observers = 0;                                  ///< planned
+    std::vector<std::string> blocks;                    ///< ids; empty if the protocol has none
     std::vector<BlockFacts> block_facts;
     std::vector<GroupFacts> groups;
     int practice_trials = 0;
@@ -116,10 +116,10 @@ struct DesignReport {
     MemoryNeed memory;
 
     // To be filled in where the meshes are loaded.
-    std::vector<SurfaceFacts> surfaces; ///< of sculptures with a mesh
+    std::vector<SurfaceFacts> surfaces; ///< of objects with a mesh
     std::optional<RecordingSize> recording;
 
-    std::vector<IncidenceCell> incidence; ///< task by task, sculpture by sculpture, material by material
+    std::vector<IncidenceCell> incidence; ///< task by task, object by object, material by material
     std::vector<RotationFacts> rotations; ///< of each group in which anything goes round
     std::vector<Schedule> schedules;
     std::vector<std::string> schedule_groups; ///< of each of their observers; empty without groups

@@ -19,7 +19,7 @@ Json order_json(const DesignReport& report, std::size_t index) {
         if (!report.blocks.empty())
             item["block"] = report.blocks.at(static_cast<std::size_t>(trial.block));
         item["task"] = report.tasks.at(static_cast<std::size_t>(trial.task));
-        item["sculpture"] = report.sculptures.at(static_cast<std::size_t>(trial.condition.sculpture));
+        item["object"] = report.objects.at(static_cast<std::size_t>(trial.condition.object));
         item["material"] = report.materials.at(static_cast<std::size_t>(trial.condition.material));
         trials.push_back(std::move(item));
     }
@@ -79,7 +79,7 @@ Json to_json(const DesignReport& report) {
     Json json{{"name", report.name},
               {"title", report.title},
               {"tasks", report.tasks},
-              {"sculptures", report.sculptures},
+              {"objects", report.objects},
               {"materials", report.materials},
               {"trials_per_observer", report.trials_per_observer},
               {"fewest_trials", report.fewest_trials},
@@ -130,7 +130,7 @@ Json to_json(const DesignReport& report) {
                        {"total_s", session.total_s()}};
     json["memory"] = {{"pages_per_stimulus_bytes", report.memory.pages_per_stimulus_bytes},
                       {"pages_at_once_bytes", report.memory.pages_at_once_bytes()},
-                      {"maps_per_sculpture_bytes", report.memory.maps_per_sculpture_bytes}};
+                      {"maps_per_object_bytes", report.memory.maps_per_object_bytes}};
     if (report.recording)
         json["recording"] = to_json(*report.recording);
     json["surfaces"] = Json::array();
@@ -139,7 +139,7 @@ Json to_json(const DesignReport& report) {
         for (const auto& [name, share] : surface.part_shares)
             parts[name] = share;
         json["surfaces"].push_back(
-            {{"sculpture", surface.sculpture},
+            {{"object", surface.object},
              {"triangles", surface.triangles},
              {"size", {surface.size.object.x, surface.size.object.y, surface.size.object.z}},
              {"unit", surface.size.unit},
@@ -151,7 +151,7 @@ Json to_json(const DesignReport& report) {
     for (const IncidenceCell& cell : report.incidence) {
         json["incidence"].push_back(
             {{"task", report.tasks.at(static_cast<std::size_t>(cell.task))},
-             {"sculpture", report.sculptures.at(static_cast<std::size_t>(cell.condition.sculpture))},
+             {"object", report.objects.at(static_cast<std::size_t>(cell.condition.object))},
              {"material", report.materials.at(static_cast<std::size_t>(cell.condition.material))},
              {"presentations", cell.presentations}});
     }

@@ -81,14 +81,14 @@ void add_rotations(std::string& text, const DesignReport& report) {
 }
 
 void add_overview(std::string& text, const DesignReport& report) {
-    const int sculptures = static_cast<int>(report.sculptures.size());
+    const int objects = static_cast<int>(report.objects.size());
     const int materials = static_cast<int>(report.materials.size());
-    const int tasks = static_cast<int>(report.tasks.size()), stimuli = sculptures * materials;
+    const int tasks = static_cast<int>(report.tasks.size()), stimuli = objects * materials;
     const AnimationFacts& animation = report.animation;
     const VisualAngles& angles = report.angles;
     add_facts(
         text, "Design",
-        {fmt::format("{} x {} = {}; {}: {}", counted(sculptures, "sculpture"), counted(materials, "material"),
+        {fmt::format("{} x {} = {}; {}: {}", counted(objects, "object"), counted(materials, "material"),
                      counted(stimuli, "stimulus", "stimuli"), counted(tasks, "task"),
                      counted(tasks * stimuli, "map")),
          fmt::format("{}{} for each of {}",
@@ -142,7 +142,7 @@ void add_overview(std::string& text, const DesignReport& report) {
              : fmt::format("{} of frames for a stimulus; those of the next do not fit beside them, and "
                            "are loaded before its trial (frame_store_mb = {})",
                            in_bytes(memory.pages_per_stimulus_bytes), report.display.frame_store_mb),
-         fmt::format("{} of maps for each sculpture", in_bytes(memory.maps_per_sculpture_bytes))});
+         fmt::format("{} of maps for each object", in_bytes(memory.maps_per_object_bytes))});
     if (report.recording)
         add_facts(text, "Disk",
                   {fmt::format("a session takes about {}", to_text(*report.recording)),
@@ -156,8 +156,8 @@ void add_surfaces(std::string& text, const DesignReport& report) {
         std::string parts;
         for (const auto& [name, share] : surface.part_shares)
             parts += fmt::format("{} {:.1f} % {}", parts.empty() ? ":" : ",", 100.0 * share, name);
-        lines.push_back(fmt::format("{}, {} triangles{}", surface.sculpture, surface.triangles, parts));
-        const SculptureSize& size = surface.size;
+        lines.push_back(fmt::format("{}, {} triangles{}", surface.object, surface.triangles, parts));
+        const ObjectSize& size = surface.size;
         const std::string_view unit = size.unit == "own" ? "of its own unit" : "mm";
         lines.push_back(
             fmt::format("  {:.4g} {} high and {:.4g} wide; shown {:.4g} mm ({:.3g} deg) high and {:.4g} mm "
@@ -193,12 +193,12 @@ void add_balance(std::string& text, const DesignReport& report) {
     const std::size_t cell_width = std::max<std::size_t>(4, longest(report.materials));
     const std::size_t group_width = (cell_width + 1) * report.materials.size();
     std::string groups, cells;
-    for (const std::string& sculpture : report.sculptures) {
-        groups += fmt::format("  {:<{}}", sculpture, std::max(group_width, sculpture.size()) - 1);
+    for (const std::string& object : report.objects) {
+        groups += fmt::format("  {:<{}}", object, std::max(group_width, object.size()) - 1);
         cells += " ";
         for (const std::string& material : report.materials)
             cells += fmt::format(" {:>{}}", material, cell_width);
-        cells.append(std::max(group_width, sculpture.size()) - group_width, ' ');
+        cells.append(std::max(group_width, object.size()) - group_width, ' ');
     }
     groups.erase(groups.find_last_not_of(' ') + 1);
     cells.erase(cells.find_last_not_of(' ') + 1);
@@ -207,18 +207,18 @@ void add_balance(std::string& text, const DesignReport& report) {
     std::size_t next = 0;
     for (const std::string& task : report.tasks) {
         text += fmt::format("  {:<{}} ", task, task_width);
-        for (const std::string& sculpture : report.sculptures) {
+        for (const std::string& object : report.objects) {
             text += " ";
             for (std::size_t material = 0; material < report.materials.size(); ++material)
                 text += fmt::format(" {:>{}}", report.incidence[next++].presentations, cell_width);
-            text.append(std::max(group_width, sculpture.size()) - group_width, ' ');
+            text.append(std::max(group_width, object.size()) - group_width, ' ');
         }
         text += "\n";
     }
 }
 
 void add_order_of_one(std::string& text, const DesignReport& report, const Schedule& schedule) {
-    const std::size_t task_width = longest(report.tasks), sculpture_width = longest(report.sculptures);
+    const std::size_t task_width = longest(report.tasks), object_width = longest(report.objects);
     for (const Trial& trial : schedule.trials) {
         const bool begins_block =
             !report.blocks.empty() &&
@@ -227,7 +227,7 @@ void add_order_of_one(std::string& text, const DesignReport& report, const Sched
         if (begins_block)
             text += fmt::format("  block {}\n", at(report.blocks, trial.block));
         text += fmt::format("  {:>4}  {:<{}}  {:<{}}  {}\n", trial.index + 1, at(report.tasks, trial.task),
-                            task_width, at(report.sculptures, trial.condition.sculpture), sculpture_width,
+                            task_width, at(report.objects, trial.condition.object), object_width,
                             at(report.materials, trial.condition.material));
     }
 }
@@ -248,8 +248,8 @@ std::string legend(const std::vector<std::string>& names, char first) {
 
 void add_orders_of_many(std::string& text, const DesignReport& report) {
     constexpr int codes_per_line = 18;
-    text += fmt::format("  task: {}\n  sculpture: {}\n  material: {}\n\n", legend(report.tasks, '1'),
-                        legend(report.sculptures, 'A'), legend(report.materials, 'a'));
+    text += fmt::format("  task: {}\n  object: {}\n  material: {}\n\n", legend(report.tasks, '1'),
+                        legend(report.objects, 'A'), legend(report.materials, 'a'));
     for (const Schedule& schedule : report.schedules) {
         std::string line;
         for (const Trial& trial : schedule.trials) {
@@ -260,7 +260,7 @@ void add_orders_of_many(std::string& text, const DesignReport& report) {
                 line += " |";
             if (trial.index > 0 && trial.index % codes_per_line == 0)
                 line += "\n          ";
-            line += fmt::format(" {}{}{}", trial.task + 1, letter('A', trial.condition.sculpture),
+            line += fmt::format(" {}{}{}", trial.task + 1, letter('A', trial.condition.object),
                                 letter('a', trial.condition.material));
         }
         const auto index = static_cast<std::size_t>(&schedule - report.schedules.data());

@@ -43,19 +43,18 @@ void check_files(ProtocolExamination& examination) {
     if (protocol.light.is_file() && !is_file(protocol.light.probe))
         examination.error({"light.probe"}, fmt::format("there is no file {}", protocol.light.probe),
                           remedy + "; \"gallery\" and \"overcast\" need none");
-    for (std::size_t i = 0; i < protocol.sculptures.size(); ++i) {
-        const SculptureSettings& sculpture = protocol.sculptures[i];
+    for (std::size_t i = 0; i < protocol.objects.size(); ++i) {
+        const ObjectSettings& object = protocol.objects[i];
         for (const auto& [key, file] :
-             {std::pair{"mesh", &sculpture.mesh}, std::pair{"labels", &sculpture.labels}}) {
+             {std::pair{"mesh", &object.mesh}, std::pair{"labels", &object.labels}}) {
             if (!file->empty() && !is_file(*file))
-                examination.error({fmt::format("sculpture[{}].{}", i, key)},
+                examination.error({fmt::format("object[{}].{}", i, key)},
                                   fmt::format("there is no file {}", file->string()), remedy);
         }
-        const std::string lut = fmt::format("sculpture[{}].lut", i);
-        if (!protocol.sculptures[i].lut.empty() && !examination.faulty.contains(lut)) {
-            check_sequence(examination, lut, "maps", [&](AnimationFrameIndex frame) {
-                return lut_file(protocol.sculptures[i], frame);
-            });
+        const std::string lut = fmt::format("object[{}].lut", i);
+        if (!protocol.objects[i].lut.empty() && !examination.faulty.contains(lut)) {
+            check_sequence(examination, lut, "maps",
+                           [&](AnimationFrameIndex frame) { return lut_file(protocol.objects[i], frame); });
         }
     }
     for (std::size_t i = 0; i < protocol.materials.size(); ++i) {

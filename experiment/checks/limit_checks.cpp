@@ -28,7 +28,7 @@ std::string blocks_without(const Protocol& protocol, TrialFactor factor, OrderLi
 
 void check_dropped_limits(ProtocolExamination& examination) {
     for (const TrialFactor factor :
-         {TrialFactor::task, TrialFactor::sculpture, TrialFactor::material, TrialFactor::stimulus}) {
+         {TrialFactor::task, TrialFactor::object, TrialFactor::material, TrialFactor::stimulus}) {
         for (const OrderLimit::Kind kind :
              {OrderLimit::Kind::longest_run, OrderLimit::Kind::least_distance}) {
             const std::string name = kind == OrderLimit::Kind::longest_run

@@ -21,7 +21,7 @@ void check_practice(ProtocolExamination& examination) {
         const PracticeSettings& practice = protocol.practice[i];
         const auto path = [&](std::string_view key) { return fmt::format("practice[{}].{}", i, key); };
         check_id(examination, path("task"), practice.task, protocol.tasks, "task");
-        check_id(examination, path("sculpture"), practice.sculpture, protocol.sculptures, "sculpture");
+        check_id(examination, path("object"), practice.object, protocol.objects, "object");
         check_id(examination, path("material"), practice.material, protocol.materials, "material");
         if (!practice.block.empty())
             check_id(examination, path("block"), practice.block, protocol.blocks, "block");
@@ -40,8 +40,8 @@ void check_simulated_effects(ProtocolExamination& examination) {
         const SimulatedEffect& effect = effects[i];
         if (!effect.task.empty())
             check_id(examination, path("task"), effect.task, protocol.tasks, "task");
-        if (!effect.sculpture.empty())
-            check_id(examination, path("sculpture"), effect.sculpture, protocol.sculptures, "sculpture");
+        if (!effect.object.empty())
+            check_id(examination, path("object"), effect.object, protocol.objects, "object");
         if (!effect.material.empty())
             check_id(examination, path("material"), effect.material, protocol.materials, "material");
         spots += effect.spot_share > 0.0;
@@ -51,7 +51,7 @@ void check_simulated_effects(ProtocolExamination& examination) {
             const auto meet = [](const std::string& a, const std::string& b) {
                 return a.empty() || b.empty() || a == b;
             };
-            if (meet(effect.task, other.task) && meet(effect.sculpture, other.sculpture) &&
+            if (meet(effect.task, other.task) && meet(effect.object, other.object) &&
                 meet(effect.material, other.material))
                 shares += other.spot_share;
         }

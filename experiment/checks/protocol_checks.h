@@ -37,7 +37,7 @@ void take_characterisation(ProtocolExamination& examination, bool look_at_files)
 
 // The lists: ids, references, and what belongs together in one entry.
 void check_ids(ProtocolExamination& examination);
-void check_sculptures(ProtocolExamination& examination, std::span<const std::string_view> shipped_sculptures);
+void check_objects(ProtocolExamination& examination, std::span<const std::string_view> shipped_sculptures);
 void check_materials(ProtocolExamination& examination);
 void check_frames(ProtocolExamination& examination);
 /// After take_characterisation().

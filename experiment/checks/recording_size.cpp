@@ -22,7 +22,7 @@ constexpr double bytes_per_vertex = 12.0, bytes_per_triangle = 14.0;
 
 } // namespace
 
-RecordingSize recording_size(const Protocol& protocol, std::span<const Sculpture> sculptures, int trials,
+RecordingSize recording_size(const Protocol& protocol, std::span<const Object> objects, int trials,
                              double answer_s) {
     const PageCycle cycle = make_page_cycle(protocol.animation, protocol.display.refresh_hz);
     const double recorded_s =
@@ -37,12 +37,11 @@ RecordingSize recording_size(const Protocol& protocol, std::span<const Sculpture
     for (const FurtherTrackerSettings& further : protocol.further_trackers)
         trial_bytes += bytes_of(further);
     const double records = 1.0 + static_cast<double>(protocol.further_trackers.size());
-    const auto sculpture_count = static_cast<double>(sculptures.size());
-    // Sculptures that are frames only have no maps.
+    const auto object_count = static_cast<double>(objects.size());
+    // Objects that are frames only have no maps.
     double mapped = 0.0;
-    for (std::size_t i = 0; i < sculptures.size(); ++i)
-        mapped += sculptures[i].has_mesh() ||
-                  (i < protocol.sculptures.size() && !protocol.sculptures[i].lut.empty());
+    for (std::size_t i = 0; i < objects.size(); ++i)
+        mapped += objects[i].has_mesh() || (i < protocol.objects.size() && !protocol.objects[i].lut.empty());
     const double picture_bytes = bytes_per_px * protocol.view.width_px * protocol.view.height_px;
     RecordingSize size;
     // SQLite's log holds a trial's rows until they are in the file.
@@ -53,11 +52,11 @@ RecordingSize recording_size(const Protocol& protocol, std::span<const Sculpture
     const LightPictures light{.image_px = {protocol.view.width_px, protocol.view.height_px},
                               .square_px =
                                   light_square_px({protocol.view.width_px, protocol.view.height_px})};
-    size.pictures = picture_bytes * sculpture_count * materials +
+    size.pictures = picture_bytes * object_count * materials +
                     bytes_per_px * static_cast<double>(light.squares()) * mapped * poses * materials;
-    for (const Sculpture& sculpture : sculptures)
-        size.meshes += bytes_per_vertex * static_cast<double>(sculpture.mesh.positions.size()) +
-                       bytes_per_triangle * static_cast<double>(sculpture.mesh.triangles.size());
+    for (const Object& object : objects)
+        size.meshes += bytes_per_vertex * static_cast<double>(object.mesh.positions.size()) +
+                       bytes_per_triangle * static_cast<double>(object.mesh.triangles.size());
     if (protocol.answers.record != AnswerUse::none)
         size.answers =
             trials * std::clamp(answer_s, protocol.screens.response_min_s, protocol.screens.response_max_s) *

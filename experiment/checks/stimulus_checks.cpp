@@ -30,9 +30,9 @@ void check_list(ProtocolExamination& examination, std::string_view list, const s
     check_ids_differ(examination, list, ids_of<std::string_view>(entries));
 }
 
-bool is_covered_by_frames(const Protocol& protocol, std::size_t sculpture) {
+bool is_covered_by_frames(const Protocol& protocol, std::size_t object) {
     for (std::size_t material = 0; material < protocol.materials.size(); ++material) {
-        if (!find_frames(protocol, static_cast<int>(sculpture), static_cast<int>(material)))
+        if (!find_frames(protocol, static_cast<int>(object), static_cast<int>(material)))
             return false;
     }
     return !protocol.materials.empty();
@@ -42,7 +42,7 @@ bool is_covered_by_frames(const Protocol& protocol, std::size_t sculpture) {
 void check_idle_keys(ProtocolExamination& examination, std::size_t index,
                      std::initializer_list<std::string_view> keys, const char* without, const char* remark) {
     for (const std::string_view key : keys) {
-        const std::string path = entry_path("sculpture", index, key);
+        const std::string path = entry_path("object", index, key);
         if (examination.is_written(path))
             examination.warning({path}, fmt::format("\"{}\" has no effect without {}", key, without), remark);
     }
@@ -61,35 +61,35 @@ void check_numbered_path(ProtocolExamination& examination, const std::string& pa
 
 /// Ready-made maps: what they are maps of must be shown ready-made, too, and their box must be whole.
 void check_lut(ProtocolExamination& examination, std::size_t index) {
-    const auto path = [&](std::string_view key) { return entry_path("sculpture", index, key); };
-    const SculptureSettings& sculpture = examination.protocol.sculptures[index];
-    check_numbered_path(examination, path("lut"), sculpture.lut, "such as \"maps/frame_####.png\"");
+    const auto path = [&](std::string_view key) { return entry_path("object", index, key); };
+    const ObjectSettings& object = examination.protocol.objects[index];
+    check_numbered_path(examination, path("lut"), object.lut, "such as \"maps/frame_####.png\"");
     if (!is_covered_by_frames(examination.protocol, index)) {
         examination.error(
             {path("lut")},
-            fmt::format("sculpture \"{}\" has maps, but not [[frames]] for every material", sculpture.id),
+            fmt::format("object \"{}\" has maps, but not [[frames]] for every material", object.id),
             "without a mesh nothing can be rendered");
     }
-    if (sculpture.lut_min.has_value() != sculpture.lut_max.has_value()) {
+    if (object.lut_min.has_value() != object.lut_max.has_value()) {
         examination.error({path("lut_min"), path("lut_max")}, "a box needs both \"lut_min\" and \"lut_max\"");
-    } else if (sculpture.lut_min && glm::any(glm::greaterThan(*sculpture.lut_min, *sculpture.lut_max))) {
+    } else if (object.lut_min && glm::any(glm::greaterThan(*object.lut_min, *object.lut_max))) {
         examination.error({path("lut_min"), path("lut_max")},
                           "a coordinate of \"lut_min\" is larger than that of \"lut_max\"");
     }
 }
 
-/// A sculpture that nothing is known of but its pictures.
+/// An object that nothing is known of but its pictures.
 void check_shapeless(ProtocolExamination& examination, std::size_t index) {
-    const std::string& id = examination.protocol.sculptures[index].id;
-    const std::string entry = entry_path("sculpture", index);
+    const std::string& id = examination.protocol.objects[index].id;
+    const std::string entry = entry_path("object", index);
     if (is_covered_by_frames(examination.protocol, index)) {
         examination.warning({entry},
-                            fmt::format("sculpture \"{}\" has frames, but no shape: gaze on it cannot be "
+                            fmt::format("object \"{}\" has frames, but no shape: gaze on it cannot be "
                                         "projected to its surface",
                                         id),
                             "give the \"mesh\" that the frames were rendered from, or maps, \"lut\"");
     } else {
-        examination.error({entry}, fmt::format("sculpture \"{}\" has neither \"shipped\" nor \"mesh\"", id),
+        examination.error({entry}, fmt::format("object \"{}\" has neither \"shipped\" nor \"mesh\"", id),
                           "or [[frames]] for every material");
     }
 }
@@ -110,29 +110,28 @@ void check_frame_colours(ProtocolExamination& examination, std::size_t index) {
 
 void check_ids(ProtocolExamination& examination) {
     check_list(examination, "task", examination.protocol.tasks);
-    check_list(examination, "sculpture", examination.protocol.sculptures);
+    check_list(examination, "object", examination.protocol.objects);
     check_list(examination, "material", examination.protocol.materials);
 }
 
-void check_sculptures(ProtocolExamination& examination,
-                      std::span<const std::string_view> shipped_sculptures) {
+void check_objects(ProtocolExamination& examination, std::span<const std::string_view> shipped_sculptures) {
     const Protocol& protocol = examination.protocol;
-    for (std::size_t i = 0; i < protocol.sculptures.size(); ++i) {
-        const SculptureSettings& sculpture = protocol.sculptures[i];
-        const std::string shipped = entry_path("sculpture", i, "shipped"),
-                          mesh = entry_path("sculpture", i, "mesh"), lut = entry_path("sculpture", i, "lut");
+    for (std::size_t i = 0; i < protocol.objects.size(); ++i) {
+        const ObjectSettings& object = protocol.objects[i];
+        const std::string shipped = entry_path("object", i, "shipped"),
+                          mesh = entry_path("object", i, "mesh"), lut = entry_path("object", i, "lut");
         const bool has_shipped = examination.is_written(shipped), has_mesh = examination.is_written(mesh),
                    has_lut = examination.is_written(lut);
         if (has_shipped && has_mesh) {
-            examination.error({mesh, shipped}, "a sculpture is either \"shipped\" or a \"mesh\", not both",
+            examination.error({mesh, shipped}, "an object is either \"shipped\" or a \"mesh\", not both",
                               "take one of the two lines out");
         } else if (has_lut && (has_shipped || has_mesh)) {
             examination.error({lut}, "\"lut\" stands instead of \"shipped\" or \"mesh\", not beside it",
                               "with a mesh, the maps are made from it, and more exactly");
         } else if (has_shipped && std::find(shipped_sculptures.begin(), shipped_sculptures.end(),
-                                            sculpture.shipped) == shipped_sculptures.end()) {
-            examination.error({shipped}, fmt::format("overt has no sculpture \"{}\"", sculpture.shipped),
-                              suggest_name(sculpture.shipped, shipped_sculptures));
+                                            object.shipped) == shipped_sculptures.end()) {
+            examination.error({shipped}, fmt::format("overt has no sculpture \"{}\"", object.shipped),
+                              suggest_name(object.shipped, shipped_sculptures));
         } else if (has_lut) {
             check_lut(examination, i);
         } else if (!has_shipped && !has_mesh) {
@@ -147,8 +146,8 @@ void check_sculptures(ProtocolExamination& examination,
         if (!has_mesh && !has_lut)
             check_idle_keys(examination, i, {"head"}, "\"mesh\"",
                             "it describes the coordinates of a mesh file");
-        else if (sculpture.head_spheres.empty() && !sculpture.head_planes.empty())
-            examination.warning({entry_path("sculpture", i, "head")}, "\"planes\" alone make no head",
+        else if (object.head_spheres.empty() && !object.head_planes.empty())
+            examination.warning({entry_path("object", i, "head")}, "\"planes\" alone make no head",
                                 "give \"spheres\" that hold it");
     }
 }
@@ -181,20 +180,19 @@ void check_materials(ProtocolExamination& examination) {
 
 void check_frames(ProtocolExamination& examination) {
     const Protocol& protocol = examination.protocol;
-    const auto sculptures = ids_of<std::string_view>(protocol.sculptures),
+    const auto objects = ids_of<std::string_view>(protocol.objects),
                materials = ids_of<std::string_view>(protocol.materials);
     std::map<std::pair<std::string, std::string>, std::size_t> seen;
     for (std::size_t i = 0; i < protocol.frames.size(); ++i) {
         const FrameSequenceSettings& sequence = protocol.frames[i];
-        is_known(examination, entry_path("frames", i, "sculpture"), "[[sculpture]]", sequence.sculpture,
-                 sculptures);
+        is_known(examination, entry_path("frames", i, "object"), "[[object]]", sequence.object, objects);
         is_known(examination, entry_path("frames", i, "material"), "[[material]]", sequence.material,
                  materials);
-        const auto [first, is_new] = seen.try_emplace({sequence.sculpture, sequence.material}, i);
+        const auto [first, is_new] = seen.try_emplace({sequence.object, sequence.material}, i);
         if (!is_new) {
             examination.error(
-                {entry_path("frames", i, "sculpture"), entry_path("frames", i, "material")},
-                fmt::format("\"{}\" in \"{}\" has frames already", sequence.sculpture, sequence.material),
+                {entry_path("frames", i, "object"), entry_path("frames", i, "material")},
+                fmt::format("\"{}\" in \"{}\" has frames already", sequence.object, sequence.material),
                 fmt::format("from the [[frames]] in line {}",
                             protocol.places.of(entry_path("frames", first->second)).line));
         }

@@ -21,7 +21,7 @@ int block_count(const Protocol& protocol);
 /// What of a protocol a block shows to an observer. Indices into the protocol's lists, in the order of the
 /// block's.
 struct BlockScope {
-    std::vector<int> tasks, sculptures, materials;
+    std::vector<int> tasks, objects, materials;
 };
 
 /// What a block shows to somebody whom no group keeps anything from.
@@ -37,14 +37,14 @@ struct BlockScopeOf {
 /// leaves without trials are among them.
 std::vector<BlockScopeOf> blocks_of_group(const Protocol& protocol, int number);
 
-/// Whether a task is asked once per sculpture in a block, the material going round over the observers.
+/// Whether a task is asked once per object in a block, the material going round over the observers.
 bool rotates_materials(const Protocol& protocol, int block, int task);
 
 /// A block as one observer has it.
 struct BlockPlan {
     int block = 0;
     BlockScope scope;
-    std::vector<Trial> trials; ///< each once, task by task, sculpture by sculpture, material by material
+    std::vector<Trial> trials; ///< each once, task by task, object by object, material by material
     int levels_row = 0;        ///< of the square by which the levels of a blocked order go
 };
 

@@ -35,13 +35,13 @@ std::vector<int> chosen(const std::vector<Entry>& entries, const std::vector<std
     return indices;
 }
 
-/// The material of a cell, c = task * S + sculpture with the task's place among the rotated ones: column (c +
+/// The material of a cell, c = task * S + object with the task's place among the rotated ones: column (c +
 /// floor(c / L)) mod M of the row, with L the least common multiple of S and M. So the M rows of a square
-/// fill all M materials of a cell once; each row has all materials equally often, to one; and a sculpture
+/// fill all M materials of a cell once; each row has all materials equally often, to one; and an object
 /// changes its material from task to task.
 int rotated(const Protocol& protocol, int row, int cell, const BlockScope& scope) {
-    const int sculptures = count_of(scope.sculptures), materials = count_of(scope.materials);
-    const int round = std::lcm(sculptures, materials);
+    const int objects = count_of(scope.objects), materials = count_of(scope.materials);
+    const int round = std::lcm(objects, materials);
     const int column = (cell + cell / round) % materials;
     return row_of_square(protocol.schedule.material_rotation, materials, row,
                          static_cast<std::uint64_t>(protocol.schedule.rotation_seed),
@@ -55,22 +55,22 @@ std::vector<Trial> trials_in(const Protocol& protocol, int block, const BlockSco
         const bool rotates = rotates_materials(protocol, block, task);
         // A rotated task's cells are numbered by its place among the rotated tasks, whatever block it is in.
         int rotating_task = task;
-        if (own == TaskCoverage::once_per_sculpture)
+        if (own == TaskCoverage::once_per_object)
             rotating_task = static_cast<int>(
                 std::count_if(protocol.tasks.begin(), protocol.tasks.begin() + task, [](const Task& earlier) {
-                    return earlier.stimuli == TaskCoverage::once_per_sculpture;
+                    return earlier.stimuli == TaskCoverage::once_per_object;
                 }));
-        for (int i = 0; i < count_of(scope.sculptures); ++i) {
-            const int sculpture = scope.sculptures[static_cast<std::size_t>(i)];
+        for (int i = 0; i < count_of(scope.objects); ++i) {
+            const int object = scope.objects[static_cast<std::size_t>(i)];
             if (rotates && !scope.materials.empty()) {
-                const int cell = rotating_task * count_of(scope.sculptures) + i;
+                const int cell = rotating_task * count_of(scope.objects) + i;
                 const int material =
                     scope.materials[static_cast<std::size_t>(rotated(protocol, row, cell, scope))];
-                trials.push_back({count_of(trials), task, {sculpture, material}, block});
+                trials.push_back({count_of(trials), task, {object, material}, block});
                 continue;
             }
             for (const int material : scope.materials)
-                trials.push_back({count_of(trials), task, {sculpture, material}, block});
+                trials.push_back({count_of(trials), task, {object, material}, block});
         }
     }
     return trials;
@@ -100,7 +100,7 @@ std::vector<int> order_of_blocks(const Protocol& protocol, const std::vector<int
 BlockScope scope_of(const Protocol& protocol, int block) {
     const BlockSettings& settings = block_at(protocol, block);
     return {chosen(protocol.tasks, settings.tasks, nullptr),
-            chosen(protocol.sculptures, settings.sculptures, nullptr),
+            chosen(protocol.objects, settings.objects, nullptr),
             chosen(protocol.materials, settings.materials, nullptr)};
 }
 
@@ -116,27 +116,27 @@ int level_of(const Protocol& protocol, const Trial& trial, TrialFactor factor) {
     switch (factor) {
     case TrialFactor::task:
         return trial.task;
-    case TrialFactor::sculpture:
-        return trial.condition.sculpture;
+    case TrialFactor::object:
+        return trial.condition.object;
     case TrialFactor::material:
         return trial.condition.material;
     case TrialFactor::stimulus:
         break;
     }
-    return trial.condition.sculpture * count_of(protocol.materials) + trial.condition.material;
+    return trial.condition.object * count_of(protocol.materials) + trial.condition.material;
 }
 
 std::vector<int> levels_in(const Protocol& protocol, const BlockScope& scope, TrialFactor factor) {
     if (factor == TrialFactor::task)
         return scope.tasks;
-    if (factor == TrialFactor::sculpture)
-        return scope.sculptures;
+    if (factor == TrialFactor::object)
+        return scope.objects;
     if (factor == TrialFactor::material)
         return scope.materials;
     std::vector<int> stimuli;
-    for (const int sculpture : scope.sculptures) {
+    for (const int object : scope.objects) {
         for (const int material : scope.materials)
-            stimuli.push_back(level_of(protocol, {0, 0, {sculpture, material}}, factor));
+            stimuli.push_back(level_of(protocol, {0, 0, {object, material}}, factor));
     }
     return stimuli;
 }
@@ -163,7 +163,7 @@ int length_of(const Protocol& protocol, const BlockPlan& plan) {
 bool rotates_materials(const Protocol& protocol, int block, int task) {
     return block_at(protocol, block)
                .stimuli.value_or(protocol.tasks.at(static_cast<std::size_t>(task)).stimuli) ==
-           TaskCoverage::once_per_sculpture;
+           TaskCoverage::once_per_object;
 }
 
 std::vector<BlockScopeOf> blocks_of_group(const Protocol& protocol, int number) {
@@ -177,7 +177,7 @@ std::vector<BlockScopeOf> blocks_of_group(const Protocol& protocol, int number) 
         scopes.push_back(
             {block,
              {chosen(protocol.tasks, settings.tasks, group ? &group->tasks : nullptr),
-              chosen(protocol.sculptures, settings.sculptures, group ? &group->sculptures : nullptr),
+              chosen(protocol.objects, settings.objects, group ? &group->objects : nullptr),
               chosen(protocol.materials, settings.materials, group ? &group->materials : nullptr)}});
     }
     return scopes;

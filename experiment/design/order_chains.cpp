@@ -11,7 +11,7 @@ namespace overt {
 
 namespace {
 
-constexpr TrialFactor factors[] = {TrialFactor::task, TrialFactor::sculpture, TrialFactor::material,
+constexpr TrialFactor factors[] = {TrialFactor::task, TrialFactor::object, TrialFactor::material,
                                    TrialFactor::stimulus};
 constexpr OrderLimit::Kind kinds[] = {OrderLimit::Kind::longest_run, OrderLimit::Kind::least_distance};
 
@@ -21,8 +21,8 @@ auto limit_in(const auto& settings, TrialFactor factor, OrderLimit::Kind kind) {
     switch (factor) {
     case TrialFactor::task:
         return is_run ? settings.max_task_run : settings.min_task_distance;
-    case TrialFactor::sculpture:
-        return is_run ? settings.max_sculpture_run : settings.min_sculpture_distance;
+    case TrialFactor::object:
+        return is_run ? settings.max_object_run : settings.min_object_distance;
     case TrialFactor::material:
         return is_run ? settings.max_material_run : settings.min_material_distance;
     case TrialFactor::stimulus:

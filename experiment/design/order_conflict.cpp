@@ -13,7 +13,7 @@ namespace overt {
 
 namespace {
 
-/// "runs of 2 with the same sculpture", "a distance of 3 between trials with the same material".
+/// "runs of 2 with the same object", "a distance of 3 between trials with the same material".
 std::string described(const OrderLimit& limit) {
     return limit.kind == OrderLimit::Kind::longest_run
                ? fmt::format("runs of {} with the same {}", limit.amount, limit.noun)
@@ -31,7 +31,7 @@ std::string where(const Protocol& protocol, const OrderChain& chain) {
                              : fmt::format(" in blocks \"{}\"", fmt::join(ids, "\", \""));
 }
 
-/// The level that is hardest to place: ": one sculpture has 9 of the 12 trials".
+/// The level that is hardest to place: ": one object has 9 of the 12 trials".
 std::string most_frequent(const OrderChain& chain, const OrderLimit& limit) {
     if (chain.problem.parts.size() != 1 || chain.problem.parts.front().segments.size() != 1 ||
         chain.problem.parts.front().segments.front().is_drawn())

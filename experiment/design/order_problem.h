@@ -20,8 +20,8 @@ struct OrderLimit {
     Kind kind = Kind::longest_run;
     int amount = 1;
     int part = -1;    ///< holds for items placed in this part of the sequence; -1: in all
-    std::string key;  ///< who asked for it, as "schedule.max_sculpture_run"
-    std::string noun; ///< what the factor is called, as "sculpture"
+    std::string key;  ///< who asked for it, as "schedule.max_object_run"
+    std::string noun; ///< what the factor is called, as "object"
     friend bool operator==(const OrderLimit&, const OrderLimit&) = default;
 };
 

@@ -13,7 +13,7 @@ namespace overt {
 /// One thing that goes by the rows of a square.
 struct RotatedFactor {
     enum class Kind : std::uint8_t {
-        materials, ///< of tasks that are asked once per sculpture
+        materials, ///< of tasks that are asked once per object
         blocks,    ///< their order
         levels,    ///< their order in a block
     };

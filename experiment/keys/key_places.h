@@ -10,7 +10,7 @@
 
 namespace overt {
 
-/// Places by path: "display.refresh_hz", "sculpture[0].mesh" (entries of a list count from 0), "sculpture[0]"
+/// Places by path: "display.refresh_hz", "object[0].mesh" (entries of a list count from 0), "object[0]"
 /// for the entry's heading.
 class KeyPlaces {
   public:

@@ -113,7 +113,7 @@ class SectionHome {
     void* (*add_)(void* list) = nullptr;
 };
 
-/// A [section], the entries of a [[list]], or a table within one of them (`head = { … }` of a sculpture).
+/// A [section], the entries of a [[list]], or a table within one of them (`head = { … }` of an object).
 struct Section {
     std::string_view name;
     SectionHome home; ///< of a table within a section: none

@@ -23,7 +23,7 @@ void put_text(PictureHeader& header, const char* name, const std::string& text) 
 }
 
 void put_description(PictureHeader& header, const MapDescription& description) {
-    put_text(header, "overt:sculpture", description.sculpture);
+    put_text(header, "overt:object", description.object);
     put_text(header, "overt:mesh_sha256", description.mesh_sha256);
     put_text(header, "overt:unit", description.unit);
     auto& attributes = header.attributes;
@@ -46,7 +46,9 @@ MapDescription description_in(const PictureHeader& header) {
     const auto triple = [&](const char* name) { return header.attribute<glm::dvec3>(name); };
     const auto real = [&](const char* name) { return header.attribute<double>(name); };
     MapDescription description;
-    description.sculpture = header.text("overt:sculpture");
+    description.object = header.text("overt:object");
+    if (description.object.empty())
+        description.object = header.text("overt:sculpture"); // of maps that earlier versions made
     description.mesh_sha256 = header.text("overt:mesh_sha256");
     description.unit = header.text("overt:unit");
     if (const auto* low = triple("overt:bounds_min"), *high = triple("overt:bounds_max"); low && high)
@@ -91,7 +93,7 @@ void merge(const std::filesystem::path& file, MapDescription& into, const MapDes
     merge(file, "angle", into.angle, from.angle);
     merge(file, "frame", into.frame, from.frame);
     merge(file, "size", into.size_px, from.size_px);
-    for (auto text : {&MapDescription::sculpture, &MapDescription::unit, &MapDescription::mesh_sha256}) {
+    for (auto text : {&MapDescription::object, &MapDescription::unit, &MapDescription::mesh_sha256}) {
         if ((into.*text).empty())
             into.*text = from.*text;
     }
@@ -130,7 +132,7 @@ CoordinateCodec codec_of(const std::filesystem::path& file, Channels::Kind kind,
     if (!description.bounds || (needs_scale && !description.scale)) {
         throw InputError(fmt::format(
             "{}: its colours mean nothing without {}: put them into {} beside it, as \"bounds\": {{\"min\": "
-            "[x, y, z], \"max\": [x, y, z]}}{}, or give lut_min, lut_max{} with the sculpture",
+            "[x, y, z], \"max\": [x, y, z]}}{}, or give lut_min, lut_max{} with the object",
             file.string(), needs_scale ? "the bounding box and the scale" : "the bounding box",
             sidecar_of(file).filename().string(), needs_scale ? " and \"scale\": 65535" : "",
             needs_scale ? " and lut_scale" : ""));

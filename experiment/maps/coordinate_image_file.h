@@ -13,7 +13,7 @@ namespace overt {
 /// losslessly compressed; if the parts are known, their indices are a fifth channel, "part".
 /// The description goes into the header: "overt:bounds_min", "overt:bounds_max",
 /// "overt:camera_position" and "overt:camera_target" as three doubles, "overt:camera_vertical_fov_deg" and
-/// "overt:angle_deg" as double, "overt:frame" as int, "overt:sculpture", "overt:mesh_sha256" and
+/// "overt:angle_deg" as double, "overt:frame" as int, "overt:object", "overt:mesh_sha256" and
 /// "overt:unit" as text. At once or not at all, in place of a file that is there. Throws RecordError.
 void write_coordinate_exr(const std::filesystem::path& file, const CoordinateImage& image,
                           const MapDescription& description);

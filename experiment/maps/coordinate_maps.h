@@ -1,4 +1,4 @@
-/// The coordinate-encoded look-up tables of one sculpture: from a place in the image to a point on the
+/// The coordinate-encoded look-up tables of one object: from a place in the image to a point on the
 /// surface.
 #pragma once
 

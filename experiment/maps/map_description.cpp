@@ -88,8 +88,8 @@ std::filesystem::path sidecar_of(const std::filesystem::path& map_file) {
 
 Json to_json(const MapDescription& description) {
     Json json{{"what", "coordinate-encoded map: object coordinates of the surface at each pixel's centre"}};
-    if (!description.sculpture.empty())
-        json["sculpture"] = description.sculpture;
+    if (!description.object.empty())
+        json["object"] = description.object;
     if (description.frame)
         json["frame"] = *description.frame;
     if (description.angle)
@@ -132,7 +132,9 @@ std::optional<MapDescription> read_sidecar(const std::filesystem::path& file) {
         throw InputError(fmt::format("{}: is no JSON", file.string()));
     const Reader reader(file, json);
     MapDescription description;
-    description.sculpture = reader.text("sculpture");
+    description.object = reader.text("object");
+    if (description.object.empty())
+        description.object = reader.text("sculpture"); // of maps that earlier versions made
     description.unit = reader.text("unit");
     description.scale = reader.whole_number("scale");
     description.frame = reader.whole_number("frame");

@@ -14,7 +14,7 @@ namespace overt {
 
 /// Whatever is not known is empty. Lengths are in `unit`.
 struct MapDescription {
-    std::string sculpture;        ///< its id
+    std::string object;           ///< its id
     std::string unit;             ///< of the coordinates, in words
     std::optional<Bounds> bounds; ///< of the object; by which codes are made
     std::optional<int> scale;     ///< of codes: 65535 or 65536
@@ -22,7 +22,7 @@ struct MapDescription {
     std::optional<Degrees> angle; ///< turn about the vertical through the middle of the bounds
     std::optional<int> frame;     ///< of the animation
     std::optional<glm::ivec2> size_px;
-    ContentHash mesh_sha256; ///< of the mesh's content, see Sculpture::mesh_hash
+    ContentHash mesh_sha256; ///< of the mesh's content, see Object::mesh_hash
 };
 
 /// The sidecar of a map: the same path with the extension .json.

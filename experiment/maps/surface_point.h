@@ -1,4 +1,4 @@
-/// A place on a sculpture's surface, as a gaze sample meets it, and the ways to find it.
+/// A place on an object's surface, as a gaze sample meets it, and the ways to find it.
 #pragma once
 
 #include <cstdint>

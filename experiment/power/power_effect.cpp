@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "experiment/base/error.h"
+#include "experiment/protocol/old_words.h"
 
 namespace overt {
 
@@ -59,7 +60,7 @@ std::vector<std::string> levels_of_column(const Protocol& protocol, const std::s
     else if (column == "material")
         take(protocol.materials);
     else
-        take(protocol.sculptures);
+        take(protocol.objects);
     return ids;
 }
 
@@ -96,7 +97,7 @@ class EffectReader {
         const std::size_t at = part.find('=');
         if (at == std::string::npos)
             fail(fmt::format("\"{}\" is not of the form key=value", part));
-        const std::string key = part.substr(0, at), value = part.substr(at + 1);
+        const std::string key = todays_factor(part.substr(0, at)), value = part.substr(at + 1);
         if (std::find(seen_.begin(), seen_.end(), key) != seen_.end())
             fail(fmt::format("{} is given twice", key));
         seen_.push_back(key);
@@ -108,16 +109,16 @@ class EffectReader {
             effect_.sd = number(key, value, 0.0, most_sd);
         } else if (key == "against") {
             effect_.against = value;
-        } else if (key == "task" || key == "material" || key == "sculpture") {
+        } else if (key == "task" || key == "material" || key == "object") {
             check_level(key, value);
-            if (effect_.column.empty() && key != "sculpture") {
+            if (effect_.column.empty() && key != "object") {
                 effect_.column = key;
                 effect_.level = value;
             } else {
                 effect_.within.push_back({key, value});
             }
         } else {
-            fail(fmt::format("\"{}\" is no key of {}, whose keys are task, material, sculpture, {}, against "
+            fail(fmt::format("\"{}\" is no key of {}, whose keys are task, material, object, {}, against "
                              "and sd",
                              key, measure.name, measure.size_key));
         }

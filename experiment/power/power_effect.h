@@ -39,7 +39,7 @@ struct PowerEffect {
 
 /// Reads "head:material=rough:odds=1.5", "wss:material=rough:ratio=1.2", "cc:material=rough:share=0.2"; each
 /// may go on with ":against=LEVEL" (else the first other level of the protocol), ":sd=0.3", and
-/// ":task=ID", ":sculpture=ID" or ":material=ID" for trials of these only. "none" is every measure between
+/// ":task=ID", ":object=ID" or ":material=ID" for trials of these only. "none" is every measure between
 /// the first two materials, and the head between the first two tasks, without an effect. Throws InputError,
 /// which names what is known.
 std::vector<PowerEffect> power_effects(const std::vector<std::string>& texts, const Protocol& protocol);

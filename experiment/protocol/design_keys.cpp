@@ -20,20 +20,20 @@ std::vector<Key> schedule() {
          "Start of all random numbers."},
         {"max_task_run", &S::max_task_run, range(0, 1000),
          "Longest run of trials with the same task; 0 for no limit. With a single task it has no effect."},
-        {"max_sculpture_run", &S::max_sculpture_run, range(0, 1000),
-         "Longest run of trials with the same sculpture; 0 for no limit. With a single sculpture it has no "
+        {"max_object_run", &S::max_object_run, range(0, 1000),
+         "Longest run of trials with the same object; 0 for no limit. With a single object it has no "
          "effect."},
         {"max_material_run", &S::max_material_run, range(0, 1000),
          "Longest run of trials with the same material; 0 for no limit. With a single material it has no "
          "effect."},
         {"max_stimulus_run", &S::max_stimulus_run, range(0, 1000),
-         "Longest run of trials with the same stimulus (sculpture and material); 0 for no limit. With a "
+         "Longest run of trials with the same stimulus (object and material); 0 for no limit. With a "
          "single stimulus it has no effect."},
         {"min_task_distance", &S::min_task_distance, range(0, 1000),
          "Least distance of trials with the same task, in trials: 2 is never twice in a row, 3 leaves two "
          "others between them; 0 for no limit."},
-        {"min_sculpture_distance", &S::min_sculpture_distance, range(0, 1000),
-         "Least distance of trials with the same sculpture, in trials: 2 is never twice in a row, 3 leaves "
+        {"min_object_distance", &S::min_object_distance, range(0, 1000),
+         "Least distance of trials with the same object, in trials: 2 is never twice in a row, 3 leaves "
          "two others between them; 0 for no limit."},
         {"min_material_distance", &S::min_material_distance, range(0, 1000),
          "Least distance of trials with the same material, in trials: 2 is never twice in a row, 3 leaves "
@@ -42,7 +42,7 @@ std::vector<Key> schedule() {
          "Least distance of trials with the same stimulus, in trials: 2 is never twice in a row, 3 leaves "
          "two others between them; 0 for no limit."},
         {"material_rotation", &S::material_rotation,
-         "How the materials of tasks that are asked once per sculpture go round over the observers: shifted "
+         "How the materials of tasks that are asked once per object go round over the observers: shifted "
          "by one from observer to observer; by the rows of a balanced (Williams) square, in which each "
          "material also follows each other one equally often; or by random squares, a new one for each round "
          "of observers. A balanced square of an odd number of materials takes twice as many observers."},
@@ -61,7 +61,7 @@ std::vector<Key> task() {
         {"id", &T::id, identifier().required(), "Short name, used in file names and tables."},
         {"question", &T::question, required(), "What the observer reads before the animation."},
         {"stimuli", &T::stimuli,
-         "Asked for every sculpture in every material, or once per sculpture with the material changing from "
+         "Asked for every object in every material, or once per object with the material changing from "
          "observer to observer."},
         {"simulated_head_share", &T::simulated_head_share, range(0, 1),
          "Share of a simulated observer's fixations that go to the head."},

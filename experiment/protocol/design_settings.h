@@ -12,10 +12,9 @@
 namespace overt {
 
 /// Which stimuli a task is asked for.
-enum class TaskCoverage : std::uint8_t { every_stimulus, once_per_sculpture };
+enum class TaskCoverage : std::uint8_t { every_stimulus, once_per_object };
 template <>
-inline constexpr auto names_of<TaskCoverage> = enum_names<TaskCoverage>("every-stimulus",
-                                                                        "once-per-sculpture");
+inline constexpr auto names_of<TaskCoverage> = enum_names<TaskCoverage>("every-stimulus", "once-per-object");
 
 /// [[task]]
 struct Task {
@@ -26,10 +25,10 @@ struct Task {
         0.4; ///< share of a simulated observer's fixations that go to the part "head"
 };
 
-/// What tells trials apart. A stimulus is a sculpture in a material.
-enum class TrialFactor : std::uint8_t { task, sculpture, material, stimulus };
+/// What tells trials apart. A stimulus is an object in a material.
+enum class TrialFactor : std::uint8_t { task, object, material, stimulus };
 template <>
-inline constexpr auto names_of<TrialFactor> = enum_names<TrialFactor>("task", "sculpture", "material",
+inline constexpr auto names_of<TrialFactor> = enum_names<TrialFactor>("task", "object", "material",
                                                                       "stimulus");
 
 /// How the trials of a block come.
@@ -65,12 +64,12 @@ struct ScheduleSettings {
     std::optional<std::uint64_t> seed; ///< left out: drawn for each session, and recorded
     // Longest run of trials with the same …; 0: no limit.
     int max_task_run = 0;
-    int max_sculpture_run = 2;
+    int max_object_run = 2;
     int max_material_run = 0;
     int max_stimulus_run = 0;
     // Least distance of trials with the same …, in trials; 0: no limit.
     int min_task_distance = 0;
-    int min_sculpture_distance = 0;
+    int min_object_distance = 0;
     int min_material_distance = 0;
     int min_stimulus_distance = 0;
     SquareKind material_rotation = SquareKind::cyclic;
@@ -82,7 +81,7 @@ struct ScheduleSettings {
 struct BlockSettings {
     std::string id;
     // Left out: all.
-    std::vector<std::string> tasks, sculptures, materials;
+    std::vector<std::string> tasks, objects, materials;
     std::optional<TaskCoverage> stimuli; ///< left out: as each task says
     OrderMethod order = OrderMethod::random;
     TrialFactor by = TrialFactor::task;     ///< of blocked and weighted orders
@@ -93,9 +92,8 @@ struct BlockSettings {
     RepetitionOrder repetition_order = RepetitionOrder::in_turn;
     std::string instructions; ///< shown before it; empty: nothing
     bool continues = false;   ///< limits count the trials of the block before, too
-    std::optional<int> max_task_run, max_sculpture_run, max_material_run, max_stimulus_run;
-    std::optional<int> min_task_distance, min_sculpture_distance, min_material_distance,
-        min_stimulus_distance;
+    std::optional<int> max_task_run, max_object_run, max_material_run, max_stimulus_run;
+    std::optional<int> min_task_distance, min_object_distance, min_material_distance, min_stimulus_distance;
 };
 
 /// [[group]]: of observers, who differ in what they see.
@@ -103,7 +101,7 @@ struct GroupSettings {
     std::string id;
     int cap = 0; ///< most observers; 0: no limit
     // Left out: all.
-    std::vector<std::string> blocks, tasks, sculptures, materials;
+    std::vector<std::string> blocks, tasks, objects, materials;
 };
 
 /// [simulated_observers]: how they differ from one another.
@@ -114,10 +112,10 @@ struct SimulatedObserverSettings {
 /// [[simulated_effect]]: what the gaze of simulated observers depends on, for a study to find. Ids; empty:
 /// any.
 struct SimulatedEffect {
-    std::string task, sculpture, material;
+    std::string task, object, material;
     double head_odds = 1.0;  ///< times the odds of the task's simulated_head_share
     double spot_share = 0.0; ///< share of fixations that go to the effect's own spot
-    /// How far from the sculpture's middle the other fixations lie: places at r times the usual distance are
+    /// How far from the object's middle the other fixations lie: places at r times the usual distance are
     /// looked at exp(spread r^2) times as often; 0: by area alone.
     double spread = 0.0;
 };
@@ -126,7 +124,7 @@ inline constexpr int most_simulated_spots = 8;
 
 /// [[practice]]: a trial that does not count. Ids.
 struct PracticeSettings {
-    std::string task, sculpture, material;
+    std::string task, object, material;
     std::string block;    ///< that it comes before; empty: the first
     std::string feedback; ///< shown after the answer; empty: nothing
 };

@@ -42,8 +42,8 @@ std::vector<Key> marker_output() {
          "(last refresh over), response (the answer), result (the trial is over). Those left out have none. "
          "Of `t-lock`: onset and frame."},
         {"condition_codes", &M::condition_codes, left_out("none"),
-         "What the onset's code is raised by in trials of a task, a sculpture or a material, such as "
-         "`[\"task material 100\", \"sculpture runner 20\"]`."},
+         "What the onset's code is raised by in trials of a task, an object or a material, such as "
+         "`[\"task material 100\", \"object runner 20\"]`."},
         {"refresh_codes", &M::refresh_codes, left_out("none"),
          "Of `t-lock`, a refresh of the animation, from 0, and its code, such as `[\"120 4\"]`."},
         {"offset_ms", &M::offset_ms, range(0, 1000, "ms").left_out("one refresh"),

@@ -1,4 +1,4 @@
-/// The names of a protocol's tasks, sculptures, materials, ….
+/// The names of a protocol's tasks, objects, materials, ….
 #pragma once
 
 #include <string>

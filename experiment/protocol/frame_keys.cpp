@@ -26,7 +26,7 @@ std::vector<Key> bake() {
 std::vector<Key> frames() {
     using F = FrameSequenceSettings;
     return {
-        {"sculpture", &F::sculpture, required(), "Id of a `[[sculpture]]`."},
+        {"object", &F::object, required(), "Id of a `[[object]]`."},
         {"material", &F::material, required(), "Id of a `[[material]]`."},
         {"files", &F::files, required(),
          "Path of the pictures from the protocol's folder, with # for the digits of the number: "

@@ -49,7 +49,7 @@ int largest_of(const std::vector<int>& codes) {
 } // namespace
 
 MarkerCodes::MarkerCodes(const Protocol& protocol, const MarkerOutputSettings& output)
-    : tasks_(protocol.tasks.size()), sculptures_(protocol.sculptures.size()),
+    : tasks_(protocol.tasks.size()), objects_(protocol.objects.size()),
       materials_(protocol.materials.size()) {
     const int most = row_of(output.kind).largest_code;
     for (const std::string& entry : output.codes) {
@@ -69,23 +69,22 @@ MarkerCodes::MarkerCodes(const Protocol& protocol, const MarkerOutputSettings& o
         const auto words = words_of(entry);
         if (words.size() != 3)
             throw InputError(
-                fmt::format("\"{}\" is not task, sculpture or material, its id, and what it adds, such "
+                fmt::format("\"{}\" is not task, object or material, its id, and what it adds, such "
                             "as \"material gold 20\"",
                             entry));
         int* code = nullptr;
         if (words[0] == "task")
             code = &tasks_[index_of(entry, words[0], protocol.tasks, words[1])];
-        else if (words[0] == "sculpture")
-            code = &sculptures_[index_of(entry, words[0], protocol.sculptures, words[1])];
+        else if (words[0] == "object")
+            code = &objects_[index_of(entry, words[0], protocol.objects, words[1])];
         else if (words[0] == "material")
             code = &materials_[index_of(entry, words[0], protocol.materials, words[1])];
         else
-            throw InputError(
-                fmt::format("\"{}\": \"{}\" is not task, sculpture or material", entry, words[0]));
+            throw InputError(fmt::format("\"{}\": \"{}\" is not task, object or material", entry, words[0]));
         *code = number_in(entry, words[2], 0, most, "what is added to a code");
     }
     const int onset = events_[static_cast<std::size_t>(MarkedEvent::onset)];
-    const int highest = onset + largest_of(tasks_) + largest_of(sculptures_) + largest_of(materials_);
+    const int highest = onset + largest_of(tasks_) + largest_of(objects_) + largest_of(materials_);
     if (!output.condition_codes.empty() && highest > most)
         throw InputError(
             fmt::format("the onset of some trials would have the code {}: {} is the largest", highest, most));
@@ -112,7 +111,7 @@ int MarkerCodes::code_of(MarkedEvent event, const Trial& trial) const noexcept {
             code += codes[static_cast<std::size_t>(index)];
     };
     add(tasks_, trial.task);
-    add(sculptures_, trial.condition.sculpture);
+    add(objects_, trial.condition.object);
     add(materials_, trial.condition.material);
     return code;
 }

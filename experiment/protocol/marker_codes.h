@@ -37,7 +37,7 @@ class MarkerCodes {
 
   private:
     std::array<int, names_of<MarkedEvent>.size()> events_{};
-    std::vector<int> tasks_, sculptures_, materials_; ///< by index
+    std::vector<int> tasks_, objects_, materials_; ///< by index
     std::vector<RefreshCode> refreshes_;
 };
 

@@ -9,15 +9,14 @@ std::vector<Key> block() {
         {"id", &B::id, identifier().required(), "Short name, used in tables."},
         {"tasks", &B::tasks, identifier().left_out("all"),
          "Which tasks are asked, by their ids. Their order is that of a sequential block."},
-        {"sculptures", &B::sculptures, identifier().left_out("all"),
-         "Which sculptures are shown, by their ids."},
+        {"objects", &B::objects, identifier().left_out("all"), "Which objects are shown, by their ids."},
         {"materials", &B::materials, identifier().left_out("all"),
          "Which materials they have, by their ids."},
         {"stimuli", &B::stimuli, left_out("as each task says"),
          "Which stimuli the tasks are asked for in this block."},
         {"order", &B::order,
          "Random: every order that keeps to the limits is equally probable. Sequential: task by task, "
-         "sculpture by sculpture, material by material, as listed. Blocked: all trials of one level of the "
+         "object by object, material by material, as listed. Blocked: all trials of one level of the "
          "factor `by`, then all of the next; random within a level. Weighted: the levels of `by` come more "
          "or less often, by `weights`."},
         {"by", &B::by, "Factor by whose levels a blocked or weighted order goes."},
@@ -40,16 +39,16 @@ std::vector<Key> block() {
          "block begins afresh, and its order does not depend on any other block."},
         {"max_task_run", &B::max_task_run, limit,
          "Longest run of trials with the same task in this block; 0 for no limit."},
-        {"max_sculpture_run", &B::max_sculpture_run, limit,
-         "Longest run of trials with the same sculpture in this block; 0 for no limit."},
+        {"max_object_run", &B::max_object_run, limit,
+         "Longest run of trials with the same object in this block; 0 for no limit."},
         {"max_material_run", &B::max_material_run, limit,
          "Longest run of trials with the same material in this block; 0 for no limit."},
         {"max_stimulus_run", &B::max_stimulus_run, limit,
          "Longest run of trials with the same stimulus in this block; 0 for no limit."},
         {"min_task_distance", &B::min_task_distance, limit,
          "Least distance of trials with the same task in this block; 0 for no limit."},
-        {"min_sculpture_distance", &B::min_sculpture_distance, limit,
-         "Least distance of trials with the same sculpture in this block; 0 for no limit."},
+        {"min_object_distance", &B::min_object_distance, limit,
+         "Least distance of trials with the same object in this block; 0 for no limit."},
         {"min_material_distance", &B::min_material_distance, limit,
          "Least distance of trials with the same material in this block; 0 for no limit."},
         {"min_stimulus_distance", &B::min_stimulus_distance, limit,
@@ -67,7 +66,7 @@ std::vector<Key> group() {
         {"blocks", &G::blocks, identifier().left_out("all"),
          "Which blocks these observers do, by their ids."},
         {"tasks", &G::tasks, identifier().left_out("all"), "Which tasks they are asked."},
-        {"sculptures", &G::sculptures, identifier().left_out("all"), "Which sculptures they see."},
+        {"objects", &G::objects, identifier().left_out("all"), "Which objects they see."},
         {"materials", &G::materials, identifier().left_out("all"), "Which materials they see."},
     };
 }

@@ -6,7 +6,7 @@ std::vector<Key> practice() {
     using P = PracticeSettings;
     return {
         {"task", &P::task, identifier().required(), "Id of the task."},
-        {"sculpture", &P::sculpture, identifier().required(), "Id of the sculpture."},
+        {"object", &P::object, identifier().required(), "Id of the object."},
         {"material", &P::material, identifier().required(), "Id of the material."},
         {"block", &P::block, identifier().left_out("the first of the session"),
          "Id of the block that it comes before."},

@@ -66,16 +66,16 @@ std::filesystem::path frame_file(const FrameSequenceSettings& sequence, Animatio
     return numbered(sequence.files, sequence.first_number + frame.value);
 }
 
-std::filesystem::path lut_file(const SculptureSettings& sculpture, AnimationFrameIndex frame) {
-    return numbered(sculpture.lut, sculpture.lut_first_number + frame.value);
+std::filesystem::path lut_file(const ObjectSettings& object, AnimationFrameIndex frame) {
+    return numbered(object.lut, object.lut_first_number + frame.value);
 }
 
-const FrameSequenceSettings* find_frames(const Protocol& protocol, int sculpture, int material) {
-    const std::string& sculpture_id = protocol.sculptures.at(static_cast<std::size_t>(sculpture)).id;
+const FrameSequenceSettings* find_frames(const Protocol& protocol, int object, int material) {
+    const std::string& object_id = protocol.objects.at(static_cast<std::size_t>(object)).id;
     const std::string& material_id = protocol.materials.at(static_cast<std::size_t>(material)).id;
     const auto found = std::find_if(
         protocol.frames.begin(), protocol.frames.end(), [&](const FrameSequenceSettings& sequence) {
-            return sequence.sculpture == sculpture_id && sequence.material == material_id;
+            return sequence.object == object_id && sequence.material == material_id;
         });
     return found == protocol.frames.end() ? nullptr : &*found;
 }

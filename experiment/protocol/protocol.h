@@ -201,7 +201,7 @@ struct ViewSettings {
     /// Full angle over the height. Left out: the angle under which the observer sees the image on the screen.
     std::optional<double> vertical_fov_deg;
     double margin = 0.06;                      ///< share of the image left free where the camera is fitted
-    std::optional<glm::dvec3> camera_position; ///< left out: fitted for each sculpture
+    std::optional<glm::dvec3> camera_position; ///< left out: fitted for each object
     std::optional<glm::dvec3> camera_target;   ///< left out: the centre of the bounding box
 };
 
@@ -233,11 +233,11 @@ struct ScreenSettings {
     std::string farewell_text = "# Thank you\nThis is the end.";
 };
 
-/// [[sculpture]]
-struct SculptureSettings {
+/// [[object]]
+struct ObjectSettings {
     std::string id;
     std::string title;
-    std::string shipped;        ///< name of a sculpture that overt makes itself, or empty
+    std::string shipped;        ///< name of an object that overt makes itself, or empty
     std::filesystem::path mesh; ///< PLY, OBJ or STL, or empty; resolved against the protocol's folder
     std::string up = "z";       ///< axis of the file that points up: x, y, z, -x, -y, -z
     double scale = 1.0;
@@ -319,9 +319,9 @@ enum class FrameColours : std::uint8_t { display, rec709, xyz };
 template <>
 inline constexpr auto names_of<FrameColours> = enum_names<FrameColours>("display", "rec709", "xyz");
 
-/// [[frames]]: a ready-made animation for one sculpture in one material, instead of rendering it.
+/// [[frames]]: a ready-made animation for one object in one material, instead of rendering it.
 struct FrameSequenceSettings {
-    std::string sculpture;
+    std::string object;
     std::string material;
     std::string
         files; ///< path with # for the digits of the frame number; resolved against the protocol's folder
@@ -365,7 +365,7 @@ struct Protocol {
     std::vector<SimulatedEffect> simulated_effects;
     BreakSettings breaks;
     RepeatSettings repeat;
-    std::vector<SculptureSettings> sculptures;
+    std::vector<ObjectSettings> objects;
     std::vector<MaterialSettings> materials;
     std::vector<FrameSequenceSettings> frames;
 
@@ -384,11 +384,11 @@ Protocol protocol_of_further(const Protocol& protocol, std::size_t index);
 /// File of one frame of a ready-made animation: the #s of `files` replaced by the number, zeros in front.
 std::filesystem::path frame_file(const FrameSequenceSettings& sequence, AnimationFrameIndex frame);
 
-/// The same for the map of one frame, of a sculpture with ready-made maps.
-std::filesystem::path lut_file(const SculptureSettings& sculpture, AnimationFrameIndex frame);
+/// The same for the map of one frame, of an object with ready-made maps.
+std::filesystem::path lut_file(const ObjectSettings& object, AnimationFrameIndex frame);
 
-/// The ready-made frames of a sculpture in a material, or nullptr if they are to be rendered. Indices into
+/// The ready-made frames of an object in a material, or nullptr if they are to be rendered. Indices into
 /// the protocol's lists.
-const FrameSequenceSettings* find_frames(const Protocol& protocol, int sculpture, int material);
+const FrameSequenceSettings* find_frames(const Protocol& protocol, int object, int material);
 
 } // namespace overt

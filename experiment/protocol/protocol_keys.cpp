@@ -27,14 +27,14 @@ const KeyTable& protocol_keys() {
              "Fixations, saccades and blinks in the record, and by which thresholds the program tells them "
              "apart; see [events.md](events.md)."},
             {"view", &Protocol::view, view(),
-             "The image and its camera, the same for all stimuli. +z is up; a sculpture turns about the "
+             "The image and its camera, the same for all stimuli. +z is up; an object turns about the "
              "vertical through the middle of its bounding box."},
-            {"light", &Protocol::light, light(), "What surrounds the sculptures and is reflected in them."},
+            {"light", &Protocol::light, light(), "What surrounds the objects and is reflected in them."},
             {"bake", &Protocol::bake, bake(),
              "How stimuli are rendered that are not given as `[[frames]]`. `overt bake` does it, and keeps "
              "each frame; see [bake.md](bake.md)."},
             {"animation", &Protocol::animation, animation(),
-             "How the sculptures turn: to and fro about the vertical, as a sine."},
+             "How the objects turn: to and fro about the vertical, as a sine."},
             {"schedule", &Protocol::schedule, schedule(),
              "How many observers there will be, and what the order of their trials has to keep to. The "
              "limits hold within each block."},
@@ -78,7 +78,7 @@ const KeyTable& protocol_keys() {
              "random order. The limits of `[schedule]` hold in each block that does not set them itself, but "
              "for two cases, in which they would contradict what the block says: a sequential order has only "
              "limits of its own, and one blocked by a factor has none from there on this factor (by "
-             "stimulus: none on stimulus, sculpture and material)."},
+             "stimulus: none on stimulus, object and material)."},
             {"group", &Protocol::groups, group(),
              "A group of observers, for what differs between observers. Observers are assigned by their "
              "number: in turn, first to the first group, a group that is full being passed over. Squares and "
@@ -97,12 +97,12 @@ const KeyTable& protocol_keys() {
              "How simulated observers differ from one another, as people do."},
             {"simulated_effect", &Protocol::simulated_effects, simulated_effect(),
              "What the gaze of simulated observers depends on besides the task: effects of known size for a "
-             "study to find. Each holds in the trials with its task, sculpture and material; several can "
+             "study to find. Each holds in the trials with its task, object and material; several can "
              "hold in one trial."},
-            {"sculpture",
-             &Protocol::sculptures,
-             sculpture(),
-             "A thing to look at: one of the sculptures that overt makes itself (`shipped`), or one of yours "
+            {"object",
+             &Protocol::objects,
+             object(),
+             "A thing to look at: one of the objects that overt makes itself (`shipped`), or one of yours "
              "(`mesh`, or ready-made maps, `lut`). At least one.",
              {{"head",
                {},
@@ -110,9 +110,9 @@ const KeyTable& protocol_keys() {
                "Which part of a mesh is the head: inside any of the spheres, and in front of all of the "
                "planes. Coordinates are those of the mesh file; with `lut`, those of the maps."}}},
             {"material", &Protocol::materials, material(),
-             "What every sculpture is made of in turn. At least one."},
+             "What every object is made of in turn. At least one."},
             {"frames", &Protocol::frames, frames(),
-             "A ready-made animation of one sculpture in one material, shown instead of rendering it."},
+             "A ready-made animation of one object in one material, shown instead of rendering it."},
             {"words", &Protocol::words, words(),
              "What the program itself says on the screen, to be written in the language of the lab. The keys "
              "it names are those of `[operator]`."},

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "experiment/keys/key_walk.h"
+#include "experiment/protocol/old_words.h"
 #include "experiment/protocol/protocol_keys.h"
 #include "experiment/protocol/protocol_sources.h"
 #include "experiment/scene/metal_table.h"
@@ -30,17 +31,17 @@ void complete(Protocol& protocol) {
     for (std::size_t i = 0; i < protocol.observer_fields.size(); ++i)
         complete_field(protocol.observer_fields[i],
                        protocol.places.is_written(fmt::format("observer_field[{}].kind", i)));
-    for (std::size_t i = 0; i < protocol.sculptures.size(); ++i) {
-        SculptureSettings& sculpture = protocol.sculptures[i];
-        const auto folder = folder_of(protocol, fmt::format("sculpture[{}]", i));
-        if (sculpture.title.empty())
-            sculpture.title = sculpture.id;
-        if (!sculpture.mesh.empty())
-            sculpture.mesh = folder / sculpture.mesh;
-        if (!sculpture.labels.empty())
-            sculpture.labels = folder / sculpture.labels;
-        if (!sculpture.lut.empty())
-            sculpture.lut = (folder / sculpture.lut).string();
+    for (std::size_t i = 0; i < protocol.objects.size(); ++i) {
+        ObjectSettings& object = protocol.objects[i];
+        const auto folder = folder_of(protocol, fmt::format("object[{}]", i));
+        if (object.title.empty())
+            object.title = object.id;
+        if (!object.mesh.empty())
+            object.mesh = folder / object.mesh;
+        if (!object.labels.empty())
+            object.labels = folder / object.labels;
+        if (!object.lut.empty())
+            object.lut = (folder / object.lut).string();
     }
     for (std::size_t i = 0; i < protocol.materials.size(); ++i) {
         MaterialSettings& material = protocol.materials[i];
@@ -70,6 +71,7 @@ bool read_written_keys(ProtocolExamination& examination, std::string_view text, 
     diagnostics.quote_from(protocol.file.string(), text);
     JoinedToml joined = read_joined_toml(text, protocol.file, reader, diagnostics);
     protocol.included = std::move(joined.included);
+    put_todays_words(joined.toml, protocol.file.string(), diagnostics);
     KeyWalk(protocol_keys(), protocol.file.string(), protocol.places, examination.faulty, diagnostics)
         .read(joined.toml, protocol);
     complete(protocol);

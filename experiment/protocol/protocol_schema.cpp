@@ -40,9 +40,9 @@ Json section_schema(const Section& section) {
 void narrow(Json& properties) {
     properties["answers"]["properties"]["bits"]["enum"] = {16, 24};
     Json shipped = Json::array();
-    for (const SculptureDescription& sculpture : shipped_sculptures())
-        shipped.push_back(sculpture.name);
-    properties["sculpture"]["items"]["properties"]["shipped"]["enum"] = std::move(shipped);
+    for (const SculptureDescription& object : shipped_sculptures())
+        shipped.push_back(object.name);
+    properties["object"]["items"]["properties"]["shipped"]["enum"] = std::move(shipped);
     properties["frames"]["items"]["properties"]["files"]["pattern"] = "^[^#]*#+[^#]*$";
 }
 

@@ -16,7 +16,7 @@ namespace {
 
 using Values = std::map<std::string_view, std::string_view>; ///< by key, as TOML
 
-/// What a beginner has to look at: an ordinary monitor, two sculptures in two materials, two questions.
+/// What a beginner has to look at: an ordinary monitor, two objects in two materials, two questions.
 const std::map<std::string_view, std::vector<Values>>& starter_values() {
     static const std::map<std::string_view, std::vector<Values>> values{
         {"protocol", {{{"title", "\"A new experiment\""}}}},
@@ -33,22 +33,22 @@ const std::map<std::string_view, std::vector<Values>>& starter_values() {
         {"tracker", {{{"rate_hz", "1000"}}}},
         {"light", {{{"probe", "\"gallery\""}}}},
         {"consent",
-         {{{"text", "\"You will look at sculptures on a screen, and your eyes are recorded.\\n"
+         {{{"text", "\"You will look at objects on a screen, and your eyes are recorded.\\n"
                     "You may stop at any time.\\n\\nDo you agree to take part?\""}}}},
         {"instructions",
-         {{{"pages", "[\"Before each sculpture you read what to look for.\", "
+         {{{"pages", "[\"Before each object you read what to look for.\", "
                      "\"Look at the dot when it appears. Answer aloud, then press the space bar.\"]"}}}},
         {"answers", {{{"record", "\"optional\""}}}},
         {"observer_field",
          {{{"id", "\"age\""}}, {{"id", "\"sex\""}}, {{"id", "\"vision\""}}, {{"id", "\"handedness\""}}}},
         {"animation", {{{"duration_s", "4"}}}},
-        {"schedule", {{{"observers", "4"}, {"max_sculpture_run", "2"}}}},
+        {"schedule", {{{"observers", "4"}, {"max_object_run", "2"}}}},
         {"task",
-         {{{"id", "\"free\""}, {"question", "\"Look at the sculpture as you like.\""}},
+         {{{"id", "\"free\""}, {"question", "\"Look at the object as you like.\""}},
           {{"id", "\"age\""},
            {"question", "\"How old is this person?\""},
-           {"stimuli", "\"once-per-sculpture\""}}}},
-        {"sculpture",
+           {"stimuli", "\"once-per-object\""}}}},
+        {"object",
          {{{"id", "\"muse\""}, {"title", "\"Muse\""}, {"shipped", "\"muse\""}},
           {{"id", "\"scholar\""}, {"title", "\"Scholar\""}, {"shipped", "\"scholar\""}}}},
         {"material",
@@ -185,8 +185,8 @@ std::string short_protocol_starter(std::string_view name) {
                                    name);
     const std::string quoted = fmt::format("\"{}\"", name);
     // What a session needs, and what has no default that fits most.
-    constexpr std::string_view kept[] = {"protocol",  "display",  "animation", "schedule",
-                                         "sculpture", "material", "task"};
+    constexpr std::string_view kept[] = {"protocol", "display",  "animation", "schedule",
+                                         "object",   "material", "task"};
     for (const Section& section : protocol_keys()) {
         if (std::find(std::begin(kept), std::end(kept), section.name) == std::end(kept))
             continue;

@@ -13,17 +13,17 @@ std::vector<Key> simulated_effect() {
     using E = SimulatedEffect;
     return {
         {"task", &E::task, identifier().left_out("any"), "Id of the task."},
-        {"sculpture", &E::sculpture, identifier().left_out("any"), "Id of the sculpture."},
+        {"object", &E::object, identifier().left_out("any"), "Id of the object."},
         {"material", &E::material, identifier().left_out("any"), "Id of the material."},
         {"head_odds", &E::head_odds, range(0.001, 1000),
          "How many times the odds of the task's `simulated_head_share` those of a fixation on the head are; "
          "1: the same."},
         {"spot_share", &E::spot_share, range(0, 1),
-         "Share of the fixations that go to one spot of each sculpture, the effect's own and the same for "
+         "Share of the fixations that go to one spot of each object, the effect's own and the same for "
          "all observers, instead of to its head or elsewhere."},
         {"spread", &E::spread, range(-4, 1.2),
          "How widely the fixations that go to no spot lie, and so their WSS: places at r times the usual "
-         "distance from the sculpture's middle are looked at exp(spread * r^2) times as often as their area "
+         "distance from the object's middle are looked at exp(spread * r^2) times as often as their area "
          "says; 0: by area alone. `overt power --effect wss:…` tells which spread makes a ratio of WSS."},
     };
 }

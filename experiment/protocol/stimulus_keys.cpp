@@ -12,7 +12,7 @@ constexpr std::string_view axes[] = {"x", "y", "z", "-x", "-y", "-z"};
 } // namespace
 
 std::vector<Key> head() {
-    using S = SculptureSettings;
+    using S = ObjectSettings;
     return {
         {"spheres", &S::head_spheres, left_out("the mesh has no head"), "Middle and radius of each sphere."},
         {"planes", &S::head_planes, left_out("nothing is cut off"),
@@ -38,8 +38,8 @@ std::vector<Key> view() {
          range(0.1, 170, "deg").left_out("the angle under which the observer sees the image"),
          "The camera's full angle over the height of the image."},
         {"margin", &V::margin, range(0, 0.45),
-         "Share of the image left free on each side where the camera is fitted to a sculpture."},
-        {"camera_position", &V::camera_position, left_out("fitted to each sculpture"),
+         "Share of the image left free on each side where the camera is fitted to an object."},
+        {"camera_position", &V::camera_position, left_out("fitted to each object"),
          "Where the camera stands, in the unit of the mesh."},
         {"camera_target", &V::camera_target, left_out("the middle of the bounding box"),
          "What the camera looks at."},
@@ -81,13 +81,13 @@ std::vector<Key> animation() {
     };
 }
 
-std::vector<Key> sculpture() {
-    using S = SculptureSettings;
+std::vector<Key> object() {
+    using S = ObjectSettings;
     return {
         {"id", &S::id, identifier().required(), "Short name, used in file names and tables."},
         {"title", &S::title, left_out("the id"), "Name for figures and reports."},
         {"shipped", &S::shipped, left_out("see `mesh` and `lut`"),
-         "A sculpture that overt makes itself, its head being known: \"muse\", \"runner\" or \"scholar\"."},
+         "An object that overt makes itself, its head being known: \"muse\", \"runner\" or \"scholar\"."},
         {"mesh", &S::mesh, left_out("see `shipped` and `lut`"),
          "A PLY, OBJ or STL file of triangles, by its path from the protocol's folder."},
         {"up", &S::up, one_of(axes), "The axis of the mesh file that points up."},
@@ -106,7 +106,7 @@ std::vector<Key> sculpture() {
          "Vertices of the mesh that are no farther apart than this share of the diagonal of its box are one: "
          "what some programs write for a corner differs by rounding. 0: only those at the very same place."},
         {"lut", &S::lut, left_out("maps are made from the mesh"),
-         "Instead of a mesh, for a sculpture whose `[[frames]]` another program rendered: the "
+         "Instead of a mesh, for an object whose `[[frames]]` another program rendered: the "
          "coordinate-encoded maps that it made of them, with # for the digits of the number: "
          "\"maps/frame_####.png\". See docs/coordinate_maps.md."},
         {"lut_first_number", &S::lut_first_number, range(0, 1000000), "Number of the first map's file."},
@@ -149,12 +149,12 @@ std::vector<Key> material() {
         {"coat_absorbance", &M::coat_absorbance, range(0, 100),
          "Optical depth of the coat in red, green and blue, for one pass of its nominal thickness."},
         {"coat_thickness", &M::coat_thickness, range(0.0001, 0.1),
-         "Nominal thickness of the coat, as share of half the sculpture's height."},
+         "Nominal thickness of the coat, as share of half the object's height."},
         {"coat_bump", &M::coat_bump, range(0, 0.2),
-         "Height of the coat's bumps, as share of half the sculpture's height; the coat is nowhere thinner "
+         "Height of the coat's bumps, as share of half the object's height; the coat is nowhere thinner "
          "than a tenth of its nominal thickness."},
         {"coat_bump_width", &M::coat_bump_width, range(0.005, 2),
-         "From one bump to the next, as share of half the sculpture's height."},
+         "From one bump to the next, as share of half the object's height."},
         {"coat_seed", &M::coat_seed, range(0, 2147483647), "Another number, other bumps."},
         {"reflectance", &M::reflectance, range(0, 1),
          "Share of red, green and blue light that a matt surface returns."},

@@ -54,7 +54,7 @@ template <class Items> bool is_index(int index, const Items& items) {
 }
 
 bool is_condition(const Condition& condition, const SessionHeader& header) {
-    return is_index(condition.sculpture, header.sculptures) && is_index(condition.material, header.materials);
+    return is_index(condition.object, header.objects) && is_index(condition.material, header.materials);
 }
 
 bool is_label(const std::string& label) {
@@ -83,21 +83,20 @@ void check_header(const SessionHeader& header, const std::filesystem::path& file
     // They name folders and files of exports, and files that are read.
     // An imported session may have none.
     demand(header.protocol.name.empty() || is_plain_name(header.protocol.name), "the protocol's name");
-    for (const RecordedSculpture& sculpture : header.sculptures)
-        demand(is_plain_name(sculpture.id) &&
-                   (sculpture.mesh_file.empty() || stays_inside(sculpture.mesh_file)),
-               fmt::format("the id or the mesh file of sculpture \"{}\"", sculpture.id));
+    for (const RecordedObject& object : header.objects)
+        demand(is_plain_name(object.id) && (object.mesh_file.empty() || stays_inside(object.mesh_file)),
+               fmt::format("the id or the mesh file of object \"{}\"", object.id));
     for (const RecordedMap& map : header.maps) {
         demand(stays_inside(map.file), fmt::format("the map file \"{}\"", map.file));
-        demand(is_index(map.sculpture, header.sculptures) && is_index(map.pose.value, header.poses.angles),
-               fmt::format("the sculpture or the pose of map \"{}\"", map.file));
+        demand(is_index(map.object, header.objects) && is_index(map.pose.value, header.poses.angles),
+               fmt::format("the object or the pose of map \"{}\"", map.file));
     }
     for (const RecordedStimulus& stimulus : header.stimuli)
-        demand(is_condition(stimulus.condition, header), "the sculpture or the material of a stimulus");
+        demand(is_condition(stimulus.condition, header), "the object or the material of a stimulus");
     for (const Trial& trial : header.schedule.trials)
         demand(is_index(trial.task, header.tasks) && is_condition(trial.condition, header) &&
                    (header.blocks.empty() || is_index(trial.block, header.blocks)),
-               fmt::format("the task, sculpture, material or block of planned trial {}", trial.index + 1));
+               fmt::format("the task, object, material or block of planned trial {}", trial.index + 1));
     const auto have_plain_names = [](const auto& entries) {
         return std::ranges::all_of(entries, [](const auto& entry) { return is_plain_name(entry.id); });
     };

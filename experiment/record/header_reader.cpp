@@ -48,7 +48,7 @@ void read_dataset(const SQLite::Database& database, SessionHeader& header) {
 }
 
 void read_design(const SQLite::Database& database, SessionHeader& header) {
-    for (Query row(database, "SELECT trial, task, sculpture, material FROM schedule ORDER BY trial");
+    for (Query row(database, "SELECT trial, task, object, material FROM schedule ORDER BY trial");
          row.step();)
         header.schedule.trials.push_back({row.small(), row.small(), {row.small(), row.small()}});
     read_blocks(database, header);
@@ -63,21 +63,21 @@ void read_design(const SQLite::Database& database, SessionHeader& header) {
         header.poses.of_frame.push_back({row.small()});
 }
 
-void read_sculptures(const SQLite::Database& database, SessionHeader& header) {
-    header.sculptures = read_table(database, sculpture_table());
-    for (Query row(database, "SELECT sculpture, name FROM part ORDER BY sculpture, part"); row.step();) {
-        const auto sculpture = static_cast<std::size_t>(row.small());
-        if (sculpture >= header.sculptures.size())
-            throw RecordError(fmt::format("table part: there is no sculpture {}", sculpture));
-        header.sculptures[sculpture].part_names.push_back(row.text());
+void read_objects(const SQLite::Database& database, SessionHeader& header) {
+    header.objects = read_table(database, object_table());
+    for (Query row(database, "SELECT object, name FROM part ORDER BY object, part"); row.step();) {
+        const auto object = static_cast<std::size_t>(row.small());
+        if (object >= header.objects.size())
+            throw RecordError(fmt::format("table part: there is no object {}", object));
+        header.objects[object].part_names.push_back(row.text());
     }
-    for (Query row(database, "SELECT sculpture, material, source, frames_sha256 FROM stimulus"); row.step();)
+    for (Query row(database, "SELECT object, material, source, frames_sha256 FROM stimulus"); row.step();)
         header.stimuli.push_back({{row.small(), row.small()}, row.text(), row.text()});
     // In version 1 all maps were of triangles.
     Query version(database, "PRAGMA user_version");
     const bool has_kind = version.step() && version.small() >= 2;
-    for (Query row(database, has_kind ? "SELECT sculpture, pose, file, sha256, made, kind FROM map"
-                                      : "SELECT sculpture, pose, file, sha256, made, 'triangles' FROM map");
+    for (Query row(database, has_kind ? "SELECT object, pose, file, sha256, made, kind FROM map"
+                                      : "SELECT object, pose, file, sha256, made, 'triangles' FROM map");
          row.step();)
         header.maps.push_back(
             {row.small(),
@@ -98,7 +98,7 @@ SessionHeader read_session_header(const SQLite::Database& database) {
     SessionHeader& header = rows.front();
     read_characterisation(database, header);
     read_design(database, header);
-    read_sculptures(database, header);
+    read_objects(database, header);
     // Imports of earlier programs have the motion of a protocol, which nothing went through, and one pose.
     if (knows_no_stimulus(header) && header.poses.of_frame.size() == 1)
         header.animation = no_animation;

@@ -13,7 +13,7 @@ using Header = SessionHeader;
 using Display = RecordedDisplay;
 using Screen = ScreenGeometry;
 using Light = RecordedCharacterisation;
-using Sculpture = RecordedSculpture;
+using Object = RecordedObject;
 
 constexpr const char* only_row = "id INTEGER PRIMARY KEY CHECK (id = 1)";
 
@@ -107,34 +107,34 @@ constexpr RowColumn<RecordedCharacterisation> light_columns[] = {
     column<&Light::primaries_xyz, 2, 2>("blue_z", "likewise"),
 };
 
-/// A sculpture, its camera, and the box by which its maps are coded.
-constexpr RowColumn<RecordedSculpture> sculpture_columns[] = {
-    column<&Sculpture::id>("id", "its id in the protocol"),
-    column<&Sculpture::title>("title", "its title"),
-    column<&Sculpture::mesh_sha256>("mesh_sha256", "SHA-256 of the mesh"),
-    column<&Sculpture::mesh_file>("mesh_file", "relative to the directory; empty if it has no mesh"),
-    column<&Sculpture::camera, &Camera::position, 0>(
+/// An object, its camera, and the box by which its maps are coded.
+constexpr RowColumn<RecordedObject> object_columns[] = {
+    column<&Object::id>("id", "its id in the protocol"),
+    column<&Object::title>("title", "its title"),
+    column<&Object::mesh_sha256>("mesh_sha256", "SHA-256 of the mesh"),
+    column<&Object::mesh_file>("mesh_file", "relative to the directory; empty if it has no mesh"),
+    column<&Object::camera, &Camera::position, 0>(
         "camera_x", "where the camera stands; up is +z; without a mesh what ready-made maps say of it"),
-    column<&Sculpture::camera, &Camera::position, 1>("camera_y", "likewise"),
-    column<&Sculpture::camera, &Camera::position, 2>("camera_z", "likewise"),
-    column<&Sculpture::camera, &Camera::target, 0>("target_x", "where it looks"),
-    column<&Sculpture::camera, &Camera::target, 1>("target_y", "likewise"),
-    column<&Sculpture::camera, &Camera::target, 2>("target_z", "likewise"),
-    column<&Sculpture::camera, &Camera::vertical_fov>(
+    column<&Object::camera, &Camera::position, 1>("camera_y", "likewise"),
+    column<&Object::camera, &Camera::position, 2>("camera_z", "likewise"),
+    column<&Object::camera, &Camera::target, 0>("target_x", "where it looks"),
+    column<&Object::camera, &Camera::target, 1>("target_y", "likewise"),
+    column<&Object::camera, &Camera::target, 2>("target_z", "likewise"),
+    column<&Object::camera, &Camera::vertical_fov>(
         "vertical_fov_deg", "full angle over the image's height; 0 if ready-made maps say nothing of it"),
-    column<&Sculpture::axis_point, 0>("axis_x", "a point of the vertical axis of the turn"),
-    column<&Sculpture::axis_point, 1>("axis_y", "likewise"),
-    column<&Sculpture::axis_point, 2>("axis_z", "likewise"),
-    column<&Sculpture::bounds, &Bounds::min, 0>("min_x", "the box by which maps are coded"),
-    column<&Sculpture::bounds, &Bounds::min, 1>("min_y", "likewise"),
-    column<&Sculpture::bounds, &Bounds::min, 2>("min_z", "likewise"),
-    column<&Sculpture::bounds, &Bounds::max, 0>("max_x", "its other corner"),
-    column<&Sculpture::bounds, &Bounds::max, 1>("max_y", "likewise"),
-    column<&Sculpture::bounds, &Bounds::max, 2>("max_z", "likewise"),
-    column<&Sculpture::unit>("unit",
-                             "of all lengths of the sculpture: `mm`; `own` if that of its mesh is "
-                             "unknown; empty if not recorded",
-                             "''"),
+    column<&Object::axis_point, 0>("axis_x", "a point of the vertical axis of the turn"),
+    column<&Object::axis_point, 1>("axis_y", "likewise"),
+    column<&Object::axis_point, 2>("axis_z", "likewise"),
+    column<&Object::bounds, &Bounds::min, 0>("min_x", "the box by which maps are coded"),
+    column<&Object::bounds, &Bounds::min, 1>("min_y", "likewise"),
+    column<&Object::bounds, &Bounds::min, 2>("min_z", "likewise"),
+    column<&Object::bounds, &Bounds::max, 0>("max_x", "its other corner"),
+    column<&Object::bounds, &Bounds::max, 1>("max_y", "likewise"),
+    column<&Object::bounds, &Bounds::max, 2>("max_z", "likewise"),
+    column<&Object::unit>("unit",
+                          "of all lengths of the object: `mm`; `own` if that of its mesh is "
+                          "unknown; empty if not recorded",
+                          "''"),
 };
 
 } // namespace
@@ -143,8 +143,6 @@ RowTable<SessionHeader> session_table() { return {"session", only_row, session_c
 RowTable<RecordedCharacterisation> characterisation_table() {
     return {"characterisation", only_row, light_columns};
 }
-RowTable<RecordedSculpture> sculpture_table() {
-    return {"sculpture", "sculpture INTEGER PRIMARY KEY", sculpture_columns};
-}
+RowTable<RecordedObject> object_table() { return {"object", "object INTEGER PRIMARY KEY", object_columns}; }
 
 } // namespace overt

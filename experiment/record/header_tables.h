@@ -8,6 +8,6 @@ namespace overt {
 
 RowTable<SessionHeader> session_table();
 RowTable<RecordedCharacterisation> characterisation_table();
-RowTable<RecordedSculpture> sculpture_table();
+RowTable<RecordedObject> object_table();
 
 } // namespace overt

@@ -19,7 +19,7 @@ void insert_characterisation(SQLite::Database& database, const RecordedCharacter
 
 void insert_design(SQLite::Database& database, const SessionHeader& header) {
     for (const Trial& trial : header.schedule.trials)
-        insert_values(database, "INTO schedule", trial.index, trial.task, trial.condition.sculpture,
+        insert_values(database, "INTO schedule", trial.index, trial.task, trial.condition.object,
                       trial.condition.material, trial.block);
     int index = 0;
     for (const std::string& block : header.blocks)
@@ -44,20 +44,20 @@ void insert_design(SQLite::Database& database, const SessionHeader& header) {
         insert_values(database, "INTO animation_frame", index++, pose.value);
 }
 
-void insert_sculptures(SQLite::Database& database, const SessionHeader& header) {
+void insert_objects(SQLite::Database& database, const SessionHeader& header) {
     int index = 0;
-    for (const RecordedSculpture& sculpture : header.sculptures) {
-        insert_row(database, sculpture_table(), index, sculpture);
+    for (const RecordedObject& object : header.objects) {
+        insert_row(database, object_table(), index, object);
         int part = 0;
-        for (const std::string& name : sculpture.part_names)
+        for (const std::string& name : object.part_names)
             insert_values(database, "INTO part", index, part++, name);
         ++index;
     }
     for (const RecordedStimulus& stimulus : header.stimuli)
-        insert_values(database, "INTO stimulus", stimulus.condition.sculpture, stimulus.condition.material,
+        insert_values(database, "INTO stimulus", stimulus.condition.object, stimulus.condition.material,
                       stimulus.source, stimulus.frames_sha256);
     for (const RecordedMap& map : header.maps)
-        insert_values(database, "INTO map", map.sculpture, map.pose.value, map.file, map.sha256,
+        insert_values(database, "INTO map", map.object, map.pose.value, map.file, map.sha256,
                       map.made == RecordedMap::Made::prepared ? "prepared" : "live",
                       map.kind == RecordedMap::Kind::triangles ? "triangles" : "coordinates");
 }
@@ -79,7 +79,7 @@ void create_session_file(const std::filesystem::path& file, const SessionHeader&
         if (header.characterisation)
             insert_characterisation(database, *header.characterisation);
         insert_design(database, header);
-        insert_sculptures(database, header);
+        insert_objects(database, header);
         SealWriter(database).begin(0);
         transaction.commit();
     } catch (const SQLite::Exception& reason) {

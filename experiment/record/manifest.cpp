@@ -60,13 +60,13 @@ SessionManifest new_manifest(const fs::path& folder, const SessionHeader& header
     manifest.protocol = header.protocol.name;
     manifest.observer = header.schedule.observer.label;
     manifest.session_number = header.session_number;
-    for (const RecordedSculpture& sculpture : header.sculptures)
-        if (!sculpture.mesh_sha256.empty())
-            manifest.inputs.push_back({"mesh " + sculpture.id, sculpture.mesh_sha256});
+    for (const RecordedObject& object : header.objects)
+        if (!object.mesh_sha256.empty())
+            manifest.inputs.push_back({"mesh " + object.id, object.mesh_sha256});
     for (const RecordedStimulus& stimulus : header.stimuli)
         manifest.inputs.push_back(
             {fmt::format("frames {}/{}",
-                         header.sculptures.at(static_cast<std::size_t>(stimulus.condition.sculpture)).id,
+                         header.objects.at(static_cast<std::size_t>(stimulus.condition.object)).id,
                          header.materials.at(static_cast<std::size_t>(stimulus.condition.material)).id),
              stimulus.frames_sha256});
     if (header.characterisation)

@@ -11,8 +11,8 @@ inline constexpr Animation no_animation{
 
 /// Whether nothing was shown, as far as the session knows: it has neither stimuli nor maps nor meshes.
 inline bool knows_no_stimulus(const SessionHeader& header) {
-    for (const RecordedSculpture& sculpture : header.sculptures)
-        if (!sculpture.mesh_file.empty())
+    for (const RecordedObject& object : header.objects)
+        if (!object.mesh_file.empty())
             return false;
     return header.stimuli.empty() && header.maps.empty();
 }

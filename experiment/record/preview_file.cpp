@@ -9,7 +9,7 @@ namespace overt {
 namespace {
 
 std::string stimulus_file(const SessionHeader& header, const Condition& condition, std::string_view ending) {
-    return fmt::format("stimuli/{}_{}{}", header.sculptures[static_cast<std::size_t>(condition.sculpture)].id,
+    return fmt::format("stimuli/{}_{}{}", header.objects[static_cast<std::size_t>(condition.object)].id,
                        header.materials[static_cast<std::size_t>(condition.material)].id, ending);
 }
 

@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "experiment/base/error.h"
+#include "experiment/record/old_names.h"
 #include "experiment/record/session_file.h"
 #include "experiment/record/session_schema.h"
 #include "experiment/record/sql.h"
@@ -57,7 +58,9 @@ void remake(SQLite::Database& database, const std::string& table, std::string st
                               fmt::join(kept, ", "), table));
 }
 
-/// Version 2 told in words what became of an attempt that failed.
+constexpr int first_version_with_fates = 3;
+
+/// Earlier versions told in words what became of an attempt that failed.
 void take_verdicts_from_events(SQLite::Database& database) {
     database.exec(R"sql(
 UPDATE trial SET comes_again = (
@@ -105,16 +108,27 @@ void keep_copy(const fs::path& file, const fs::path& copy) {
                                       copy.string(), error.message()));
 }
 
+int version_of(const SQLite::Database& database) {
+    Query row(database, "PRAGMA user_version");
+    return row.step() ? row.small() : 0;
+}
+
+void bring_to_today(SQLite::Database& database, int version) {
+    SQLite::Transaction transaction(database);
+    rename_to_today(database);
+    make_tables_of_today(database);
+    if (version < first_version_with_fates)
+        take_verdicts_from_events(database);
+    database.exec(fmt::format("PRAGMA user_version = {}", session_schema_version));
+    transaction.commit();
+}
+
 } // namespace
 
-std::optional<fs::path> migrate_session_file(const fs::path& file) {
+std::optional<fs::path> migrate_session_file(const fs::path& file, KeptCopy kept) {
     SQLite::Database database = open_session_file(file, SessionFileUse::write);
     try {
-        int version = 0;
-        {
-            Query row(database, "PRAGMA user_version");
-            version = row.step() ? row.small() : 0;
-        }
+        const int version = version_of(database);
         if (version >= session_schema_version)
             return std::nullopt;
         // What a killed program left in the log goes into the file, so that the copy is all of it.
@@ -123,13 +137,12 @@ std::optional<fs::path> migrate_session_file(const fs::path& file) {
                                           "brought to today's format: close it there, and try again.",
                                           file.string()));
         database.exec("PRAGMA synchronous = FULL; PRAGMA foreign_keys = OFF");
-        const fs::path copy = file.parent_path() / fmt::format("session.version-{}.sqlite", version);
-        keep_copy(file, copy);
-        SQLite::Transaction transaction(database);
-        make_tables_of_today(database);
-        take_verdicts_from_events(database);
-        database.exec(fmt::format("PRAGMA user_version = {}", session_schema_version));
-        transaction.commit();
+        std::optional<fs::path> copy;
+        if (kept == KeptCopy::beside_it) {
+            copy = file.parent_path() / fmt::format("session.version-{}.sqlite", version);
+            keep_copy(file, *copy);
+        }
+        bring_to_today(database, version);
         return copy;
     } catch (const SQLite::Exception& reason) {
         throw_record_error(file, "bringing the session to today's format", reason);

@@ -6,6 +6,7 @@
 #include <sqlite3.h>
 
 #include "experiment/base/error.h"
+#include "experiment/record/old_names.h"
 #include "experiment/record/session_schema.h"
 #include "experiment/record/sql.h"
 
@@ -32,11 +33,14 @@ void check_identity(const SQLite::Database& database, const std::filesystem::pat
                                       file.string(), version));
 }
 
-SQLite::Database open_for_reading(const std::filesystem::path& file) {
+SQLite::Database open_for_reading(const std::filesystem::path& file, SessionFileUse use) {
     SQLite::Database database(file.string(), SQLite::OPEN_READONLY);
     // Readers wait while a writer folds its file.
     database.setBusyTimeout(2'000);
     check_identity(database, file);
+    if (use == SessionFileUse::read &&
+        pragma(database, "PRAGMA user_version") < first_version_with_todays_names)
+        show_todays_names(database);
     return database;
 }
 
@@ -55,13 +59,13 @@ SQLite::Database open_session_file(const std::filesystem::path& file, SessionFil
     if (!std::filesystem::is_regular_file(file)) {
         const std::string missing = fmt::format("{}: there is no session file here.", file.string());
         // To be read, a session is named by the user; to be written, by the program that has just made it.
-        if (use == SessionFileUse::read)
+        if (use != SessionFileUse::write)
             throw InputError(missing);
         throw RecordError(missing);
     }
     try {
         try {
-            return use == SessionFileUse::write ? open_for_writing(file) : open_for_reading(file);
+            return use == SessionFileUse::write ? open_for_writing(file) : open_for_reading(file, use);
         } catch (const SQLite::Exception& reason) {
             if (use == SessionFileUse::write || reason.getExtendedErrorCode() != SQLITE_READONLY_ROLLBACK)
                 throw;
@@ -69,7 +73,7 @@ SQLite::Database open_session_file(const std::filesystem::path& file, SessionFil
         // A program that was killed while it changed the file itself (it does so when it begins and when it
         // ends) has left a journal with the bytes of before: SQLite puts them back for whoever may write.
         open_for_writing(file);
-        return open_for_reading(file);
+        return open_for_reading(file, use);
     } catch (const SQLite::Exception& reason) {
         throw_record_error(file, "opening the session", reason);
     }

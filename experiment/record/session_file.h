@@ -16,7 +16,11 @@ class NewerFormatError : public RecordError {
     using RecordError::RecordError;
 };
 
-enum class SessionFileUse { read, write };
+enum class SessionFileUse {
+    read,     ///< by today's names, whatever the file's format (old_names.h)
+    as_it_is, ///< to be read by the names that the file itself has
+    write
+};
 
 /// How long a writer waits for somebody who looks into the session with a tool that locks it: its ring holds
 /// what comes in meanwhile.

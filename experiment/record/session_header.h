@@ -96,7 +96,7 @@ struct RecordedTask {
     std::string question;
 };
 
-struct RecordedSculpture {
+struct RecordedObject {
     std::string id;
     std::string title;
     ContentHash mesh_sha256;
@@ -121,12 +121,12 @@ struct RecordedStimulus {
     ContentHash frames_sha256;
 };
 
-/// A coordinate-encoded map of a sculpture in a pose.
+/// A coordinate-encoded map of an object in a pose.
 struct RecordedMap {
     enum class Made : std::uint8_t { prepared, live };
     /// What its file holds: numbers of triangles (triangle_map.h), or coordinates (coordinate_image_file.h).
     enum class Kind : std::uint8_t { triangles, coordinates };
-    int sculpture = 0;
+    int object = 0;
     PoseIndex pose;
     std::string file; ///< relative to the session's directory
     ContentHash sha256;
@@ -159,7 +159,7 @@ struct SessionHeader {
     PoseTable poses;
     std::vector<std::string> blocks; ///< ids; none: the protocol has no blocks
     std::vector<RecordedTask> tasks;
-    std::vector<RecordedSculpture> sculptures;
+    std::vector<RecordedObject> objects;
     std::vector<RecordedMaterial> materials;
     std::vector<RecordedStimulus> stimuli;
     std::vector<RecordedMap> maps;

@@ -13,23 +13,23 @@ namespace {
 // row: no uniqueness of refreshes, no foreign keys.
 const char* const session_schema_sql = R"sql(
 CREATE TABLE characterisation_file (n INTEGER PRIMARY KEY, name TEXT NOT NULL, text TEXT NOT NULL) STRICT;
-CREATE TABLE schedule (trial INTEGER PRIMARY KEY, task INTEGER NOT NULL, sculpture INTEGER NOT NULL,
+CREATE TABLE schedule (trial INTEGER PRIMARY KEY, task INTEGER NOT NULL, object INTEGER NOT NULL,
                        material INTEGER NOT NULL, block INTEGER NOT NULL DEFAULT 0) STRICT;
 CREATE TABLE block (block INTEGER PRIMARY KEY, id TEXT NOT NULL) STRICT;
 CREATE TABLE protocol_file (n INTEGER PRIMARY KEY, name TEXT NOT NULL, text TEXT NOT NULL,
                             sha256 TEXT NOT NULL) STRICT;
 CREATE TABLE task (task INTEGER PRIMARY KEY, id TEXT NOT NULL, question TEXT NOT NULL) STRICT;
-CREATE TABLE part (sculpture INTEGER NOT NULL, part INTEGER NOT NULL, name TEXT NOT NULL,
-                   PRIMARY KEY (sculpture, part)) STRICT, WITHOUT ROWID;
+CREATE TABLE part (object INTEGER NOT NULL, part INTEGER NOT NULL, name TEXT NOT NULL,
+                   PRIMARY KEY (object, part)) STRICT, WITHOUT ROWID;
 CREATE TABLE material (material INTEGER PRIMARY KEY, id TEXT NOT NULL, title TEXT NOT NULL) STRICT;
-CREATE TABLE stimulus (sculpture INTEGER NOT NULL, material INTEGER NOT NULL, source TEXT NOT NULL,
-                       frames_sha256 TEXT NOT NULL, PRIMARY KEY (sculpture, material)) STRICT, WITHOUT ROWID;
+CREATE TABLE stimulus (object INTEGER NOT NULL, material INTEGER NOT NULL, source TEXT NOT NULL,
+                       frames_sha256 TEXT NOT NULL, PRIMARY KEY (object, material)) STRICT, WITHOUT ROWID;
 CREATE TABLE pose (pose INTEGER PRIMARY KEY, angle_deg REAL NOT NULL) STRICT;
 CREATE TABLE animation_frame (frame INTEGER PRIMARY KEY, pose INTEGER NOT NULL) STRICT;
-CREATE TABLE map (sculpture INTEGER NOT NULL, pose INTEGER NOT NULL, file TEXT NOT NULL, sha256 TEXT NOT NULL,
+CREATE TABLE map (object INTEGER NOT NULL, pose INTEGER NOT NULL, file TEXT NOT NULL, sha256 TEXT NOT NULL,
                   made TEXT NOT NULL CHECK (made IN ('prepared', 'live')),
                   kind TEXT NOT NULL DEFAULT 'triangles' CHECK (kind IN ('triangles', 'coordinates')),
-                  PRIMARY KEY (sculpture, pose)) STRICT, WITHOUT ROWID;
+                  PRIMARY KEY (object, pose)) STRICT, WITHOUT ROWID;
 CREATE TABLE sitting (sitting INTEGER PRIMARY KEY, started_utc TEXT NOT NULL,
                       closed INTEGER NOT NULL,
                       resumed TEXT CHECK (resumed IN ('redo', 'skip', 'restart-block')),
@@ -37,7 +37,7 @@ CREATE TABLE sitting (sitting INTEGER PRIMARY KEY, started_utc TEXT NOT NULL,
 CREATE TABLE trial (
     trial_id INTEGER PRIMARY KEY, sitting INTEGER NOT NULL REFERENCES sitting,
     trial INTEGER NOT NULL, attempt INTEGER NOT NULL,
-    task INTEGER NOT NULL, sculpture INTEGER NOT NULL, material INTEGER NOT NULL,
+    task INTEGER NOT NULL, object INTEGER NOT NULL, material INTEGER NOT NULL,
     status TEXT NOT NULL CHECK (status IN ('open', 'completed', 'aborted', 'interrupted')),
     started_ns INTEGER NOT NULL,
     task_screen_onset_ns INTEGER, presentation_onset_ns INTEGER, presentation_end_ns INTEGER,
@@ -201,7 +201,7 @@ CREATE TABLE IF NOT EXISTS run_option (
 
 void make_session_tables(SQLite::Database& database) {
     for (const std::string& sql :
-         {create_sql(session_table()), create_sql(characterisation_table()), create_sql(sculpture_table())})
+         {create_sql(session_table()), create_sql(characterisation_table()), create_sql(object_table())})
         database.exec(sql);
     for (const char* const sql : {session_schema_sql, box_tables_sql, observer_tables_sql, ledger_tables_sql,
                                   gaze_tables_sql, device_tables_sql, option_tables_sql})

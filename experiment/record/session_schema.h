@@ -14,8 +14,9 @@ namespace overt {
 inline constexpr std::int32_t session_application_id = 0x4f767274;
 
 /// PRAGMA user_version. Raised whenever a reader of an older version would misread the file: 2 has maps of
-/// coordinates, 3 attempts that are completed and do not count. See schema_migration.h.
-inline constexpr int session_schema_version = 3;
+/// coordinates, 3 attempts that are completed and do not count, 4 names of tables and columns that were others
+/// (old_names.h). See schema_migration.h.
+inline constexpr int session_schema_version = 4;
 
 /// Sessions of earlier versions have no chain of seals (seal_chain.h).
 inline constexpr int first_version_with_seals = 3;

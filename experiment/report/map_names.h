@@ -21,14 +21,14 @@ inline std::string words_of_keys(const std::vector<StudyKey>& keys) {
     return words.empty() ? "all" : words;
 }
 
-/// How large a sculpture with a known scale was shown, for files that are in its own millimetres.
-inline std::string shown_size_words(const StudySculpture& sculpture) {
-    const double size = sculpture.shown_size.value_or(1.0);
-    return sculpture.unit == "mm"
+/// How large an object with a known scale was shown, for files that are in its own millimetres.
+inline std::string shown_size_words(const StudyObject& object) {
+    const double size = object.shown_size.value_or(1.0);
+    return object.unit == "mm"
                ? fmt::format("{:.6g} times as large as the object, on the display", size)
                : fmt::format("as large as the object, on the display: the unit of the mesh is not known, and "
                              "the object is taken to be as large as its picture, {:.9g} mm for a unit",
-                             sculpture.mm_per_unit.value_or(1.0));
+                             object.mm_per_unit.value_or(1.0));
 }
 
 /// A cell of a comma-separated table, in quotes (RFC 4180).

@@ -51,7 +51,7 @@ Json json_of_trials(const StudyResults& results) {
         }
         trials.push_back({{"label", trial.label},
                           {"session", trial.session},
-                          {"sculpture", trial.sculpture},
+                          {"object", trial.object},
                           {"number", trial.number},
                           {"keys", json_of(trial.keys)},
                           {"seconds", number(trial.presentation_s)},
@@ -194,7 +194,7 @@ nlohmann::ordered_json report_data(const StudyResults& results) {
             {"session_quality", quality},
             {"reporting", reporting},
             {"methods", methods},
-            {"sculptures", std::move(maps.sculptures)},
+            {"objects", std::move(maps.objects)},
             {"groups", groups},
             {"maps", std::move(maps.maps)},
             {"differences", std::move(maps.differences)},

@@ -19,18 +19,18 @@ double highest_of(const std::vector<float>& values) {
     return values.empty() ? 0.0 : static_cast<double>(*std::max_element(values.begin(), values.end()));
 }
 
-/// The mesh that the page shows of a sculpture.
+/// The mesh that the page shows of an object.
 // NOLINTNEXTLINE(bugprone-exception-escape): JSON that is moved throws nothing
 struct ShownMesh {
     std::vector<std::uint32_t> vertices; ///< of the study's mesh
     Json json;
 };
 
-ShownMesh shown_mesh(const StudySculpture& sculpture, std::size_t most_vertices) {
+ShownMesh shown_mesh(const StudyObject& object, std::size_t most_vertices) {
     ShownMesh shown;
-    if (!sculpture.mesh || sculpture.mesh->triangles.empty())
+    if (!object.mesh || object.mesh->triangles.empty())
         return shown;
-    const Mesh& mesh = *sculpture.mesh;
+    const Mesh& mesh = *object.mesh;
     const SurfaceGeometry geometry(mesh);
     const CoarseSurface coarse(geometry, most_vertices);
     std::vector<std::uint32_t> vertex_of_node(geometry.node_count(), 0);
@@ -59,8 +59,7 @@ ShownMesh shown_mesh(const StudySculpture& sculpture, std::size_t most_vertices)
                                                      is_small ? triangles.end() : triangles.begin());
     std::vector<std::uint8_t> visible;
     for (const std::uint32_t v : shown.vertices)
-        visible.push_back(v < sculpture.seconds_visible.size() && sculpture.seconds_visible[v] <= 0.0f ? 0
-                                                                                                       : 1);
+        visible.push_back(v < object.seconds_visible.size() && object.seconds_visible[v] <= 0.0f ? 0 : 1);
     shown.json = {{"vertices", shown.vertices.size()},
                   {"of", mesh.positions.size()},
                   {"low", json_of(bounds.min)},
@@ -92,9 +91,9 @@ std::string signed_bytes_of(const std::vector<float>& values, const ShownMesh& s
 Json json_of_maps(const StudyResults& results, const std::vector<ShownMesh>& shown) {
     Json maps = Json::array();
     for (const StudyMap& map : results.maps) {
-        const ShownMesh& mesh = shown[static_cast<std::size_t>(map.sculpture)];
+        const ShownMesh& mesh = shown[static_cast<std::size_t>(map.object)];
         Json json{{"group", map.group},
-                  {"sculpture", map.sculpture},
+                  {"object", map.object},
                   {"by", map.weighting == MapWeighting::duration ? "duration" : "count"},
                   {"peak", number(map.peak)},
                   {"mean", number(map.mean)},
@@ -124,7 +123,7 @@ Json json_of_maps(const StudyResults& results, const std::vector<ShownMesh>& sho
 Json json_of_differences(const StudyResults& results, const std::vector<ShownMesh>& shown) {
     Json differences = Json::array();
     for (const DifferenceMap& map : results.differences) {
-        const ShownMesh& mesh = shown[static_cast<std::size_t>(map.sculpture)];
+        const ShownMesh& mesh = shown[static_cast<std::size_t>(map.object)];
         double most = 0.0;
         for (const float value : map.difference)
             most = std::max(most, std::abs(static_cast<double>(value)));
@@ -139,7 +138,7 @@ Json json_of_differences(const StudyResults& results, const std::vector<ShownMes
                  {"p", number(cluster.p)},
                  {"p_all", number(cluster.p_of_all)}});
         Json json{{"keys", json_of(map.keys)},
-                  {"sculpture", map.sculpture},
+                  {"object", map.object},
                   {"column", map.column},
                   {"a", map.a},
                   {"b", map.b},
@@ -170,42 +169,41 @@ ReportMaps report_maps(const StudyResults& results) {
     const std::size_t maps = results.maps.size() + results.differences.size();
     const std::size_t vertices = std::clamp(most_map_bytes / std::max<std::size_t>(1, maps),
                                             least_report_vertices, most_report_vertices);
-    Json sculptures = Json::array();
+    Json objects = Json::array();
     std::vector<ShownMesh> shown;
-    for (const StudySculpture& sculpture : results.sculptures) {
-        shown.push_back(shown_mesh(sculpture, vertices));
-        sculptures.push_back(
-            {{"id", sculpture.id},
-             {"title", sculpture.title},
-             {"parts", sculpture.part_names},
-             {"camera", json_of(sculpture.camera.position)},
-             {"target", json_of(sculpture.camera.target)},
-             {"fov", sculpture.camera.vertical_fov.value},
-             {"axis", json_of(sculpture.axis_point)},
-             {"screen", {sculpture.screen.screen_px.x, sculpture.screen.screen_px.y}},
-             {"origin", {sculpture.screen.image_origin_px.x, sculpture.screen.image_origin_px.y}},
-             {"image", {sculpture.screen.image_px.x, sculpture.screen.image_px.y}},
-             {"px_per_deg", number(sculpture.screen.px_per_deg_at_centre())},
-             {"mm_per_unit", number(sculpture.mm_per_unit)},
-             {"shown_size", number(sculpture.shown_size)},
-             {"remark", sculpture.remark},
-             {"mesh", shown.back().json}});
+    for (const StudyObject& object : results.objects) {
+        shown.push_back(shown_mesh(object, vertices));
+        objects.push_back({{"id", object.id},
+                           {"title", object.title},
+                           {"parts", object.part_names},
+                           {"camera", json_of(object.camera.position)},
+                           {"target", json_of(object.camera.target)},
+                           {"fov", object.camera.vertical_fov.value},
+                           {"axis", json_of(object.axis_point)},
+                           {"screen", {object.screen.screen_px.x, object.screen.screen_px.y}},
+                           {"origin", {object.screen.image_origin_px.x, object.screen.image_origin_px.y}},
+                           {"image", {object.screen.image_px.x, object.screen.image_px.y}},
+                           {"px_per_deg", number(object.screen.px_per_deg_at_centre())},
+                           {"mm_per_unit", number(object.mm_per_unit)},
+                           {"shown_size", number(object.shown_size)},
+                           {"remark", object.remark},
+                           {"mesh", shown.back().json}});
         const ShownMesh& mesh = shown.back();
-        const std::size_t vertex_count = sculpture.mesh ? sculpture.mesh->positions.size() : 0;
+        const std::size_t vertex_count = object.mesh ? object.mesh->positions.size() : 0;
         if (mesh.vertices.empty())
             continue;
-        if (sculpture.exposure_density.size() == vertex_count) {
-            const double most = highest_of(sculpture.exposure_density);
-            sculptures.back()["exposure"] = {{"most", number(most)},
-                                             {"values", bytes_of(sculpture.exposure_density, mesh, most)}};
+        if (object.exposure_density.size() == vertex_count) {
+            const double most = highest_of(object.exposure_density);
+            objects.back()["exposure"] = {{"most", number(most)},
+                                          {"values", bytes_of(object.exposure_density, mesh, most)}};
         }
-        if (sculpture.seconds_visible.size() == vertex_count) {
-            const double most = highest_of(sculpture.seconds_visible);
-            sculptures.back()["seconds"] = {{"most", number(most)},
-                                            {"values", bytes_of(sculpture.seconds_visible, mesh, most)}};
+        if (object.seconds_visible.size() == vertex_count) {
+            const double most = highest_of(object.seconds_visible);
+            objects.back()["seconds"] = {{"most", number(most)},
+                                         {"values", bytes_of(object.seconds_visible, mesh, most)}};
         }
     }
-    return {std::move(sculptures), json_of_maps(results, shown), json_of_differences(results, shown)};
+    return {std::move(objects), json_of_maps(results, shown), json_of_differences(results, shown)};
 }
 
 } // namespace overt

@@ -1,4 +1,4 @@
-/// Sculptures and the maps on them as the page's JSON.
+/// Objects and the maps on them as the page's JSON.
 #pragma once
 
 #include "experiment/report/report_json.h"
@@ -7,7 +7,7 @@ namespace overt {
 
 /// Arrays, each entry with its values at the vertices of the mesh that is shown.
 struct ReportMaps {
-    Json sculptures, maps, differences;
+    Json objects, maps, differences;
 };
 
 /// Meshes are made coarser where all maps together would take more than 10 MB, and beyond

@@ -10,7 +10,7 @@
 
 namespace overt {
 
-/// Most vertices of a sculpture that the page shows; finer ones are simplified for it, and the page says so.
+/// Most vertices of an object that the page shows; finer ones are simplified for it, and the page says so.
 inline constexpr std::size_t most_report_vertices = 30000;
 
 /// What the page shows, with arrays as base64: the data that its script (assets/report/report.js) reads.

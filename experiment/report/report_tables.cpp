@@ -29,7 +29,7 @@ Json report_tables(const StudyResults& results) {
             variance_deg.push_back(number(row.variance_deg2[axis]));
         }
         distributions.push_back({{"group", row.group},
-                                 {"sculpture", row.sculpture},
+                                 {"object", row.object},
                                  {"wss", json_of(row.wss_mm2)},
                                  {"wss_deg", json_of(row.wss_deg2)},
                                  {"variance", variance},
@@ -80,7 +80,7 @@ Json report_tables(const StudyResults& results) {
                           {"fixations", row.fixations}});
     for (const MapPredictionRow& row : results.predictions)
         predictions.push_back({{"group", row.group},
-                               {"sculpture", row.sculpture},
+                               {"object", row.object},
                                {"by", name_of(row.by)},
                                {"level", row.level},
                                {"kl", json_of(row.kl)},
@@ -92,13 +92,13 @@ Json report_tables(const StudyResults& results) {
                                {"observers", row.observers}});
     for (const MapReliabilityRow& row : results.reliabilities)
         reliabilities.push_back({{"keys", json_of(row.keys)},
-                                 {"sculpture", row.sculpture},
+                                 {"object", row.object},
                                  {"split", json_of(row.split_half_cc)},
                                  {"reliability", json_of(row.reliability)},
                                  {"observers", row.observers},
                                  {"fixations", row.fixations}});
     for (const ExposureRow& row : results.exposures)
-        exposures.push_back({{"sculpture", row.sculpture},
+        exposures.push_back({{"object", row.object},
                              {"part", row.part},
                              {"area", number(row.area_mm2)},
                              {"share_of_area", number(row.share_of_area, 4)},

@@ -20,7 +20,7 @@ namespace {
 struct SurfaceFile {
     std::string name, title, quantity, kind;
     bool is_density; ///< per area, in mm^2
-    const StudySculpture* sculpture;
+    const StudyObject* object;
     const std::vector<float>* values;
     ColourMap colours;
     double low, high;
@@ -49,7 +49,7 @@ std::vector<std::array<std::uint8_t, 3>> colours_of(const SurfaceFile& file) {
     std::vector<std::array<std::uint8_t, 3>> colours;
     colours.reserve(file.values->size());
     for (std::size_t v = 0; v < file.values->size(); ++v) {
-        const std::vector<float>& visible = file.sculpture->seconds_visible;
+        const std::vector<float>& visible = file.object->seconds_visible;
         if (v < visible.size() && visible[v] <= 0.0f) {
             colours.push_back(never_visible);
             continue;
@@ -73,44 +73,43 @@ std::vector<SurfaceFile> files_of(const StudyResults& results) {
     }
     FileNames names;
     const auto add = [&](SurfaceFile file) {
-        const bool fits = file.sculpture->mesh && file.sculpture->mm_per_unit &&
-                          !file.sculpture->mesh->triangles.empty() &&
-                          file.values->size() == file.sculpture->mesh->positions.size();
+        const bool fits = file.object->mesh && file.object->mm_per_unit &&
+                          !file.object->mesh->triangles.empty() &&
+                          file.values->size() == file.object->mesh->positions.size();
         if (!fits)
             return;
         file.name = names.of(file.name);
         files.push_back(std::move(file));
     };
     for (const StudyMap& map : results.maps) {
-        const StudySculpture& sculpture = results.sculptures[static_cast<std::size_t>(map.sculpture)];
+        const StudyObject& object = results.objects[static_cast<std::size_t>(map.object)];
         if (map.weighting != MapWeighting::duration || map.density.empty())
             continue;
         const std::vector<StudyKey>& keys = results.groups[static_cast<std::size_t>(map.group)].keys;
         const std::string words = words_of_keys(keys);
-        add({fmt::format("map_{}_{}", sculpture.id, words), fmt::format("{}: {}", sculpture.title, words),
-             "ms of fixation of a trial", "map", true, &sculpture, &map.density, ColourMap::viridis, 0.0,
+        add({fmt::format("map_{}_{}", object.id, words), fmt::format("{}: {}", object.title, words),
+             "ms of fixation of a trial", "map", true, &object, &map.density, ColourMap::viridis, 0.0,
              most > 0.0 ? most : 1.0});
     }
-    for (const StudySculpture& sculpture : results.sculptures) {
+    for (const StudyObject& object : results.objects) {
         const auto highest = [](const std::vector<float>& values) {
             const double top = values.empty() ? 0.0 : *std::ranges::max_element(values);
             return top > 0.0 ? top : 1.0;
         };
-        add({fmt::format("exposure_{}", sculpture.id), fmt::format("{}: exposure", sculpture.title),
-             "share of the exposure", "exposure", true, &sculpture, &sculpture.exposure_density,
-             ColourMap::viridis, 0.0, highest(sculpture.exposure_density)});
-        add({fmt::format("visible_{}", sculpture.id), fmt::format("{}: time visible", sculpture.title),
-             "s of a presentation", "visible", false, &sculpture, &sculpture.seconds_visible,
-             ColourMap::viridis, 0.0, highest(sculpture.seconds_visible)});
+        add({fmt::format("exposure_{}", object.id), fmt::format("{}: exposure", object.title),
+             "share of the exposure", "exposure", true, &object, &object.exposure_density, ColourMap::viridis,
+             0.0, highest(object.exposure_density)});
+        add({fmt::format("visible_{}", object.id), fmt::format("{}: time visible", object.title),
+             "s of a presentation", "visible", false, &object, &object.seconds_visible, ColourMap::viridis,
+             0.0, highest(object.seconds_visible)});
     }
     for (const DifferenceMap& map : results.differences) {
-        const StudySculpture& sculpture = results.sculptures[static_cast<std::size_t>(map.sculpture)];
+        const StudyObject& object = results.objects[static_cast<std::size_t>(map.object)];
         const std::string words =
             fmt::format("{}, {} {} less {}", words_of_keys(map.keys), map.column, map.a, map.b);
-        add({fmt::format("difference_{}_{}", sculpture.id, words),
-             fmt::format("{}: {}", sculpture.title, words), "share of fixation time", "difference", true,
-             &sculpture, &map.difference, ColourMap::coolwarm, largest > 0.0 ? -largest : -1.0,
-             largest > 0.0 ? largest : 1.0});
+        add({fmt::format("difference_{}_{}", object.id, words), fmt::format("{}: {}", object.title, words),
+             "share of fixation time", "difference", true, &object, &map.difference, ColourMap::coolwarm,
+             largest > 0.0 ? -largest : -1.0, largest > 0.0 ? largest : 1.0});
     }
     return files;
 }
@@ -122,16 +121,16 @@ void write_as(const MeshFormat& format, const SurfaceFile& file,
     values.reserve(file.values->size());
     for (const float value : *file.values)
         values.push_back(static_cast<float>(per_value * static_cast<double>(value)));
-    const StudySculpture& sculpture = *file.sculpture;
+    const StudyObject& object = *file.object;
     format.write(folder / fmt::format("{}.{}", file.name, format.ending),
-                 {*sculpture.mesh,
+                 {*object.mesh,
                   values,
                   colours,
                   file.title,
-                  *sculpture.mm_per_unit * format.units_per_mm,
+                  *object.mm_per_unit * format.units_per_mm,
                   {{"quantity", quantity_in(file, format)},
                    {"lengths", fmt::format("{} of the object", format.unit)},
-                   {"shown", shown_size_words(sculpture)},
+                   {"shown", shown_size_words(object)},
                    {"colours", fmt::format("{} from {:.6g} to {:.6g}", name_of(file.colours),
                                            per_value * file.low, per_value * file.high)},
                    {"grey", "never visible in a presentation"}}});
@@ -148,14 +147,14 @@ int write_surfaces(const StudyResults& results, const std::filesystem::path& fol
         for (const MeshFormat& format : mesh_formats)
             write_as(format, file, colours, folder);
     });
-    std::string index = "file,kind,sculpture,title,quantity,lengths,colours,low,high\n";
+    std::string index = "file,kind,object,title,quantity,lengths,colours,low,high\n";
     for (const SurfaceFile& file : files) {
         for (const MeshFormat& format : mesh_formats) {
             const double per_value = value_scale(file, format);
             index += fmt::format("{}.{},{},{},{},{},{} of the object,{},{:.9g},{:.9g}\n", file.name,
-                                 format.ending, file.kind, in_quotes(file.sculpture->id),
-                                 in_quotes(file.title), quantity_in(file, format), format.unit,
-                                 name_of(file.colours), per_value * file.low, per_value * file.high);
+                                 format.ending, file.kind, in_quotes(file.object->id), in_quotes(file.title),
+                                 quantity_in(file, format), format.unit, name_of(file.colours),
+                                 per_value * file.low, per_value * file.high);
         }
     }
     write_whole_file(folder / "index.csv", index);

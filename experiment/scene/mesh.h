@@ -1,4 +1,4 @@
-/// A triangle mesh in object coordinates: the sculpture as it stands, unturned, +z up, its front towards -y.
+/// A triangle mesh in object coordinates: the object as it stands, unturned, +z up, its front towards -y.
 #pragma once
 
 #include <cstdint>

@@ -39,7 +39,7 @@ inline constexpr std::size_t max_mesh_parts = 256;
 /// Name of the part that results tell from the rest.
 inline constexpr std::string_view head_part = "head";
 
-/// Which parts of a sculpture belong to its head: the part "head", and those that lie in it ("head/eyes").
+/// Which parts of an object belong to its head: the part "head", and those that lie in it ("head/eyes").
 class HeadParts {
   public:
     HeadParts() = default;

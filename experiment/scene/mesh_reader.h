@@ -1,4 +1,4 @@
-/// Reading a sculpture from a file: what format it is in, which way is up, and what had to be tidied.
+/// Reading an object from a file: what format it is in, which way is up, and what had to be tidied.
 ///
 /// Memory: RawMesh takes 24 bytes for each vertex and 12 for each triangle (16 with labels); a closed mesh
 /// has half as many vertices as triangles, so 24 (28) bytes for each triangle, and Mesh 19. While a file is

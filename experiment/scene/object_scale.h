@@ -30,7 +30,7 @@ struct ObjectScale {
 };
 
 /// Of an object that turns about the vertical through `axis_point`, in the mesh's unit. `unit`: "mm" where
-/// that is the millimetre, as RecordedSculpture has it. The height of the image is 2 tan(fov / 2) depths of
+/// that is the millimetre, as RecordedObject has it. The height of the image is 2 tan(fov / 2) depths of
 /// the camera, and image_px.y pixels of the screen; a degree at the middle of the screen takes tan(1 deg)
 /// viewing distances. Nothing if the camera or the screen is not known, or the axis is not in front of it.
 std::optional<ObjectScale> object_scale(const Camera& camera, const glm::dvec3& axis_point,

@@ -1,4 +1,4 @@
-/// From where a sculpture is looked at when it is turned by hand.
+/// From where an object is looked at when it is turned by hand.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -7,7 +7,7 @@
 
 namespace overt {
 
-/// From where a sculpture is looked at, beside what its protocol says.
+/// From where an object is looked at, beside what its protocol says.
 struct Orbit {
     double turn_deg = 0.0;      ///< of the turntable, counter-clockwise seen from above
     double elevation_deg = 0.0; ///< of the camera about its target, -85 … 85

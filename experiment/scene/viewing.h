@@ -53,7 +53,7 @@ struct View {
     double depth_of(glm::dvec3 world_point) const;
 };
 
-/// A sculpture on its turntable in front of the camera: what the stimulus, its hidden map and the gaze must
+/// An object on its turntable in front of the camera: what the stimulus, its hidden map and the gaze must
 /// agree on.
 struct SceneView {
     View view;

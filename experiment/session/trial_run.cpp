@@ -230,7 +230,7 @@ void TrialRun::mark_result(const Trial& trial, const Attempt& attempt) {
         state_.markers.tell(now, text);
     };
     variable("task", state_.protocol.tasks[static_cast<std::size_t>(trial.task)].id);
-    variable("sculpture", state_.protocol.sculptures[static_cast<std::size_t>(trial.condition.sculpture)].id);
+    variable("object", state_.protocol.objects[static_cast<std::size_t>(trial.condition.object)].id);
     variable("material", state_.protocol.materials[static_cast<std::size_t>(trial.condition.material)].id);
     variable("missed_refreshes", fmt::format("{}", attempt.outcome.missed_refreshes));
     mark(MarkedEvent::result, now, fmt::format("TRIAL_RESULT {}", goes_on(attempt) ? 0 : 1));

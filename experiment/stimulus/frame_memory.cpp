@@ -36,10 +36,10 @@ double page_bytes(const Protocol& protocol) {
 int most_pages(const Protocol& protocol) {
     int most = 0;
     const int poses = static_cast<int>(distinct_poses(protocol.animation).angles.size());
-    for (int sculpture = 0; sculpture < static_cast<int>(protocol.sculptures.size()); ++sculpture) {
+    for (int object = 0; object < static_cast<int>(protocol.objects.size()); ++object) {
         for (int material = 0; material < static_cast<int>(protocol.materials.size()); ++material)
-            most = std::max(most, find_frames(protocol, sculpture, material) ? protocol.animation.frame_count
-                                                                             : poses);
+            most = std::max(most,
+                            find_frames(protocol, object, material) ? protocol.animation.frame_count : poses);
     }
     return most;
 }

@@ -71,7 +71,7 @@ void glance_at(StudyResults& results, const ExclusionRules& rules) {
     std::vector<std::string>& remarks = results.remarks;
     if (protocols.size() > 1)
         remarks.push_back(fmt::format(
-            "The sessions are of {} protocols: {}. Groups with the same words are pooled; a sculpture "
+            "The sessions are of {} protocols: {}. Groups with the same words are pooled; an object "
             "with another mesh or camera is one of its own.",
             protocols.size(), fmt::join(protocols, "; ")));
     for (std::string& remark : remarks_on_observers(results.observers))
@@ -89,66 +89,66 @@ void glance_at(StudyResults& results, const ExclusionRules& rules) {
         remarks.emplace_back("No fixation was counted: there are no maps and no fractions.");
     if (glance.only_by_reach > 0)
         remarks.push_back(fmt::format(
-            "{} of {} counted fixations ({:.1f} %) count only because samples that miss the sculpture by no "
+            "{} of {} counted fixations ({:.1f} %) count only because samples that miss the object by no "
             "more than the reach are placed at its outline.",
             glance.only_by_reach, glance.counted, 100.0 * glance.only_by_reach / glance.counted));
     if (glance.any_simulated)
         remarks.emplace_back("The gaze of some sessions is that of simulated observers.");
 }
 
-struct SculptureMaps {
+struct ObjectMaps {
     std::vector<float> exposure;
     std::vector<StudyMap> maps;
 };
 
-/// Of one sculpture, beside others. Writes to `surface` alone.
-SculptureMaps maps_of_sculpture(const StudyResults& results, int sculpture, SculptureSurface& surface,
-                                const StudyOptions& options) {
-    const StudySculpture& shown = results.sculptures[static_cast<std::size_t>(sculpture)];
-    const auto [least, widest] = sigma_range_mm(results, sculpture);
-    SculptureMaps made;
+/// Of one object, beside others. Writes to `surface` alone.
+ObjectMaps maps_of_object(const StudyResults& results, int object, ObjectSurface& surface,
+                          const StudyOptions& options) {
+    const StudyObject& shown = results.objects[static_cast<std::size_t>(object)];
+    const auto [least, widest] = sigma_range_mm(results, object);
+    ObjectMaps made;
     std::optional<DensityMaker> maker;
     if (surface.geometry && surface.scale && widest > 0.0) {
         if (HatSmoother::is_worth_while(*surface.geometry, least))
             surface.hats = std::make_unique<HatSmoother>(*surface.geometry, least, widest);
         maker.emplace(surface, *shown.mesh, options, widest);
-        made.exposure = exposure_density(results, sculpture, surface, *maker, options);
+        made.exposure = exposure_density(results, object, surface, *maker, options);
     }
-    made.maps = maps_on(results, sculpture, surface, maker ? &*maker : nullptr);
+    made.maps = maps_on(results, object, surface, maker ? &*maker : nullptr);
     return made;
 }
 
-/// Sculptures beside each other; the results come in their order.
+/// Objects beside each other; the results come in their order.
 void add_maps(ReadStudy& study, const StudyOptions& options, const StudyProgress& progress) {
     StudyResults& results = study.results;
-    const int sculptures = static_cast<int>(results.sculptures.size());
-    std::vector<SculptureMaps> made(results.sculptures.size());
+    const int objects = static_cast<int>(results.objects.size());
+    std::vector<ObjectMaps> made(results.objects.size());
     int done = 0;
     std::mutex progress_mutex;
-    progress("maps", 0, sculptures);
-    parallel_for(sculptures, [&](int sculpture) {
-        const auto index = static_cast<std::size_t>(sculpture);
-        made[index] = maps_of_sculpture(results, sculpture, study.surfaces[index], options);
+    progress("maps", 0, objects);
+    parallel_for(objects, [&](int object) {
+        const auto index = static_cast<std::size_t>(object);
+        made[index] = maps_of_object(results, object, study.surfaces[index], options);
         const std::scoped_lock lock(progress_mutex);
-        progress("maps", ++done, sculptures);
+        progress("maps", ++done, objects);
     });
     for (std::size_t i = 0; i < made.size(); ++i) {
-        results.sculptures[i].exposure_density = std::move(made[i].exposure);
+        results.objects[i].exposure_density = std::move(made[i].exposure);
         std::ranges::move(made[i].maps, std::back_inserter(results.maps));
     }
-    for (int sculpture = 0; sculpture < sculptures; ++sculpture)
-        add_error_budget(results, sculpture, study.surfaces[static_cast<std::size_t>(sculpture)]);
+    for (int object = 0; object < objects; ++object)
+        add_error_budget(results, object, study.surfaces[static_cast<std::size_t>(object)]);
     std::stable_sort(results.maps.begin(), results.maps.end(), [](const StudyMap& a, const StudyMap& b) {
-        return std::tie(a.group, a.sculpture, a.weighting) < std::tie(b.group, b.sculpture, b.weighting);
+        return std::tie(a.group, a.object, a.weighting) < std::tie(b.group, b.object, b.weighting);
     });
 }
 
 /// The share of the fixations on each part, beside its share of the exposure.
 void add_fixations_to_exposures(StudyResults& results) {
     for (ExposureRow& row : results.exposures) {
-        const StudySculpture& shown = results.sculptures[static_cast<std::size_t>(row.sculpture)];
+        const StudyObject& shown = results.objects[static_cast<std::size_t>(row.object)];
         int all = 0, own = 0;
-        for_each_counted_on(results, row.sculpture, [&](const StudyFixation& fixation) {
+        for_each_counted_on(results, row.object, [&](const StudyFixation& fixation) {
             all += fixation.part.has_value();
             own += fixation.part && (row.part == "all" || shown.part_names[*fixation.part] == row.part);
         });
@@ -169,7 +169,7 @@ void remark_on_differences(StudyResults& results, const StudyOptions& options) {
     }
     if (most < 2)
         results.remarks.push_back(
-            fmt::format("No two observers saw one sculpture in two levels of {}: there are no maps of "
+            fmt::format("No two observers saw one object in two levels of {}: there are no maps of "
                         "differences.",
                         options.compare));
     else if (least_p > 1.0 - options.confidence + 1e-9)
@@ -199,7 +199,7 @@ StudyResults analyze_study(ReadStudy study, const StudyOptions& options, const S
     results.distributions = point_distributions(results, study.surfaces, options);
     results.time_course = head_time_course(results, study.levels, options);
     progress("comparisons", 0, 1);
-    const SculptureFixationMaps maps = fixation_maps(results, study.surfaces);
+    const ObjectFixationMaps maps = fixation_maps(results, study.surfaces);
     results.pairs = study_pairs(results, study.surfaces, maps, study.levels, options);
     progress("comparisons", 1, 1);
     progress("differences", 0, 1);

@@ -25,7 +25,7 @@ std::vector<double> share_of_time(const FixationMaps& maps, const Fixations& fix
     return map;
 }
 
-/// Of each observer who saw the sculpture in both levels.
+/// Of each observer who saw the object in both levels.
 std::vector<std::vector<float>> observer_differences(const StudyResults& results, const StudyGroup& group,
                                                      const DifferenceMap& of, const FixationMaps& maps) {
     std::vector<std::vector<float>> differences;
@@ -38,8 +38,8 @@ std::vector<std::vector<float>> observer_differences(const StudyResults& results
             else if (level == of.b)
                 in_b.push_back(trial);
         }
-        const Fixations a = fixations_on(results, in_a, of.sculpture),
-                        b = fixations_on(results, in_b, of.sculpture);
+        const Fixations a = fixations_on(results, in_a, of.object),
+                        b = fixations_on(results, in_b, of.object);
         if (a.empty() || b.empty())
             continue;
         const std::vector<double> share_a = share_of_time(maps, a), share_b = share_of_time(maps, b);
@@ -94,7 +94,7 @@ void test_differences(DifferenceMap& of, std::span<const std::vector<float>> dif
 
 } // namespace
 
-std::vector<DifferenceMap> difference_maps(const StudyResults& results, const SculptureFixationMaps& maps,
+std::vector<DifferenceMap> difference_maps(const StudyResults& results, const ObjectFixationMaps& maps,
                                            const LevelLists& levels, const StudyOptions& options) {
     std::vector<DifferenceMap> rows;
     const std::vector<std::string> others = columns_beside_compared(options),
@@ -102,8 +102,8 @@ std::vector<DifferenceMap> difference_maps(const StudyResults& results, const Sc
     std::vector<StudyGroup> groups = make_groups(results, {}, levels);
     if (!others.empty())
         std::ranges::copy(make_groups(results, others, levels), std::back_inserter(groups));
-    for (std::size_t sculpture = 0; sculpture < maps.size(); ++sculpture) {
-        if (!maps[sculpture])
+    for (std::size_t object = 0; object < maps.size(); ++object) {
+        if (!maps[object])
             continue;
         std::optional<CoarseToFine> to_fine;
         for (const StudyGroup& group : groups) {
@@ -111,11 +111,11 @@ std::vector<DifferenceMap> difference_maps(const StudyResults& results, const Sc
                 for (std::size_t b = a + 1; b < compared.size(); ++b) {
                     DifferenceMap row;
                     row.keys = group.keys;
-                    row.sculpture = static_cast<int>(sculpture);
+                    row.object = static_cast<int>(object);
                     row.column = options.compare;
                     row.a = compared[a];
                     row.b = compared[b];
-                    const auto differences = observer_differences(results, group, row, *maps[sculpture]);
+                    const auto differences = observer_differences(results, group, row, *maps[object]);
                     row.observers = static_cast<int>(differences.size());
                     if (differences.empty())
                         continue;
@@ -123,8 +123,8 @@ std::vector<DifferenceMap> difference_maps(const StudyResults& results, const Sc
                         row.absent = "one observer alone saw it in both levels";
                     } else {
                         if (!to_fine)
-                            to_fine.emplace(maps[sculpture]->surface(), maps[sculpture]->fine());
-                        test_differences(row, differences, *maps[sculpture], *to_fine, options);
+                            to_fine.emplace(maps[object]->surface(), maps[object]->fine());
+                        test_differences(row, differences, *maps[object], *to_fine, options);
                     }
                     rows.push_back(std::move(row));
                 }

@@ -59,13 +59,13 @@ struct SharedPlace {
     std::vector<double> weights, sigmas_mm;
 };
 
-LeakOfFixation leaks_on(const StudyResults& results, int sculpture, const SculptureSurface& surface) {
+LeakOfFixation leaks_on(const StudyResults& results, int object, const ObjectSurface& surface) {
     LeakOfFixation leaks;
     if (!surface.coarse)
         return leaks;
     std::vector<const StudyFixation*> fixations;
     std::map<std::tuple<std::uint32_t, double, double>, SharedPlace> places;
-    for_each_counted_on(results, sculpture, [&](const StudyFixation& fixation) {
+    for_each_counted_on(results, object, [&](const StudyFixation& fixation) {
         if (!fixation.triangle || !(fixation.sigma_mm > 0.0))
             return;
         for (const SurfaceWeight& weight : surface.coarse->moved(weight_of(fixation, 1.0))) {
@@ -100,7 +100,7 @@ LeakOfFixation leaks_on(const StudyResults& results, int sculpture, const Sculpt
     return leaks;
 }
 
-ErrorBudget budget_of(const StudyResults& results, const StudySculpture& sculpture,
+ErrorBudget budget_of(const StudyResults& results, const StudyObject& object,
                       std::span<const StudyFixation* const> fixations, MapWeighting weighting) {
     MeanSquare accuracy, precision, lut, timing;
     WeightedMean at_edge, near_edge;
@@ -118,7 +118,7 @@ ErrorBudget budget_of(const StudyResults& results, const StudySculpture& sculptu
         // Samples that only lie within reach were moved by more than any look-up errs.
         if (fixation->lut_mm)
             lut.add(fixation->lut_mm, weight);
-        const std::optional<double> speed = surface_speed_mm_s(*fixation, trial, sculpture);
+        const std::optional<double> speed = surface_speed_mm_s(*fixation, trial, object);
         timing.add(speed ? std::optional(*speed * trial.clock_uncertainty_s * std::numbers::inv_sqrt3)
                          : std::nullopt,
                    weight);
@@ -141,8 +141,8 @@ ErrorBudget budget_of(const StudyResults& results, const StudySculpture& sculptu
 } // namespace
 
 std::optional<double> surface_speed_mm_s(const StudyFixation& fixation, const StudyTrial& trial,
-                                         const StudySculpture& sculpture) {
-    if (!sculpture.mm_per_unit || trial.turns.empty())
+                                         const StudyObject& object) {
+    if (!object.mm_per_unit || trial.turns.empty())
         return std::nullopt;
     // The frames shown during it, one before and one after, as far as there are any.
     const auto after = [](double time, const StudyTurn& turn) { return time < turn.time_s; };
@@ -158,20 +158,20 @@ std::optional<double> surface_speed_mm_s(const StudyFixation& fixation, const St
     for (auto turn = begin + 1; turn != end; ++turn)
         angle_deg += std::abs(turn->angle_deg - (turn - 1)->angle_deg);
     const double seconds = (end - 1)->time_s - begin->time_s;
-    const double from_axis = std::hypot(fixation.position.x - sculpture.axis_point.x,
-                                        fixation.position.y - sculpture.axis_point.y);
-    return seconds > 0.0 ? to_radians(Degrees{angle_deg}).value / seconds * from_axis * *sculpture.mm_per_unit
+    const double from_axis =
+        std::hypot(fixation.position.x - object.axis_point.x, fixation.position.y - object.axis_point.y);
+    return seconds > 0.0 ? to_radians(Degrees{angle_deg}).value / seconds * from_axis * *object.mm_per_unit
                          : 0.0;
 }
 
-void add_error_budget(StudyResults& results, int sculpture, const SculptureSurface& surface) {
-    const StudySculpture& shown = results.sculptures[static_cast<std::size_t>(sculpture)];
-    const LeakOfFixation leaks = leaks_on(results, sculpture, surface);
+void add_error_budget(StudyResults& results, int object, const ObjectSurface& surface) {
+    const StudyObject& shown = results.objects[static_cast<std::size_t>(object)];
+    const LeakOfFixation leaks = leaks_on(results, object, surface);
     for (StudyMap& map : results.maps) {
-        if (map.sculpture != sculpture)
+        if (map.object != object)
             continue;
         const std::vector<const StudyFixation*> fixations =
-            fixations_on(results, results.groups[static_cast<std::size_t>(map.group)].trials, sculpture);
+            fixations_on(results, results.groups[static_cast<std::size_t>(map.group)].trials, object);
         map.error = budget_of(results, shown, fixations, map.weighting);
         WeightedMean leak;
         for (const StudyFixation* fixation : fixations) {

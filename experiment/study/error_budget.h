@@ -5,7 +5,7 @@
 
 namespace overt {
 
-/// Sets StudyMap::error and StudyMap::euclidean_leak of all maps on one sculpture that have fixations:
+/// Sets StudyMap::error and StudyMap::euclidean_leak of all maps on one object that have fixations:
 ///
 /// - accuracy: StudyFixation::cone_mm, where a validation was made before the trial;
 /// - precision: RMS-S2S of the trial divided by the root of 2, which is the standard deviation of a sample if
@@ -16,11 +16,11 @@ namespace overt {
 ///   axis times the speed of the turn, from the frames shown during it and one before and after.
 ///
 /// The Euclidean leak is that of a Gaussian in space on the coarse surface, fixation by fixation.
-void add_error_budget(StudyResults& results, int sculpture, const SculptureSurface& surface);
+void add_error_budget(StudyResults& results, int object, const ObjectSurface& surface);
 
-/// How fast the surface moved under a fixation, in mm/s; 0 where the sculpture stood, nothing where it is not
+/// How fast the surface moved under a fixation, in mm/s; 0 where the object stood, nothing where it is not
 /// known which frames were shown or how large they are.
 std::optional<double> surface_speed_mm_s(const StudyFixation& fixation, const StudyTrial& trial,
-                                         const StudySculpture& sculpture);
+                                         const StudyObject& object);
 
 } // namespace overt

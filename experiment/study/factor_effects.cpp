@@ -143,7 +143,7 @@ class EffectTests {
   private:
     /// All that is held alike when a column is tested.
     std::vector<std::string> beside(const std::string& column) const {
-        return with(without(columns_, column), "sculpture");
+        return with(without(columns_, column), "object");
     }
     std::vector<std::string> levels(const std::string& column) const {
         return levels_of(results_, column, lists_);
@@ -202,7 +202,7 @@ class EffectTests {
 } // namespace
 
 std::vector<std::string> tested_columns(const std::vector<std::string>& by) {
-    return without(without(by, "sculpture"), "observer");
+    return without(without(by, "object"), "observer");
 }
 
 std::vector<FactorEffectRow> factor_effects(const StudyResults& results, const LevelLists& levels,

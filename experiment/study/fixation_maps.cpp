@@ -8,12 +8,12 @@
 
 namespace overt {
 
-FixationMaps::FixationMaps(const StudyResults& results, int sculpture, const SculptureSurface& surface)
+FixationMaps::FixationMaps(const StudyResults& results, int object, const ObjectSurface& surface)
     : surface_(surface), areas_(surface.coarse_geometry->vertex_areas_mm2()) {
-    const StudySculpture& shown = results.sculptures[static_cast<std::size_t>(sculpture)];
+    const StudyObject& shown = results.objects[static_cast<std::size_t>(object)];
     const Mesh& mesh = surface.coarse->mesh();
     std::vector<std::vector<SurfaceWeight>> weights;
-    for_each_counted_on(results, sculpture, [&](const StudyFixation& fixation) {
+    for_each_counted_on(results, object, [&](const StudyFixation& fixation) {
         const auto moved = surface.coarse->moved(weight_of(fixation, 1.0));
         index_of_[&fixation] = weights.size();
         std::vector<Place>& places = places_.emplace_back();
@@ -35,7 +35,7 @@ FixationMaps::FixationMaps(const StudyResults& results, int sculpture, const Scu
         for (std::uint32_t v = 0; v < areas_.size(); ++v)
             nodes.push_back(surface.coarse->fine_node_of(v));
     } else {
-        const double widest = sigma_range_mm(results, sculpture).second;
+        const double widest = sigma_range_mm(results, object).second;
         smoother = std::make_unique<SurfaceSmoother>(*surface.coarse_geometry, widest);
     }
     maps_.reserve(weights.size());
@@ -55,14 +55,14 @@ FixationMaps::FixationMaps(const StudyResults& results, int sculpture, const Scu
     }
 }
 
-void FixationMaps::find_visible(const StudySculpture& sculpture) {
+void FixationMaps::find_visible(const StudyObject& object) {
     const SurfaceGeometry& fine = *surface_.geometry;
     std::vector<float> seconds(fine.node_count(), 0.0f), exposure(fine.node_count(), 0.0f);
     for (std::uint32_t v = 0; v < fine.vertex_count(); ++v) {
         float& of_node = seconds[fine.node_of(v)];
-        of_node = std::max(of_node, sculpture.seconds_visible[v]);
-        if (!sculpture.exposure_density.empty())
-            exposure[fine.node_of(v)] = sculpture.exposure_density[v];
+        of_node = std::max(of_node, object.seconds_visible[v]);
+        if (!object.exposure_density.empty())
+            exposure[fine.node_of(v)] = object.exposure_density[v];
     }
     visible_areas_ = areas_;
     for (std::uint32_t v = 0; v < areas_.size(); ++v) {
@@ -121,9 +121,8 @@ double FixationMaps::at(std::span<const double> map, const StudyFixation& fixati
     return value;
 }
 
-SculptureFixationMaps fixation_maps(const StudyResults& results,
-                                    const std::vector<SculptureSurface>& surfaces) {
-    SculptureFixationMaps maps(surfaces.size());
+ObjectFixationMaps fixation_maps(const StudyResults& results, const std::vector<ObjectSurface>& surfaces) {
+    ObjectFixationMaps maps(surfaces.size());
     for (std::size_t i = 0; i < maps.size(); ++i) {
         if (surfaces[i].coarse && sigma_range_mm(results, static_cast<int>(i)).second > 0.0)
             maps[i] = std::make_unique<FixationMaps>(results, static_cast<int>(i), surfaces[i]);
@@ -134,7 +133,7 @@ SculptureFixationMaps fixation_maps(const StudyResults& results,
 std::vector<std::string> columns_beside_compared(const StudyOptions& options) {
     std::vector<std::string> others;
     for (const std::string& column : options.by) {
-        if (column != options.compare && column != "sculpture")
+        if (column != options.compare && column != "object")
             others.push_back(column);
     }
     return others;

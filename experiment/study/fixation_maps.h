@@ -14,13 +14,13 @@ namespace overt {
 
 using Fixations = std::vector<const StudyFixation*>;
 
-/// Of the counted fixations on one sculpture, blurred along the surface with their own sigmas. Maps are given
-/// by vertex of the sculpture's coarse surface, per mm^2.
+/// Of the counted fixations on one object, blurred along the surface with their own sigmas. Maps are given
+/// by vertex of the object's coarse surface, per mm^2.
 class FixationMaps {
   public:
-    /// `surface` must have a coarse geometry, and fixations on the sculpture have been counted. `results`
+    /// `surface` must have a coarse geometry, and fixations on the object have been counted. `results`
     /// must outlive this and keep its fixations where they are, as must `surface`.
-    FixationMaps(const StudyResults& results, int sculpture, const SculptureSurface& surface);
+    FixationMaps(const StudyResults& results, int object, const ObjectSurface& surface);
 
     /// By vertex, mm^2.
     std::span<const double> areas() const { return areas_; }
@@ -48,10 +48,10 @@ class FixationMaps {
         double share;
     };
     void add_to(std::vector<double>& sum, const StudyFixation& fixation, double weight) const;
-    void find_visible(const StudySculpture& sculpture);
+    void find_visible(const StudyObject& object);
     void find_neighbours();
 
-    const SculptureSurface& surface_;
+    const ObjectSurface& surface_;
     std::vector<double> areas_, visible_areas_, exposure_;
     std::vector<PartIndex> parts_;
     std::vector<std::uint32_t> neighbours_begin_, neighbours_;
@@ -60,12 +60,11 @@ class FixationMaps {
     std::vector<std::vector<Place>> places_;
 };
 
-/// By sculpture; null where there can be none.
-using SculptureFixationMaps = std::vector<std::unique_ptr<FixationMaps>>;
-SculptureFixationMaps fixation_maps(const StudyResults& results,
-                                    const std::vector<SculptureSurface>& surfaces);
+/// By object; null where there can be none.
+using ObjectFixationMaps = std::vector<std::unique_ptr<FixationMaps>>;
+ObjectFixationMaps fixation_maps(const StudyResults& results, const std::vector<ObjectSurface>& surfaces);
 
-/// The columns of `--by` besides the compared one and the sculpture.
+/// The columns of `--by` besides the compared one and the object.
 std::vector<std::string> columns_beside_compared(const StudyOptions& options);
 
 } // namespace overt

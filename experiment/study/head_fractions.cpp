@@ -20,13 +20,13 @@ struct HeadSum {
     std::optional<double> share() const { return all > 0.0 ? std::optional(head / all) : std::nullopt; }
 };
 
-/// Whether it is on the head; nothing if it has no part, or its sculpture no head.
+/// Whether it is on the head; nothing if it has no part, or its object no head.
 std::optional<bool> is_on_head(const StudyResults& results, const StudyFixation& fixation) {
     const StudyTrial& trial = results.trials[static_cast<std::size_t>(fixation.trial)];
-    const StudySculpture& sculpture = results.sculptures[static_cast<std::size_t>(trial.sculpture)];
-    if (!fixation.part || !sculpture.head)
+    const StudyObject& object = results.objects[static_cast<std::size_t>(trial.object)];
+    if (!fixation.part || !object.head)
         return std::nullopt;
-    return sculpture.head.has(fixation.part);
+    return object.head.has(fixation.part);
 }
 
 /// Intervals of means can reach beyond what a share can be.
@@ -39,7 +39,7 @@ Estimate estimated_share(const std::vector<double>& shares, const StudyOptions& 
 }
 
 const std::string no_error = "no validation tells the tracker's error, or there are too few fixations";
-const std::string no_fixation = "no fixation was counted on a sculpture with a head";
+const std::string no_fixation = "no fixation was counted on an object with a head";
 
 HeadFractionRow row_of(const StudyResults& results, std::vector<StudyKey> keys,
                        const std::vector<int>& trials, const StudyOptions& options) {

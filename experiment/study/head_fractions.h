@@ -10,7 +10,7 @@ namespace overt {
 
 /// One row for each group, for each level of each column of the groups, and for all trials. Each observer's
 /// fraction counts alike, and the interval is over observers; `pooled` counts fixations alike, as the paper.
-/// Fixations on sculptures without a head are left out.
+/// Fixations on objects without a head are left out.
 std::vector<HeadFractionRow> head_fractions(const StudyResults& results, const LevelLists& order,
                                             const StudyOptions& options);
 

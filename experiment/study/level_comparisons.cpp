@@ -19,7 +19,7 @@ double wss_of(std::span<const StudyFixation* const> fixations) {
 } // namespace
 
 std::vector<LevelComparison> level_comparisons(const StudyResults& results, const std::vector<int>& trials,
-                                               const std::vector<SculptureSurface>& surfaces,
+                                               const std::vector<ObjectSurface>& surfaces,
                                                const std::string& column, const std::string& a,
                                                const std::string& b) {
     std::vector<std::string> observers;
@@ -40,11 +40,11 @@ std::vector<LevelComparison> level_comparisons(const StudyResults& results, cons
             else if (level == b)
                 in_b.push_back(trial);
         }
-        for (int sculpture = 0; sculpture < static_cast<int>(surfaces.size()); ++sculpture) {
-            if (!surfaces[static_cast<std::size_t>(sculpture)].scale)
+        for (int object = 0; object < static_cast<int>(surfaces.size()); ++object) {
+            if (!surfaces[static_cast<std::size_t>(object)].scale)
                 continue;
-            LevelComparison one{number, sculpture, fixations_on(results, in_a, sculpture),
-                                fixations_on(results, in_b, sculpture)};
+            LevelComparison one{number, object, fixations_on(results, in_a, object),
+                                fixations_on(results, in_b, object)};
             if (!one.a.empty() && !one.b.empty())
                 comparisons.push_back(std::move(one));
         }
@@ -61,7 +61,7 @@ double wss_difference_deg2(const LevelComparison& comparison, const ObjectScale&
 }
 
 std::optional<double> head_difference(const LevelComparison& comparison, const StudyResults& results) {
-    const HeadParts& head = results.sculptures[static_cast<std::size_t>(comparison.sculpture)].head;
+    const HeadParts& head = results.objects[static_cast<std::size_t>(comparison.object)].head;
     if (!head)
         return std::nullopt;
     const auto share = [&](const std::vector<const StudyFixation*>& fixations) {

@@ -14,17 +14,17 @@
 
 namespace overt {
 
-/// One observer's counted fixations on one sculpture in both levels; what else the groups tell apart is the
+/// One observer's counted fixations on one object in both levels; what else the groups tell apart is the
 /// same in both.
 struct LevelComparison {
     std::size_t observer = 0; ///< by the order of by_observer() of all trials
-    int sculpture = 0;
+    int object = 0;
     std::vector<const StudyFixation*> a, b; ///< neither empty
 };
 
-/// Those of one group of trials, by observer and sculpture. Sculptures without a scale are left out.
+/// Those of one group of trials, by observer and object. Objects without a scale are left out.
 std::vector<LevelComparison> level_comparisons(const StudyResults& results, const std::vector<int>& trials,
-                                               const std::vector<SculptureSurface>& surfaces,
+                                               const std::vector<ObjectSurface>& surfaces,
                                                const std::string& column, const std::string& a,
                                                const std::string& b);
 
@@ -33,7 +33,7 @@ std::vector<LevelComparison> level_comparisons(const StudyResults& results, cons
 double wss_difference_mm2(const LevelComparison& comparison, const ObjectScale& scale);
 double wss_difference_deg2(const LevelComparison& comparison, const ObjectScale& scale);
 
-/// Share of the fixations on the head, of a less that of b; nothing if the sculpture has no head.
+/// Share of the fixations on the head, of a less that of b; nothing if the object has no head.
 std::optional<double> head_difference(const LevelComparison& comparison, const StudyResults& results);
 
 /// The mean of each observer's comparisons, of those that have a value: what tests over observers take. By

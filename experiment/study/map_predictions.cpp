@@ -12,14 +12,14 @@ namespace overt {
 
 namespace {
 
-/// One observer's fixations in a group, on one sculpture.
+/// One observer's fixations in a group, on one object.
 struct ObserverMap {
     std::string observer;
     Fixations fixations;
     std::vector<double> map; ///< their sum
 };
 
-/// All that a group has on one sculpture.
+/// All that a group has on one object.
 struct GroupMaps {
     int group = 0;
     std::string level; ///< of the compared column; empty if it makes no groups
@@ -28,7 +28,7 @@ struct GroupMaps {
     std::size_t fixations = 0;
 };
 
-GroupMaps maps_of_group(const StudyResults& results, int group, int sculpture, const FixationMaps& maps,
+GroupMaps maps_of_group(const StudyResults& results, int group, int object, const FixationMaps& maps,
                         const std::string& compared) {
     const StudyGroup& of = results.groups[static_cast<std::size_t>(group)];
     GroupMaps made;
@@ -39,7 +39,7 @@ GroupMaps maps_of_group(const StudyResults& results, int group, int sculpture, c
     }
     made.sum.assign(maps.areas().size(), 0.0);
     for (const auto& [observer, trials] : by_observer(results, of.trials)) {
-        Fixations own = fixations_on(results, trials, sculpture);
+        Fixations own = fixations_on(results, trials, object);
         if (own.empty())
             continue;
         std::vector<double> map = maps.sum_of(own);
@@ -156,25 +156,25 @@ void finish_row(Prediction& of, const StudyOptions& options) {
 
 } // namespace
 
-std::vector<MapPredictionRow> map_predictions(const StudyResults& results, const SculptureFixationMaps& maps,
+std::vector<MapPredictionRow> map_predictions(const StudyResults& results, const ObjectFixationMaps& maps,
                                               const StudyOptions& options) {
     std::vector<MapPredictionRow> rows;
-    for (int sculpture = 0; sculpture < static_cast<int>(maps.size()); ++sculpture) {
-        const FixationMaps* own = maps[static_cast<std::size_t>(sculpture)].get();
+    for (int object = 0; object < static_cast<int>(maps.size()); ++object) {
+        const FixationMaps* own = maps[static_cast<std::size_t>(object)].get();
         if (!own || own->exposure().empty())
             continue;
         std::vector<GroupMaps> groups;
         for (int group = 0; group < static_cast<int>(results.groups.size()); ++group) {
             const std::vector<int> shown =
-                sculptures_of(results, results.groups[static_cast<std::size_t>(group)]);
-            if (std::binary_search(shown.begin(), shown.end(), sculpture))
-                groups.push_back(maps_of_group(results, group, sculpture, *own, options.compare));
+                objects_of(results, results.groups[static_cast<std::size_t>(group)]);
+            if (std::binary_search(shown.begin(), shown.end(), object))
+                groups.push_back(maps_of_group(results, group, object, *own, options.compare));
         }
         std::vector<Prediction> predictions;
         const auto add = [&](const GroupMaps& told, MapPredictor by, const GroupMaps* from) {
             MapPredictionRow row;
             row.group = told.group;
-            row.sculpture = sculpture;
+            row.object = object;
             row.by = by;
             row.level = from ? from->level : "";
             predictions.push_back({std::move(row), &told, from, {}});
@@ -196,7 +196,7 @@ std::vector<MapPredictionRow> map_predictions(const StudyResults& results, const
         }
     }
     std::stable_sort(rows.begin(), rows.end(), [](const MapPredictionRow& a, const MapPredictionRow& b) {
-        return std::tie(a.group, a.sculpture) < std::tie(b.group, b.sculpture);
+        return std::tie(a.group, a.object) < std::tie(b.group, b.object);
     });
     return rows;
 }

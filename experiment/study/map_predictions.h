@@ -7,7 +7,7 @@
 
 namespace overt {
 
-/// For each group on each sculpture, a row for each map that predicts its fixations: that of the other
+/// For each group on each object, a row for each map that predicts its fixations: that of the other
 /// observers in the same group, in the other levels of the compared column (everything else alike), and the
 /// exposure. Each observer's fixations are predicted by others alone, also in other levels, so that the rows
 /// can be compared with each other.
@@ -16,7 +16,7 @@ namespace overt {
 /// n + 1: gaze can go where few fixations have never been, and without that one such fixation would cost 50
 /// bits. The rest is as in map_similarity.h and area_under_curve.h, over the places that could be seen.
 /// Fixations count alike. `results.groups` must have been made.
-std::vector<MapPredictionRow> map_predictions(const StudyResults& results, const SculptureFixationMaps& maps,
+std::vector<MapPredictionRow> map_predictions(const StudyResults& results, const ObjectFixationMaps& maps,
                                               const StudyOptions& options);
 
 } // namespace overt

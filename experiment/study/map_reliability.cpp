@@ -78,13 +78,12 @@ SplitHalf split_half_of(std::span<const std::vector<double>> of_observers, std::
     return found;
 }
 
-std::vector<MapReliabilityRow> map_reliabilities(const StudyResults& results,
-                                                 const SculptureFixationMaps& maps, const LevelLists& levels,
-                                                 const StudyOptions& options) {
+std::vector<MapReliabilityRow> map_reliabilities(const StudyResults& results, const ObjectFixationMaps& maps,
+                                                 const LevelLists& levels, const StudyOptions& options) {
     std::vector<StudyGroup> groups = results.groups;
     std::vector<std::string> columns;
     for (const std::string& column : options.by) {
-        if (column != "sculpture")
+        if (column != "object")
             columns.push_back(column);
     }
     if (columns.size() > 1) {
@@ -97,22 +96,22 @@ std::vector<MapReliabilityRow> map_reliabilities(const StudyResults& results,
     std::vector<MapReliabilityRow> rows;
     std::vector<const StudyGroup*> group_of_row;
     for (const StudyGroup& group : groups) {
-        for (const int sculpture : sculptures_of(results, group)) {
-            if (!maps[static_cast<std::size_t>(sculpture)])
+        for (const int object : objects_of(results, group)) {
+            if (!maps[static_cast<std::size_t>(object)])
                 continue;
             MapReliabilityRow& row = rows.emplace_back();
             row.keys = group.keys;
-            row.sculpture = sculpture;
+            row.object = object;
             group_of_row.push_back(&group);
         }
     }
     parallel_for(static_cast<int>(rows.size()), [&](int i) {
         MapReliabilityRow& row = rows[static_cast<std::size_t>(i)];
-        const FixationMaps& own = *maps[static_cast<std::size_t>(row.sculpture)];
+        const FixationMaps& own = *maps[static_cast<std::size_t>(row.object)];
         std::vector<std::vector<double>> of_observers;
         for (const auto& [observer, trials] :
              by_observer(results, group_of_row[static_cast<std::size_t>(i)]->trials)) {
-            const Fixations fixations = fixations_on(results, trials, row.sculpture);
+            const Fixations fixations = fixations_on(results, trials, row.object);
             if (fixations.empty())
                 continue;
             row.fixations += static_cast<int>(fixations.size());

@@ -7,15 +7,14 @@
 
 namespace overt {
 
-/// Rows for each group, for each level of each column of `--by`, and for all trials, on each sculpture.
+/// Rows for each group, for each level of each column of `--by`, and for all trials, on each object.
 /// Observers are split into halves at random (`options.splits` times); the value is the mean correlation of
 /// the halves' maps (fixations count alike) over the places that could be seen, and what Spearman and Brown's
 /// formula makes of it for all observers. The interval of the reliability comes from leaving out each
 /// observer in turn (jackknife), with Fisher's z and Student's quantile; that needs three observers. Drawing
 /// observers again would put the same one into both halves, which makes them alike.
-std::vector<MapReliabilityRow> map_reliabilities(const StudyResults& results,
-                                                 const SculptureFixationMaps& maps, const LevelLists& levels,
-                                                 const StudyOptions& options);
+std::vector<MapReliabilityRow> map_reliabilities(const StudyResults& results, const ObjectFixationMaps& maps,
+                                                 const LevelLists& levels, const StudyOptions& options);
 
 /// The same of maps that are given, one for each observer; public for its test. Both estimates are absent for
 /// fewer than two maps.

@@ -13,17 +13,17 @@ Interval scaled(const Interval& interval, double factor) {
     return {interval.low * factor, interval.high * factor};
 }
 
-DistributionRow distribution_of(const StudyResults& results, int group, int sculpture,
+DistributionRow distribution_of(const StudyResults& results, int group, int object,
                                 const std::optional<ObjectScale>& scale, const StudyOptions& options) {
     DistributionRow row;
     row.group = group;
-    row.sculpture = sculpture;
+    row.object = object;
     std::vector<std::vector<glm::dvec3>> of_observer;
     std::vector<glm::dvec3> all;
     for (const auto& [observer, trials] :
          by_observer(results, results.groups[static_cast<std::size_t>(group)].trials)) {
         std::vector<glm::dvec3> points;
-        for (const StudyFixation* fixation : fixations_on(results, trials, sculpture))
+        for (const StudyFixation* fixation : fixations_on(results, trials, object))
             points.push_back(fixation->position);
         if (points.empty())
             continue;
@@ -67,15 +67,15 @@ DistributionRow distribution_of(const StudyResults& results, int group, int scul
 } // namespace
 
 std::vector<DistributionRow> point_distributions(const StudyResults& results,
-                                                 const std::vector<SculptureSurface>& surfaces,
+                                                 const std::vector<ObjectSurface>& surfaces,
                                                  const StudyOptions& options) {
     std::vector<DistributionRow> rows;
     for (int group = 0; group < static_cast<int>(results.groups.size()); ++group) {
-        for (const int sculpture : sculptures_of(results, results.groups[static_cast<std::size_t>(group)])) {
-            rows.push_back(distribution_of(results, group, sculpture,
-                                           surfaces[static_cast<std::size_t>(sculpture)].scale, options));
+        for (const int object : objects_of(results, results.groups[static_cast<std::size_t>(group)])) {
+            rows.push_back(distribution_of(results, group, object,
+                                           surfaces[static_cast<std::size_t>(object)].scale, options));
             const auto map = std::find_if(results.maps.begin(), results.maps.end(), [&](const StudyMap& one) {
-                return one.group == group && one.sculpture == sculpture &&
+                return one.group == group && one.object == object &&
                        one.weighting == MapWeighting::duration && one.absent.empty();
             });
             if (map != results.maps.end()) {

@@ -10,7 +10,7 @@
 
 namespace overt {
 
-DensityMaker::DensityMaker(const SculptureSurface& surface, const Mesh& mesh, const StudyOptions& options,
+DensityMaker::DensityMaker(const ObjectSurface& surface, const Mesh& mesh, const StudyOptions& options,
                            double widest_sigma_mm)
     : surface_(surface), mesh_(mesh), kernel_(options.kernel) {
     if (kernel_ == MapKernel::geodesic && !surface.hats)
@@ -65,27 +65,27 @@ SurfaceWeight weight_of(const StudyFixation& fixation, double weight) {
     return {{*fixation.triangle, fixation.barycentric}, weight, fixation.sigma_mm};
 }
 
-std::vector<int> sculptures_of(const StudyResults& results, const StudyGroup& group) {
+std::vector<int> objects_of(const StudyResults& results, const StudyGroup& group) {
     std::set<int> found;
     for (const int trial : group.trials)
-        found.insert(results.trials[static_cast<std::size_t>(trial)].sculpture);
+        found.insert(results.trials[static_cast<std::size_t>(trial)].object);
     return {found.begin(), found.end()};
 }
 
 std::vector<const StudyFixation*> fixations_on(const StudyResults& results, std::span<const int> trials,
-                                               int sculpture) {
+                                               int object) {
     std::vector<const StudyFixation*> found;
     for (const int trial : trials) {
-        if (results.trials[static_cast<std::size_t>(trial)].sculpture == sculpture)
+        if (results.trials[static_cast<std::size_t>(trial)].object == object)
             for_each_counted(results, trial,
                              [&](const StudyFixation& fixation) { found.push_back(&fixation); });
     }
     return found;
 }
 
-std::pair<double, double> sigma_range_mm(const StudyResults& results, int sculpture) {
+std::pair<double, double> sigma_range_mm(const StudyResults& results, int object) {
     double least = 0.0, widest = 0.0;
-    for_each_counted_on(results, sculpture, [&](const StudyFixation& fixation) {
+    for_each_counted_on(results, object, [&](const StudyFixation& fixation) {
         least = widest > 0.0 ? std::min(least, fixation.sigma_mm) : fixation.sigma_mm;
         widest = std::max(widest, fixation.sigma_mm);
     });
@@ -101,27 +101,27 @@ double weight_in(MapWeighting weighting, const StudyFixation& fixation) {
 
 } // namespace
 
-std::vector<float> exposure_density(const StudyResults& results, int of, const SculptureSurface& surface,
+std::vector<float> exposure_density(const StudyResults& results, int of, const ObjectSurface& surface,
                                     const DensityMaker& maker, const StudyOptions& options) {
-    const StudySculpture& sculpture = results.sculptures[static_cast<std::size_t>(of)];
+    const StudyObject& object = results.objects[static_cast<std::size_t>(of)];
     const auto [least, widest] = sigma_range_mm(results, of);
     const double all = std::accumulate(surface.pixel_seconds.begin(), surface.pixel_seconds.end(), 0.0);
     if (!(all > 0.0))
         return {};
     // The depth as it stands in the middle of its swing.
-    const View view{sculpture.camera, sculpture.screen.image_px};
+    const View view{object.camera, object.screen.image_px};
     std::vector<bool> is_done(surface.pixel_seconds.size(), false);
     std::vector<std::vector<SurfaceWeight>> weights(1);
-    for (std::uint32_t t = 0; t < sculpture.mesh->triangles.size(); ++t) {
+    for (std::uint32_t t = 0; t < object.mesh->triangles.size(); ++t) {
         for (int corner = 0; corner < 3; ++corner) {
-            const std::uint32_t v = sculpture.mesh->triangles[t][corner];
+            const std::uint32_t v = object.mesh->triangles[t][corner];
             if (is_done[v] || !(surface.pixel_seconds[v] > 0.0))
                 continue;
             is_done[v] = true;
             glm::dvec3 barycentric{0.0};
             barycentric[corner] = 1.0;
-            const double sigma = sigma_mm(options.sigma, *surface.scale,
-                                          view.depth_of(glm::dvec3(sculpture.mesh->positions[v])));
+            const double sigma =
+                sigma_mm(options.sigma, *surface.scale, view.depth_of(glm::dvec3(object.mesh->positions[v])));
             weights[0].push_back(
                 {{t, barycentric}, surface.pixel_seconds[v] / all, std::clamp(sigma, least, widest)});
         }
@@ -132,14 +132,14 @@ std::vector<float> exposure_density(const StudyResults& results, int of, const S
 
 namespace {
 
-StudyMap map_of(const StudyResults& results, int group, int sculpture, MapWeighting weighting) {
+StudyMap map_of(const StudyResults& results, int group, int object, MapWeighting weighting) {
     StudyMap map;
     map.group = group;
-    map.sculpture = sculpture;
+    map.object = object;
     map.weighting = weighting;
     std::vector<int> own;
     for (const int trial : results.groups[static_cast<std::size_t>(group)].trials) {
-        if (results.trials[static_cast<std::size_t>(trial)].sculpture == sculpture)
+        if (results.trials[static_cast<std::size_t>(trial)].object == object)
             own.push_back(trial);
     }
     map.trials = static_cast<int>(own.size());
@@ -161,24 +161,23 @@ void finish_map(StudyMap& map, const std::vector<double>& density, std::span<con
 
 } // namespace
 
-std::vector<StudyMap> maps_on(const StudyResults& results, int sculpture, const SculptureSurface& surface,
+std::vector<StudyMap> maps_on(const StudyResults& results, int object, const ObjectSurface& surface,
                               const DensityMaker* maker) {
-    const StudySculpture& shown = results.sculptures[static_cast<std::size_t>(sculpture)];
+    const StudyObject& shown = results.objects[static_cast<std::size_t>(object)];
     std::vector<StudyMap> maps;
     std::vector<std::vector<SurfaceWeight>> weights;
     for (int group = 0; group < static_cast<int>(results.groups.size()); ++group) {
         const StudyGroup& of = results.groups[static_cast<std::size_t>(group)];
-        const std::vector<int> shown_there = sculptures_of(results, of);
-        if (!std::binary_search(shown_there.begin(), shown_there.end(), sculpture))
+        const std::vector<int> shown_there = objects_of(results, of);
+        if (!std::binary_search(shown_there.begin(), shown_there.end(), object))
             continue;
-        const std::vector<const StudyFixation*> fixations = fixations_on(results, of.trials, sculpture);
+        const std::vector<const StudyFixation*> fixations = fixations_on(results, of.trials, object);
         for (const MapWeighting weighting : {MapWeighting::duration, MapWeighting::count}) {
-            StudyMap& map = maps.emplace_back(map_of(results, group, sculpture, weighting));
+            StudyMap& map = maps.emplace_back(map_of(results, group, object, weighting));
             map.fixations = static_cast<int>(fixations.size());
             std::vector<SurfaceWeight>& own = weights.emplace_back();
             if (!maker) {
-                map.absent =
-                    shown.mesh ? "no fixation was counted on this sculpture" : "the sculpture has no mesh";
+                map.absent = shown.mesh ? "no fixation was counted on this object" : "the object has no mesh";
                 if (!surface.scale)
                     map.absent = "the camera or the screen is not known";
                 continue;

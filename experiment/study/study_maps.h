@@ -1,4 +1,4 @@
-/// Fixations of groups as maps on sculptures.
+/// Fixations of groups as maps on objects.
 #pragma once
 
 #include <functional>
@@ -14,12 +14,12 @@
 
 namespace overt {
 
-/// Makes densities on one sculpture's mesh with the kernel that the options name.
+/// Makes densities on one object's mesh with the kernel that the options name.
 class DensityMaker {
   public:
     /// `surface` must have a geometry and a scale, and outlive this, as `mesh` must; its hats are used if it
     /// has them. `widest_sigma_mm` > 0.
-    DensityMaker(const SculptureSurface& surface, const Mesh& mesh, const StudyOptions& options,
+    DensityMaker(const ObjectSurface& surface, const Mesh& mesh, const StudyOptions& options,
                  double widest_sigma_mm);
 
     /// Density by vertex in weight per mm^2 for each of the maps. Sigmas: those of counted fixations.
@@ -28,7 +28,7 @@ class DensityMaker {
   private:
     std::vector<double> in_voxels(std::span<const SurfaceWeight> weights) const;
 
-    const SculptureSurface& surface_;
+    const ObjectSurface& surface_;
     const Mesh& mesh_;
     MapKernel kernel_;
     std::unique_ptr<SurfaceSmoother> smoother_;
@@ -37,22 +37,22 @@ class DensityMaker {
 /// A fixation's weight on the surface; it must have met a mesh.
 SurfaceWeight weight_of(const StudyFixation& fixation, double weight);
 
-/// The sculptures that a group's trials showed, rising.
-std::vector<int> sculptures_of(const StudyResults& results, const StudyGroup& group);
+/// The objects that a group's trials showed, rising.
+std::vector<int> objects_of(const StudyResults& results, const StudyGroup& group);
 
-/// The counted fixations of some trials on one sculpture.
+/// The counted fixations of some trials on one object.
 std::vector<const StudyFixation*> fixations_on(const StudyResults& results, std::span<const int> trials,
-                                               int sculpture);
+                                               int object);
 
-/// The narrowest and the widest kernel of the counted fixations on a sculpture; 0 and 0 without any.
-std::pair<double, double> sigma_range_mm(const StudyResults& results, int sculpture);
+/// The narrowest and the widest kernel of the counted fixations on an object; 0 and 0 without any.
+std::pair<double, double> sigma_range_mm(const StudyResults& results, int object);
 
-/// The exposure's density by vertex of one sculpture; empty without one.
-std::vector<float> exposure_density(const StudyResults& results, int of, const SculptureSurface& surface,
+/// The exposure's density by vertex of one object; empty without one.
+std::vector<float> exposure_density(const StudyResults& results, int of, const ObjectSurface& surface,
                                     const DensityMaker& maker, const StudyOptions& options);
 
-/// The maps of all groups on one sculpture, by duration and by count. May be called from any thread.
-std::vector<StudyMap> maps_on(const StudyResults& results, int sculpture, const SculptureSurface& surface,
+/// The maps of all groups on one object, by duration and by count. May be called from any thread.
+std::vector<StudyMap> maps_on(const StudyResults& results, int object, const ObjectSurface& surface,
                               const DensityMaker* maker);
 
 } // namespace overt

@@ -184,7 +184,7 @@ PairRow row_of(std::span<const Comparison> comparisons, int permutations, const 
     PairRow row;
     row.comparisons = static_cast<int>(comparisons.size());
     if (comparisons.empty())
-        row.absent = "no observer saw a sculpture in both levels";
+        row.absent = "no observer saw an object in both levels";
     const auto means = [&](const auto& value) { return observer_means(comparisons, value); };
     const std::vector<double> deg2 = means([](const Comparison&of) { return of.wss_difference_deg2; }),
                               head = means([](const Comparison&of) { return of.head_difference; });
@@ -192,8 +192,8 @@ PairRow row_of(std::span<const Comparison> comparisons, int permutations, const 
     row.wss_difference_mm2 = estimated_mean(means([](const Comparison& of) { return of.wss_difference_mm2; }),
                                             options.bootstrap(), row.absent);
     row.wss_difference_deg2 = estimated_mean(deg2, options.bootstrap(), row.absent);
-    row.head_difference = estimated_mean(head, options.bootstrap(),
-                                         row.absent.empty() ? "no sculpture has a head" : row.absent);
+    row.head_difference =
+        estimated_mean(head, options.bootstrap(), row.absent.empty() ? "no object has a head" : row.absent);
     // As they are seen: a large object would weigh more than a small one that looks as large.
     if (const auto test = sign_flip_test(deg2, options.permutation()))
         row.wss_p = test->p;
@@ -207,16 +207,16 @@ PairRow row_of(std::span<const Comparison> comparisons, int permutations, const 
 
 /// The test of the maps themselves. `cells`: comparisons of one group each.
 void test_maps(PairRow& row, std::span<const std::span<const Comparison>> cells,
-               const SculptureFixationMaps& maps, const StudyOptions& options) {
+               const ObjectFixationMaps& maps, const StudyOptions& options) {
     std::vector<PairedMaps> surfaces;
     std::size_t observers = 0;
     for (const std::span<const Comparison> cell : cells) {
-        for (std::size_t sculpture = 0; sculpture < maps.size(); ++sculpture) {
-            if (!maps[sculpture])
+        for (std::size_t object = 0; object < maps.size(); ++object) {
+            if (!maps[object])
                 continue;
-            PairedMaps paired(maps[sculpture]->areas());
+            PairedMaps paired(maps[object]->areas());
             for (const Comparison& one : cell) {
-                if (static_cast<std::size_t>(one.sculpture) == sculpture) {
+                if (static_cast<std::size_t>(one.object) == object) {
                     paired.add(one.observer, one.map_a, one.map_b);
                     observers = std::max(observers, one.observer + 1);
                 }
@@ -251,8 +251,8 @@ void correct(std::vector<PairRow>& rows, std::optional<double> PairRow::*p,
 
 } // namespace
 
-std::vector<PairRow> study_pairs(const StudyResults& results, const std::vector<SculptureSurface>& surfaces,
-                                 const SculptureFixationMaps& maps, const LevelLists& levels,
+std::vector<PairRow> study_pairs(const StudyResults& results, const std::vector<ObjectSurface>& surfaces,
+                                 const ObjectFixationMaps& maps, const LevelLists& levels,
                                  const StudyOptions& options) {
     const std::vector<std::string> others = columns_beside_compared(options);
     const std::vector<std::string> compared = levels_of(results, options.compare, levels);
@@ -271,9 +271,9 @@ std::vector<PairRow> study_pairs(const StudyResults& results, const std::vector<
                 const std::uint64_t stream = rows.size() * 10000;
                 parallel_for(static_cast<int>(comparisons.size()), [&](int i) {
                     Comparison& one = comparisons[static_cast<std::size_t>(i)];
-                    const auto sculpture = static_cast<std::size_t>(one.sculpture);
+                    const auto object = static_cast<std::size_t>(one.object);
                     one.head_difference = head_difference(one, results);
-                    reckon(one, maps[sculpture].get(), *surfaces[sculpture].scale, options,
+                    reckon(one, maps[object].get(), *surfaces[object].scale, options,
                            stream + static_cast<std::uint64_t>(i), permutations);
                 });
                 PairRow row = row_of(comparisons, permutations, options);

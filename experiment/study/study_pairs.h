@@ -11,7 +11,7 @@
 namespace overt {
 
 /// A row for each pair of levels of the compared column, within each group of the other columns of `--by`
-/// (sculptures together). Observers are compared with themselves on each sculpture that they saw in both
+/// (objects together). Observers are compared with themselves on each object that they saw in both
 /// levels, and their comparisons averaged. Beside each similarity:
 ///
 /// - halves: of random halves of both levels, one of each, and of both halves of the same level. All are of
@@ -29,8 +29,8 @@ namespace overt {
 /// so that what the groups tell apart cannot pass for a difference of levels.
 ///
 /// Maps count fixations alike and are made on the coarse surface. Empty if no column of `--by` is compared.
-std::vector<PairRow> study_pairs(const StudyResults& results, const std::vector<SculptureSurface>& surfaces,
-                                 const SculptureFixationMaps& maps, const LevelLists& levels,
+std::vector<PairRow> study_pairs(const StudyResults& results, const std::vector<ObjectSurface>& surfaces,
+                                 const ObjectFixationMaps& maps, const LevelLists& levels,
                                  const StudyOptions& options);
 
 } // namespace overt

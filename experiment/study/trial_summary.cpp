@@ -7,8 +7,8 @@
 namespace overt {
 
 TrialSummaryRow trial_summary(const StudyResults& results, const StudyTrial& trial) {
-    const StudySculpture& sculpture = results.sculptures[static_cast<std::size_t>(trial.sculpture)];
-    TrialSummaryRow row{trial, 0, 0, sculpture.head.has_value(), 0.0, 0.0, {}};
+    const StudyObject& object = results.objects[static_cast<std::size_t>(trial.object)];
+    TrialSummaryRow row{trial, 0, 0, object.head.has_value(), 0.0, 0.0, {}};
     std::vector<glm::dvec3> points;
     for (std::size_t i = trial.first_fixation; i < trial.first_fixation + trial.fixations; ++i) {
         const StudyFixation& fixation = results.fixations[i];
@@ -16,14 +16,14 @@ TrialSummaryRow trial_summary(const StudyResults& results, const StudyTrial& tri
             continue;
         ++row.counted;
         row.counted_s += fixation.duration_s;
-        if (sculpture.head.has(fixation.part)) {
+        if (object.head.has(fixation.part)) {
             ++row.on_head;
             row.head_s += fixation.duration_s;
         }
         points.push_back(fixation.position);
     }
-    if (points.size() >= 2 && sculpture.mm_per_unit)
-        row.wss_mm2 = point_spread(points)->wss() * *sculpture.mm_per_unit * *sculpture.mm_per_unit;
+    if (points.size() >= 2 && object.mm_per_unit)
+        row.wss_mm2 = point_spread(points)->wss() * *object.mm_per_unit * *object.mm_per_unit;
     return row;
 }
 

@@ -11,7 +11,7 @@ namespace overt {
 struct TrialSummaryRow {
     const StudyTrial& trial;
     int counted = 0, on_head = 0;
-    std::optional<bool> has_head; ///< whether its sculpture has a head
+    std::optional<bool> has_head; ///< whether its object has a head
     double counted_s = 0.0, head_s = 0.0;
     std::optional<double> wss_mm2; ///< of its counted fixations, two at least
 };

@@ -13,7 +13,7 @@ namespace overt {
 /// What SurfaceSmoother makes, up to what hats a fraction of a sigma apart cannot hold: heat flows in their
 /// space (Galerkin's method), with areas and cotangent weights of all the surface's nodes. The mass of each
 /// piece of the surface is kept. Correlation with SurfaceSmoother's map is above 0.995 (measured on shipped
-/// sculptures and in tests/experiment/surface).
+/// objects and in tests/experiment/surface).
 class HatSmoother {
   public:
     /// Hats are the least sigma divided by this apart.

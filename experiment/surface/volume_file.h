@@ -10,7 +10,7 @@ namespace overt {
 
 /// Writes the voxels as NRRD with 32-bit floats: a header of text that says size, spacing, origin and unit,
 /// then the numbers, little-endian, x fastest. 3D Slicer, ITK, ParaView and MeshLab's kin, pynrrd and MATLAB
-/// read it; NIfTI would ask for a patient's axes that a sculpture does not have. `unit` is that of the
+/// read it; NIfTI would ask for a patient's axes that an object does not have. `unit` is that of the
 /// voxels' lengths ("mm"), `meaning` what a number says ("fixations per mm^3"). Throws RecordError.
 void write_nrrd(const std::filesystem::path& path, const VoxelDensity& voxels, std::string_view unit,
                 std::string_view meaning);

@@ -104,7 +104,7 @@ template <class Members, class View> void view_members(Members& members, View& v
     members.value("trial", view.trial);
     members.words("task", view.task);
     members.words("question", view.question);
-    members.words("sculpture", view.sculpture);
+    members.words("object", view.object);
     members.words("material", view.material);
     members.value("light_file", view.light_file);
     members.value("done", view.done);

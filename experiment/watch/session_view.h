@@ -58,10 +58,10 @@ struct ViewedCamera {
 
 /// Everything that changes. Each line of it is complete, so that one that is left out does no harm.
 struct SessionView {
-    double time_s = 0.0;                             ///< session time of what is newest here
-    std::string phase;                               ///< see name_of(SessionPhase)
-    int trial = -1;                                  ///< from 0; -1: none is under way
-    std::string task, question, sculpture, material; ///< of the trial under way, or the last
+    double time_s = 0.0;                          ///< session time of what is newest here
+    std::string phase;                            ///< see name_of(SessionPhase)
+    int trial = -1;                               ///< from 0; -1: none is under way
+    std::string task, question, object, material; ///< of the trial under way, or the last
     std::string
         light_file; ///< pictures of its stimulus (light_pictures.h), relative to the folder; may be empty
     int done = 0;   ///< trials that are completed

@@ -48,7 +48,7 @@ std::optional<ViewedEvent> ViewBuilder::apply(const ViewNews& news) {
             const ViewedTrial& trial = trials_[static_cast<std::size_t>(news.trial)];
             view_.task = trial.task;
             view_.question = trial.question;
-            view_.sculpture = trial.sculpture;
+            view_.object = trial.object;
             view_.material = trial.material;
             view_.light_file = trial.light_file;
         }

@@ -57,7 +57,7 @@ struct GazeNews {
 
 /// What is told of a trial that begins, by its place in the schedule.
 struct ViewedTrial {
-    std::string task, question, sculpture, material, light_file;
+    std::string task, question, object, material, light_file;
 };
 
 /// Makes of the news what is to be shown. For one thread.

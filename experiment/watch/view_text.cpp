@@ -114,7 +114,7 @@ std::vector<std::string> figures_of(const ViewText& of) {
                     duration_text(view.time_s)));
     if (!view.task.empty())
         lines.push_back(
-            fmt::format("stimulus  {}, {}: {}", view.sculpture, view.material, plain_line_of(view.question)));
+            fmt::format("stimulus  {}, {}: {}", view.object, view.material, plain_line_of(view.question)));
     lines.push_back("display   missed refreshes: " + missed_text(facts, view));
     if (!facts.has_tracker)
         lines.emplace_back("tracker   none");

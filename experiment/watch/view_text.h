@@ -23,7 +23,7 @@ struct ViewText {
     const std::deque<ViewedGaze>& gaze;    ///< likewise
     const ViewedPicture& picture;
     bool is_silent = false;   ///< the session has said nothing for seconds
-    std::string surface = {}; ///< what gaze meets on the sculpture, in words; empty if that is not known
+    std::string surface = {}; ///< what gaze meets on the object, in words; empty if that is not known
     bool is_camera = false;   ///< the picture is what the tracker's camera sees
 };
 

@@ -1,4 +1,4 @@
-/// A sculpture in a material, made ready for paths.
+/// An object in a material, made ready for paths.
 #pragma once
 
 #include <memory>

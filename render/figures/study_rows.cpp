@@ -116,12 +116,12 @@ std::vector<StudyFigure> distribution_figures(const StudyResults& results) {
         return results.groups[static_cast<std::size_t>(row.group)].keys;
     };
     const std::vector<std::string> factors = columns_of(results.distributions, keys_of);
-    const bool with_sculpture = std::ranges::find(factors, "sculpture") == factors.end();
+    const bool with_object = std::ranges::find(factors, "object") == factors.end();
     RowChart chart;
     for (const std::string& factor : factors)
         chart.columns.push_back({factor, true});
-    if (with_sculpture)
-        chart.columns.push_back({"sculpture", true});
+    if (with_object)
+        chart.columns.push_back({"object", true});
     chart.bars_before = chart.columns.size();
     chart.bars_head = "mean WSS / mm²";
     for (const char* head : {"mean WSS / mm²", "Var x / mm²", "Var y / mm²", "Var z / mm²",
@@ -135,8 +135,8 @@ std::vector<StudyFigure> distribution_figures(const StudyResults& results) {
         ChartRow shown;
         for (const std::string& factor : factors)
             shown.cells.push_back(level_of(keys_of(row), factor));
-        if (with_sculpture)
-            shown.cells.push_back(results.sculptures[static_cast<std::size_t>(row.sculpture)].id);
+        if (with_object)
+            shown.cells.push_back(results.objects[static_cast<std::size_t>(row.object)].id);
         shown.bar = {row.wss_mm2.value, row.wss_mm2.interval, {}, number_among(colours, shown.cells.front())};
         shown.cells.push_back(text_of(row.wss_mm2));
         for (const std::optional<double>& variance : row.variance_mm2)
@@ -164,7 +164,7 @@ std::vector<StudyFigure> pair_figures(const StudyResults& results) {
                                                {"SIM"}});
     chart.note =
         fmt::format("CC of all maps: of the maps of all observers. WSS, CC and SIM: of one observer and one "
-                    "sculpture, then averaged; in brackets {:g} % intervals over observers. p after "
+                    "object, then averaged; in brackets {:g} % intervals over observers. p after "
                     "Holm, where it could be reckoned.",
                     100.0 * results.confidence);
     for (const PairRow& row : results.pairs) {

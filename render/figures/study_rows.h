@@ -11,7 +11,7 @@ namespace overt {
 /// Figure 4, the shares of fixations on the head: levels of one factor each, or groups where there are no
 /// such.
 std::vector<StudyFigure> head_fraction_figures(const StudyResults& results);
-/// Figure 5, how widely each group looked on each sculpture.
+/// Figure 5, how widely each group looked on each object.
 std::vector<StudyFigure> distribution_figures(const StudyResults& results);
 /// Table 1, pairs of conditions.
 std::vector<StudyFigure> pair_figures(const StudyResults& results);

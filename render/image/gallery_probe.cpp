@@ -15,7 +15,7 @@ namespace {
 using Colour = glm::dvec3;
 using Place = glm::dvec3;
 
-// The sculpture's middle is the origin; +y is away from the camera, +x to its right, lengths in metres.
+// The object's middle is the origin; +y is away from the camera, +x to its right, lengths in metres.
 constexpr Place room_low(-5.0, -6.0, -1.5), room_high(7.0, 5.0, 3.5);
 constexpr std::uint64_t texture_seed = 2004;
 

@@ -41,12 +41,12 @@ std::string text_of(const MaterialSettings& material) {
 
 } // namespace
 
-ImageAttributes describe_stimulus(const Protocol& protocol, const Sculpture& sculpture,
+ImageAttributes describe_stimulus(const Protocol& protocol, const Object& object,
                                   const MaterialSettings& material, Degrees angle) {
-    const Camera& camera = sculpture.scene.view.camera;
+    const Camera& camera = object.scene.view.camera;
     return {{"overt:protocol", protocol.name},
-            {"overt:sculpture", sculpture.id},
-            {"overt:mesh_sha256", sculpture.mesh_hash},
+            {"overt:object", object.id},
+            {"overt:mesh_sha256", object.mesh_hash},
             {"overt:material", material.id},
             {"overt:material_settings", text_of(material)},
             {"overt:angle_deg", fmt::format("{}", angle.value)},

@@ -1,14 +1,14 @@
 /// What made a frame, in words that go with it.
 #pragma once
 
-#include "experiment/stimulus/sculpture.h"
+#include "experiment/stimulus/object.h"
 #include "render/image/linear_image.h"
 #include "render/stimulus/frame_quality.h"
 
 namespace overt {
 
-/// Sculpture, material, camera, angle, and the surroundings without their exposure.
-ImageAttributes describe_stimulus(const Protocol& protocol, const Sculpture& sculpture,
+/// Object, material, camera, angle, and the surroundings without their exposure.
+ImageAttributes describe_stimulus(const Protocol& protocol, const Object& object,
                                   const MaterialSettings& material, Degrees angle);
 
 /// Quality, samples, filter, seed, observer and the tracer's version.

@@ -50,34 +50,34 @@ ContentHash hash_of_surroundings(const LightSettings& light) {
     return hasher.finish();
 }
 
-ContentHash traced_key(const Sculpture& sculpture, const MaterialSettings& material,
+ContentHash traced_key(const Object& object, const MaterialSettings& material,
                        const ContentHash& surroundings, double exposure, const BakeSettings& settings,
                        StandardObserver observer) {
     ContentHasher hasher;
     // The silhouette follows the maps.
     hasher.add(std::string_view("traced")).add(frame_baker_version).add(coordinate_pass_version);
-    hasher.add(std::string_view(sculpture.mesh_hash)).add(std::string_view(surroundings));
-    add_to(hasher, sculpture.scene);
+    hasher.add(std::string_view(object.mesh_hash)).add(std::string_view(surroundings));
+    add_to(hasher, object.scene);
     add_to(hasher, material);
     add_to(hasher, settings);
     hasher.add(settings.target_error_de > 0.0 ? exposure : 0.0).add(static_cast<int>(observer));
     return hasher.finish();
 }
 
-ContentHash live_key(const Sculpture& sculpture, const MaterialSettings& material,
-                     const ContentHash& surroundings, double exposure) {
+ContentHash live_key(const Object& object, const MaterialSettings& material, const ContentHash& surroundings,
+                     double exposure) {
     ContentHasher hasher;
     hasher.add(std::string_view("live")).add(stimulus_renderer_version);
-    hasher.add(std::string_view(sculpture.mesh_hash)).add(std::string_view(surroundings)).add(exposure);
-    add_to(hasher, sculpture.scene);
+    hasher.add(std::string_view(object.mesh_hash)).add(std::string_view(surroundings)).add(exposure);
+    add_to(hasher, object.scene);
     add_to(hasher, material);
     return hasher.finish();
 }
 
-ContentHash map_key(const Sculpture& sculpture) {
+ContentHash map_key(const Object& object) {
     ContentHasher hasher;
-    hasher.add(std::string_view(sculpture.mesh_hash)).add(coordinate_pass_version);
-    add_to(hasher, sculpture.scene);
+    hasher.add(std::string_view(object.mesh_hash)).add(coordinate_pass_version);
+    add_to(hasher, object.scene);
     return hasher.finish();
 }
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "experiment/base/content_hash.h"
-#include "experiment/stimulus/sculpture.h"
+#include "experiment/stimulus/object.h"
 #include "render/bake/bake_settings.h"
 
 namespace overt {
@@ -22,15 +22,15 @@ ContentHash hash_of_surroundings(const LightSettings& light);
 
 /// Of a path-traced stimulus, but for the angle. The exposure is not in it, and frames have none: they are
 /// the same for all exposures and displays; unless errors are judged, for which it counts.
-ContentHash traced_key(const Sculpture& sculpture, const MaterialSettings& material,
+ContentHash traced_key(const Object& object, const MaterialSettings& material,
                        const ContentHash& surroundings, double exposure, const BakeSettings& settings,
                        StandardObserver observer);
 
 /// Of a stimulus that OpenGL draws, likewise. The exposure is in its frames.
-ContentHash live_key(const Sculpture& sculpture, const MaterialSettings& material,
-                     const ContentHash& surroundings, double exposure);
+ContentHash live_key(const Object& object, const MaterialSettings& material, const ContentHash& surroundings,
+                     double exposure);
 
-/// Of the maps of a sculpture.
-ContentHash map_key(const Sculpture& sculpture);
+/// Of the maps of an object.
+ContentHash map_key(const Object& object);
 
 } // namespace overt

@@ -74,20 +74,20 @@ void FrameMaker::make_frames(std::span<const Condition> conditions, const FrameQ
 
 void FrameMaker::draw_live_frame(const Condition& condition, PoseIndex pose, const FrameQuality& quality,
                                  std::future<void>& writing) {
-    const Sculpture& sculpture = cache_->sculpture_of(condition);
+    const Object& object = cache_->object_of(condition);
     const MaterialSettings& material = cache_->material_of(condition);
     const std::filesystem::path file = cache_->frame_file_of(condition, quality, pose);
     std::filesystem::create_directories(file.parent_path());
     if (!renderer_)
-        renderer_.emplace(*context_, cache_->protocol().light, sculpture.scene.view.image_px);
+        renderer_.emplace(*context_, cache_->protocol().light, object.scene.view.image_px);
     if (live_material_ != condition.material)
         renderer_->set_material(material);
     live_material_ = condition.material;
     const Degrees angle = cache_->angle_of(pose);
-    LinearImage image = renderer_->draw(maps_->buffers_of(condition.sculpture, true), sculpture.scene, angle);
+    LinearImage image = renderer_->draw(maps_->buffers_of(condition.object, true), object.scene, angle);
     if (writing.valid())
         writing.get();
-    ImageAttributes attributes = describe_stimulus(cache_->protocol(), sculpture, material, angle);
+    ImageAttributes attributes = describe_stimulus(cache_->protocol(), object, material, angle);
     attributes.emplace_back("overt:renderer", "OpenGL");
     writing =
         std::async(std::launch::async, [file, image = std::move(image), attributes = std::move(attributes)] {
@@ -97,21 +97,21 @@ void FrameMaker::draw_live_frame(const Condition& condition, PoseIndex pose, con
 
 SpectralFrame FrameMaker::trace(const Condition& condition, PoseIndex pose, const FrameQuality& quality,
                                 const BakeProgress& progress) {
-    maps_->draw_missing_map(condition.sculpture, pose);
-    const TriangleMap map = read_triangle_map(cache_->map_file(condition.sculpture, pose));
-    const Sculpture& sculpture = cache_->sculpture_of(condition);
+    maps_->draw_missing_map(condition.object, pose);
+    const TriangleMap map = read_triangle_map(cache_->map_file(condition.object, pose));
+    const Object& object = cache_->object_of(condition);
     const MaterialSettings& material = cache_->material_of(condition);
     if (!light_)
         light_.emplace(cache_->protocol().light);
     if (!scene_ || scene_of_ != condition) {
         scene_.reset(); // the memory of one at a time
-        scene_.emplace(sculpture.mesh, material);
+        scene_.emplace(object.mesh, material);
         scene_of_ = condition;
     }
     std::vector<std::uint8_t> covered(map.codes.size());
     for (std::size_t i = 0; i < covered.size(); ++i)
         covered[i] = map.codes[i] != 0;
-    return bake_frame(*scene_, *light_, sculpture.scene, cache_->angle_of(pose), covered,
+    return bake_frame(*scene_, *light_, object.scene, cache_->angle_of(pose), covered,
                       bake_settings(quality, cache_->protocol().bake, material.kind), progress);
 }
 

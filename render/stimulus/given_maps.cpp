@@ -8,7 +8,7 @@
 
 #include "experiment/base/error.h"
 #include "experiment/base/parallel.h"
-#include "experiment/stimulus/sculpture.h"
+#include "experiment/stimulus/object.h"
 
 namespace overt {
 
@@ -20,7 +20,7 @@ constexpr int given_map_version = 1;
 /// Angles are written with few digits by some programs.
 constexpr double same_angle_deg = 1e-3;
 
-MapDescription known_of(const SculptureSettings& settings) {
+MapDescription known_of(const ObjectSettings& settings) {
     MapDescription known;
     known.scale = settings.lut_scale;
     if (settings.lut_min && settings.lut_max)
@@ -54,8 +54,8 @@ AnimationFrameIndex first_frame_of(const PoseTable& poses, PoseIndex pose) {
     return {static_cast<int>(found - poses.of_frame.begin())};
 }
 
-CoordinateImageFile read_given_map(const Protocol& protocol, int sculpture, AnimationFrameIndex frame) {
-    const SculptureSettings& settings = protocol.sculptures[static_cast<std::size_t>(sculpture)];
+CoordinateImageFile read_given_map(const Protocol& protocol, int object, AnimationFrameIndex frame) {
+    const ObjectSettings& settings = protocol.objects[static_cast<std::size_t>(object)];
     const std::filesystem::path file = lut_file(settings, frame);
     CoordinateImageFile map = read_coordinate_image(file, known_of(settings));
     const glm::ivec2 wanted(protocol.view.width_px, protocol.view.height_px);
@@ -73,7 +73,7 @@ CoordinateImageFile read_given_map(const Protocol& protocol, int sculpture, Anim
                                      file.string(), description.angle->value, frame.value, angle.value));
     }
     description.angle = angle;
-    description.sculpture = settings.id;
+    description.object = settings.id;
     description.frame = frame.value;
     if (!description.camera)
         description.camera = camera_of(protocol, description.bounds);
@@ -82,8 +82,8 @@ CoordinateImageFile read_given_map(const Protocol& protocol, int sculpture, Anim
     return map;
 }
 
-ContentHash hash_of_given_map(const Protocol& protocol, int sculpture, AnimationFrameIndex frame) {
-    const SculptureSettings& settings = protocol.sculptures[static_cast<std::size_t>(sculpture)];
+ContentHash hash_of_given_map(const Protocol& protocol, int object, AnimationFrameIndex frame) {
+    const ObjectSettings& settings = protocol.objects[static_cast<std::size_t>(object)];
     const std::filesystem::path file = lut_file(settings, frame);
     const std::filesystem::path sidecar = sidecar_of(file);
     ContentHasher hasher;
@@ -104,21 +104,21 @@ ContentHash hash_of_given_map(const Protocol& protocol, int sculpture, Animation
     return hasher.finish();
 }
 
-std::vector<std::string> check_given_maps(const Protocol& protocol, int sculpture) {
+std::vector<std::string> check_given_maps(const Protocol& protocol, int object) {
     const PoseTable poses = distinct_poses(protocol.animation);
     std::atomic<int> mixed_maps{0}, unknown_cameras{0};
     std::atomic<bool> head_seen{false};
     parallel_for(static_cast<int>(poses.angles.size()), [&](int pose) {
         const CoordinateImageFile map =
-            read_given_map(protocol, sculpture, first_frame_of(poses, PoseIndex{pose}));
+            read_given_map(protocol, object, first_frame_of(poses, PoseIndex{pose}));
         mixed_maps += map.mixed_px > 0;
         unknown_cameras += !map.description.camera || !map.description.bounds;
         if (std::find(map.image.parts.begin(), map.image.parts.end(), PartIndex{1}) != map.image.parts.end())
             head_seen = true;
     });
-    const SculptureSettings& settings = protocol.sculptures[static_cast<std::size_t>(sculpture)];
+    const ObjectSettings& settings = protocol.objects[static_cast<std::size_t>(object)];
     if (head_region(settings) && !head_seen) {
-        throw InputError(fmt::format("sculpture \"{}\": no pixel of its maps lies in the head that is "
+        throw InputError(fmt::format("object \"{}\": no pixel of its maps lies in the head that is "
                                      "described; its coordinates must be those of the maps",
                                      settings.id));
     }

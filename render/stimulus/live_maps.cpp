@@ -11,16 +11,16 @@ constexpr int reads_at_once = 4;
 
 } // namespace
 
-LiveMaps::LiveMaps(const GlContext& context, std::span<const Sculpture> sculptures, const PoseTable& poses,
+LiveMaps::LiveMaps(const GlContext& context, std::span<const Object> objects, const PoseTable& poses,
                    glm::ivec2 image_px)
     : image_px_(image_px), pass_(context, image_px) {
-    for (const Sculpture& sculpture : sculptures) {
+    for (const Object& object : objects) {
         Figure& figure = figures_.emplace_back();
-        if (!sculpture.has_mesh())
+        if (!object.has_mesh())
             continue;
-        figure.buffers = std::make_unique<MeshBuffers>(context, sculpture.mesh);
+        figure.buffers = std::make_unique<MeshBuffers>(context, object.mesh);
         for (const Degrees angle : poses.angles)
-            figure.clip_from_object.push_back(clip_from_centred_object(sculpture.scene, angle));
+            figure.clip_from_object.push_back(clip_from_centred_object(object.scene, angle));
         figure.states.assign(poses.angles.size(), State::missing);
         figure.maps.resize(poses.angles.size());
     }
@@ -29,7 +29,7 @@ LiveMaps::LiveMaps(const GlContext& context, std::span<const Sculpture> sculptur
 }
 
 void LiveMaps::presentation_begins(const Trial& trial) noexcept {
-    current_ = trial.condition.sculpture;
+    current_ = trial.condition.object;
     Figure& figure = figures_[static_cast<std::size_t>(current_)];
     for (std::size_t pose = 0; pose < figure.states.size(); ++pose) {
         if (figure.states[pose] != State::missing)
@@ -75,13 +75,13 @@ void LiveMaps::screen_shown(const Screen&, SessionTime) noexcept { collect(true)
 
 std::vector<LiveMap> LiveMaps::take_finished() {
     std::vector<LiveMap> finished;
-    for (std::size_t sculpture = 0; sculpture < figures_.size(); ++sculpture) {
-        Figure& figure = figures_[sculpture];
+    for (std::size_t object = 0; object < figures_.size(); ++object) {
+        Figure& figure = figures_[object];
         for (std::size_t pose = 0; pose < figure.states.size(); ++pose) {
             if (figure.states[pose] != State::done || figure.maps[pose].codes.empty())
                 continue;
             finished.push_back(
-                {static_cast<int>(sculpture), {static_cast<int>(pose)}, std::move(figure.maps[pose])});
+                {static_cast<int>(object), {static_cast<int>(pose)}, std::move(figure.maps[pose])});
             figure.maps[pose] = {};
         }
     }

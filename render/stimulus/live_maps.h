@@ -8,7 +8,7 @@
 #include "experiment/maps/triangle_map.h"
 #include "experiment/ports/presentation_listener.h"
 #include "experiment/ports/presenter.h"
-#include "experiment/stimulus/sculpture.h"
+#include "experiment/stimulus/object.h"
 #include "render/gl/pixel_readback.h"
 #include "render/stimulus/coordinate_pass.h"
 
@@ -16,7 +16,7 @@ namespace overt {
 
 /// A map that was made while its frame was shown.
 struct LiveMap {
-    int sculpture = 0;
+    int object = 0;
     PoseIndex pose;
     TriangleMap map;
 };
@@ -25,9 +25,9 @@ struct LiveMap {
 /// it allocates and throws nothing, and never waits for the card.
 class LiveMaps final : public PresentationListener {
   public:
-    /// `sculptures` must outlive this. Uploads all meshes. Throws GraphicsError, or InputError as depth_range
+    /// `objects` must outlive this. Uploads all meshes. Throws GraphicsError, or InputError as depth_range
     /// does.
-    LiveMaps(const GlContext& context, std::span<const Sculpture> sculptures, const PoseTable& poses,
+    LiveMaps(const GlContext& context, std::span<const Object> objects, const PoseTable& poses,
              glm::ivec2 image_px);
 
     void presentation_begins(const Trial& trial) noexcept override;
@@ -35,7 +35,7 @@ class LiveMaps final : public PresentationListener {
     /// Ends a presentation: waits for what is still under way.
     void screen_shown(const Screen& screen, SessionTime onset) noexcept override;
 
-    /// The maps finished since the last call, to be written down. Each pose of a sculpture comes once.
+    /// The maps finished since the last call, to be written down. Each pose of an object comes once.
     std::vector<LiveMap> take_finished();
 
   private:
@@ -44,7 +44,7 @@ class LiveMaps final : public PresentationListener {
         std::unique_ptr<MeshBuffers> buffers;    ///< null without a mesh
         std::vector<glm::mat4> clip_from_object; ///< by pose
         std::vector<State> states;               ///< by pose
-        std::vector<TriangleMap> maps;           ///< by pose; memory only while the sculpture is being mapped
+        std::vector<TriangleMap> maps;           ///< by pose; memory only while the object is being mapped
     };
     struct Read {
         std::unique_ptr<PixelReadback> pixels;
@@ -56,7 +56,7 @@ class LiveMaps final : public PresentationListener {
     CoordinatePass pass_;
     std::vector<Figure> figures_;
     std::vector<Read> reads_;
-    int current_ = -1; ///< sculpture on the screen
+    int current_ = -1; ///< object on the screen
 };
 
 } // namespace overt

@@ -26,20 +26,20 @@ void put_over(LinearImage& picture, const LinearImage& text, float grey, glm::iv
 
 } // namespace
 
-LiveView::LiveView(const GlContext& context, const Protocol& protocol, std::span<const Sculpture> sculptures,
+LiveView::LiveView(const GlContext& context, const Protocol& protocol, std::span<const Object> objects,
                    glm::ivec2 image_px)
-    : context_(&context), protocol_(&protocol), sculptures_(sculptures), image_px_(image_px),
+    : context_(&context), protocol_(&protocol), objects_(objects), image_px_(image_px),
       renderer_(context, protocol.light, image_px),
       label_grey_(protocol.display.background > 0.3 ? 0.0f : 0.6f) {}
 
 void LiveView::choose(const Condition& stimulus) {
-    const Sculpture& sculpture = sculptures_[static_cast<std::size_t>(stimulus.sculpture)];
+    const Object& object = objects_[static_cast<std::size_t>(stimulus.object)];
     const MaterialSettings& material = protocol_->materials[static_cast<std::size_t>(stimulus.material)];
-    if (!sculpture.has_mesh())
-        throw InputError(fmt::format("sculpture \"{}\" has no mesh to be turned", sculpture.id));
-    if (stimulus.sculpture != stimulus_.sculpture) {
+    if (!object.has_mesh())
+        throw InputError(fmt::format("object \"{}\" has no mesh to be turned", object.id));
+    if (stimulus.object != stimulus_.object) {
         buffers_.reset();
-        buffers_.emplace(*context_, sculpture.mesh, openness_of_vertices(sculpture.mesh));
+        buffers_.emplace(*context_, object.mesh, openness_of_vertices(object.mesh));
     }
     if (stimulus.material != stimulus_.material)
         renderer_.set_material(material);
@@ -50,12 +50,12 @@ void LiveView::choose(const Condition& stimulus) {
     style.background = static_cast<float>(protocol_->display.background);
     style.grey = label_grey_;
     style.centred = false;
-    label_ = draw_text(fmt::format("Live preview, approximate: {}/{}", sculpture.id, material.id), style);
+    label_ = draw_text(fmt::format("Live preview, approximate: {}/{}", object.id, material.id), style);
 }
 
 LinearImage LiveView::draw(const Orbit& orbit) {
     OVERT_EXPECTS(buffers_.has_value());
-    SceneView scene = sculptures_[static_cast<std::size_t>(stimulus_.sculpture)].scene;
+    SceneView scene = objects_[static_cast<std::size_t>(stimulus_.object)].scene;
     scene.view.image_px = image_px_;
     LinearImage picture = renderer_.draw(*buffers_, seen_from(scene, orbit), Degrees{orbit.turn_deg});
     const glm::mat3 to_display = protocol_->display.characterisation

@@ -1,10 +1,10 @@
-/// A sculpture to be turned by hand: drawn by OpenGL as an approximation, and labelled as one.
+/// An object to be turned by hand: drawn by OpenGL as an approximation, and labelled as one.
 #pragma once
 
 #include <span>
 
 #include "experiment/scene/orbit.h"
-#include "experiment/stimulus/sculpture.h"
+#include "experiment/stimulus/object.h"
 #include "experiment/trial.h"
 #include "render/stimulus/stimulus_renderer.h"
 
@@ -12,12 +12,12 @@ namespace overt {
 
 class LiveView {
   public:
-    /// `protocol` and `sculptures` must outlive the view; all sculptures that are looked at have a mesh.
+    /// `protocol` and `objects` must outlive the view; all objects that are looked at have a mesh.
     /// Throws as StimulusRenderer does.
-    LiveView(const GlContext& context, const Protocol& protocol, std::span<const Sculpture> sculptures,
+    LiveView(const GlContext& context, const Protocol& protocol, std::span<const Object> objects,
              glm::ivec2 image_px);
 
-    /// Throws InputError for a sculpture without a mesh.
+    /// Throws InputError for an object without a mesh.
     void choose(const Condition& stimulus);
     const Condition& chosen() const { return stimulus_; }
 
@@ -27,7 +27,7 @@ class LiveView {
   private:
     const GlContext* context_;
     const Protocol* protocol_;
-    std::span<const Sculpture> sculptures_;
+    std::span<const Object> objects_;
     glm::ivec2 image_px_;
     StimulusRenderer renderer_;
     Condition stimulus_{-1, -1};

@@ -11,19 +11,19 @@ namespace overt {
 
 void MapMaker::prepare_given_maps(const Progress& progress) {
     const int count = static_cast<int>(cache_->poses().angles.size());
-    for (int sculpture = 0; sculpture < static_cast<int>(cache_->sculptures().size()); ++sculpture) {
-        if (!cache_->has_given_maps(sculpture))
+    for (int object = 0; object < static_cast<int>(cache_->objects().size()); ++object) {
+        if (!cache_->has_given_maps(object))
             continue;
         const std::string what =
-            "reading the maps of " + cache_->sculptures()[static_cast<std::size_t>(sculpture)].id;
+            "reading the maps of " + cache_->objects()[static_cast<std::size_t>(object)].id;
         if (progress)
             progress(what, 0, count, 0.0);
         parallel_for(count, [&](int pose) {
-            const std::filesystem::path file = cache_->map_file(sculpture, {pose});
+            const std::filesystem::path file = cache_->map_file(object, {pose});
             if (std::filesystem::exists(file))
                 return;
-            const CoordinateImageFile map = read_given_map(cache_->protocol(), sculpture,
-                                                           first_frame_of(cache_->poses(), PoseIndex{pose}));
+            const CoordinateImageFile map =
+                read_given_map(cache_->protocol(), object, first_frame_of(cache_->poses(), PoseIndex{pose}));
             std::filesystem::create_directories(file.parent_path());
             write_coordinate_exr(file, map.image, map.description);
         });
@@ -33,36 +33,36 @@ void MapMaker::prepare_given_maps(const Progress& progress) {
 }
 
 void MapMaker::prepare_maps(const Progress& progress) {
-    for (int sculpture = 0; sculpture < static_cast<int>(cache_->sculptures().size()); ++sculpture) {
-        if (cache_->sculptures()[static_cast<std::size_t>(sculpture)].has_mesh())
-            prepare_maps(sculpture, progress);
+    for (int object = 0; object < static_cast<int>(cache_->objects().size()); ++object) {
+        if (cache_->objects()[static_cast<std::size_t>(object)].has_mesh())
+            prepare_maps(object, progress);
     }
 }
 
-void MapMaker::prepare_maps(int sculpture, const Progress& progress) {
-    const std::string what = "mapping " + cache_->sculptures()[static_cast<std::size_t>(sculpture)].id;
+void MapMaker::prepare_maps(int object, const Progress& progress) {
+    const std::string what = "mapping " + cache_->objects()[static_cast<std::size_t>(object)].id;
     const int count = static_cast<int>(cache_->poses().angles.size());
     bool drew = false;
     for (int pose = 0; pose < count; ++pose) {
-        if (progress && !std::filesystem::exists(cache_->map_file(sculpture, {pose})))
+        if (progress && !std::filesystem::exists(cache_->map_file(object, {pose})))
             progress(what, pose, count, static_cast<double>(pose) / count);
-        drew = draw_missing_map(sculpture, {pose}) || drew;
+        drew = draw_missing_map(object, {pose}) || drew;
     }
     if (drew && progress)
         progress(what, count, count, 1.0);
 }
 
-bool MapMaker::draw_missing_map(int sculpture, PoseIndex pose) {
-    const std::filesystem::path file = cache_->map_file(sculpture, pose);
+bool MapMaker::draw_missing_map(int object, PoseIndex pose) {
+    const std::filesystem::path file = cache_->map_file(object, pose);
     if (std::filesystem::exists(file))
         return false;
-    const Sculpture& figure = cache_->sculptures()[static_cast<std::size_t>(sculpture)];
+    const Object& figure = cache_->objects()[static_cast<std::size_t>(object)];
     const Degrees angle = cache_->angle_of(pose);
     std::filesystem::create_directories(file.parent_path());
-    const TriangleMap map = draw_map(sculpture, pose);
+    const TriangleMap map = draw_map(object, pose);
     if (map.covered_pixels() == 0) {
         throw InputError(fmt::format(
-            "sculpture \"{}\" is nowhere in the picture at {:.3g} degrees: correct the camera under [view]",
+            "object \"{}\" is nowhere in the picture at {:.3g} degrees: correct the camera under [view]",
             figure.id, angle.value));
     }
     const Camera& camera = figure.scene.view.camera;
@@ -77,24 +77,24 @@ bool MapMaker::draw_missing_map(int sculpture, PoseIndex pose) {
     return true;
 }
 
-TriangleMap MapMaker::draw_map(int sculpture, PoseIndex pose) {
-    const SceneView& scene = cache_->sculptures()[static_cast<std::size_t>(sculpture)].scene;
+TriangleMap MapMaker::draw_map(int object, PoseIndex pose) {
+    const SceneView& scene = cache_->objects()[static_cast<std::size_t>(object)].scene;
     if (!coordinate_pass_)
         coordinate_pass_.emplace(*context_, scene.view.image_px);
     return {scene.view.image_px,
-            coordinate_pass_->draw(buffers_of(sculpture, false), scene, cache_->angle_of(pose))};
+            coordinate_pass_->draw(buffers_of(object, false), scene, cache_->angle_of(pose))};
 }
 
-const MeshBuffers& MapMaker::buffers_of(int sculpture, bool for_light) {
-    if (buffered_sculpture_ != sculpture || (for_light && !buffered_for_light_)) {
-        const Mesh& mesh = cache_->sculptures()[static_cast<std::size_t>(sculpture)].mesh;
+const MeshBuffers& MapMaker::buffers_of(int object, bool for_light) {
+    if (buffered_object_ != object || (for_light && !buffered_for_light_)) {
+        const Mesh& mesh = cache_->objects()[static_cast<std::size_t>(object)].mesh;
         buffers_.reset();
         if (for_light) {
             buffers_.emplace(*context_, mesh, openness_of_vertices(mesh));
         } else {
             buffers_.emplace(*context_, mesh);
         }
-        buffered_sculpture_ = sculpture;
+        buffered_object_ = object;
         buffered_for_light_ = for_light;
     }
     return *buffers_;

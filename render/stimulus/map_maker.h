@@ -24,26 +24,26 @@ class MapMaker {
     /// read_given_map does.
     void prepare_given_maps(const Progress& progress);
 
-    /// Draws whatever maps the cache lacks, of all sculptures with a mesh, or of one. Throws InputError for
+    /// Draws whatever maps the cache lacks, of all objects with a mesh, or of one. Throws InputError for
     /// an object that is nowhere in the picture, GraphicsError, RecordError.
     void prepare_maps(const Progress& progress);
-    void prepare_maps(int sculpture, const Progress& progress);
+    void prepare_maps(int object, const Progress& progress);
 
     /// Draws a map that the cache lacks. Gives false if there was nothing to do. Throws likewise.
-    bool draw_missing_map(int sculpture, PoseIndex pose);
+    bool draw_missing_map(int object, PoseIndex pose);
 
     /// Draws one pose anew, past the cache: for a look and for measurements.
-    TriangleMap draw_map(int sculpture, PoseIndex pose);
+    TriangleMap draw_map(int object, PoseIndex pose);
 
-    /// A sculpture on the card, which holds one at a time; `for_light`: with what StimulusRenderer needs.
-    const MeshBuffers& buffers_of(int sculpture, bool for_light);
+    /// An object on the card, which holds one at a time; `for_light`: with what StimulusRenderer needs.
+    const MeshBuffers& buffers_of(int object, bool for_light);
 
   private:
     const GlContext* context_;
     const StimulusCache* cache_;
     std::optional<CoordinatePass> coordinate_pass_;
     std::optional<MeshBuffers> buffers_;
-    int buffered_sculpture_ = -1;
+    int buffered_object_ = -1;
     bool buffered_for_light_ = false;
 };
 

@@ -1,4 +1,4 @@
-/// The one matrix with which every pass draws a sculpture.
+/// The one matrix with which every pass draws an object.
 #pragma once
 
 #include "experiment/scene/viewing.h"

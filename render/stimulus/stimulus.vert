@@ -1,5 +1,5 @@
 #version 330 core
-// A sculpture as it stands on the turntable. Positions are relative to the centre of the bounding box, so that float keeps
+// An object as it stands on the turntable. Positions are relative to the centre of the bounding box, so that float keeps
 // its precision for meshes far from their origin.
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;

@@ -15,17 +15,17 @@
 
 namespace overt {
 
-StimulusCache::StimulusCache(const Protocol& protocol, std::span<const Sculpture> sculptures,
+StimulusCache::StimulusCache(const Protocol& protocol, std::span<const Object> objects,
                              std::filesystem::path folder)
-    : protocol_(&protocol), sculptures_(sculptures), folder_(std::move(folder)),
+    : protocol_(&protocol), objects_(objects), folder_(std::move(folder)),
       poses_(distinct_poses(protocol.animation)), surroundings_(hash_of_surroundings(protocol.light)) {}
 
 std::vector<Condition> StimulusCache::rendered_stimuli() const {
     std::vector<Condition> stimuli;
-    for (int sculpture = 0; sculpture < static_cast<int>(sculptures_.size()); ++sculpture) {
+    for (int object = 0; object < static_cast<int>(objects_.size()); ++object) {
         for (int material = 0; material < static_cast<int>(protocol_->materials.size()); ++material) {
-            if (!is_ready_made({sculpture, material}))
-                stimuli.push_back({sculpture, material});
+            if (!is_ready_made({object, material}))
+                stimuli.push_back({object, material});
         }
     }
     return stimuli;
@@ -33,20 +33,20 @@ std::vector<Condition> StimulusCache::rendered_stimuli() const {
 
 std::vector<Condition> StimulusCache::stimuli_with_surface() const {
     std::vector<Condition> stimuli;
-    for (int sculpture = 0; sculpture < static_cast<int>(sculptures_.size()); ++sculpture) {
+    for (int object = 0; object < static_cast<int>(objects_.size()); ++object) {
         for (int material = 0; material < static_cast<int>(protocol_->materials.size()); ++material) {
-            if (sculptures_[static_cast<std::size_t>(sculpture)].has_mesh() || has_given_maps(sculpture))
-                stimuli.push_back({sculpture, material});
+            if (objects_[static_cast<std::size_t>(object)].has_mesh() || has_given_maps(object))
+                stimuli.push_back({object, material});
         }
     }
     return stimuli;
 }
 
 void StimulusCache::require_mesh(const Condition& condition) const {
-    const Sculpture& sculpture = sculpture_of(condition);
-    if (!sculpture.has_mesh()) {
+    const Object& object = object_of(condition);
+    if (!object.has_mesh()) {
         throw InputError(fmt::format("{}, {}: there is neither a mesh to render nor [[frames]] to show",
-                                     protocol_->sculptures[static_cast<std::size_t>(condition.sculpture)].id,
+                                     protocol_->objects[static_cast<std::size_t>(condition.object)].id,
                                      material_of(condition).id));
     }
 }
@@ -88,11 +88,11 @@ std::filesystem::path StimulusCache::frame_file_of(const Condition& condition, c
 }
 
 ContentHash StimulusCache::frame_key(const Condition& condition, const FrameQuality& quality) const {
-    const Sculpture& sculpture = sculpture_of(condition);
+    const Object& object = object_of(condition);
     const MaterialSettings& material = material_of(condition);
     if (quality.is_live())
-        return live_key(sculpture, material, surroundings_, protocol_->light.exposure);
-    return traced_key(sculpture, material, surroundings_, protocol_->light.exposure,
+        return live_key(object, material, surroundings_, protocol_->light.exposure);
+    return traced_key(object, material, surroundings_, protocol_->light.exposure,
                       bake_settings(quality, protocol_->bake, material.kind), protocol_->bake.observer);
 }
 
@@ -110,30 +110,30 @@ void StimulusCache::store(const Condition& condition, PoseIndex pose, const Fram
     std::filesystem::create_directories(file.parent_path());
     const Degrees angle = angle_of(pose);
     const MaterialSettings& material = material_of(condition);
-    ImageAttributes attributes = describe_stimulus(*protocol_, sculpture_of(condition), material, angle);
+    ImageAttributes attributes = describe_stimulus(*protocol_, object_of(condition), material, angle);
     for (auto& attribute : describe_tracing(quality, *protocol_, material.kind))
         attributes.push_back(std::move(attribute));
     attributes.emplace_back("overt:key", frame_key(condition, quality));
     write_linear_exr(file, seen_by(protocol_->bake.observer, frame), attributes);
 }
 
-bool StimulusCache::has_given_maps(int sculpture) const {
-    return !protocol_->sculptures[static_cast<std::size_t>(sculpture)].lut.empty();
+bool StimulusCache::has_given_maps(int object) const {
+    return !protocol_->objects[static_cast<std::size_t>(object)].lut.empty();
 }
 
-std::filesystem::path StimulusCache::map_file(int sculpture, PoseIndex pose) const {
-    if (has_given_maps(sculpture)) {
-        return file_of("given_maps", hash_of_given_map(*protocol_, sculpture, first_frame_of(poses_, pose)),
+std::filesystem::path StimulusCache::map_file(int object, PoseIndex pose) const {
+    if (has_given_maps(object)) {
+        return file_of("given_maps", hash_of_given_map(*protocol_, object, first_frame_of(poses_, pose)),
                        pose);
     }
-    return file_of("maps", map_key(sculptures_[static_cast<std::size_t>(sculpture)]), pose);
+    return file_of("maps", map_key(objects_[static_cast<std::size_t>(object)]), pose);
 }
 
-SceneView StimulusCache::scene_of_given_maps(int sculpture) const {
+SceneView StimulusCache::scene_of_given_maps(int object) const {
     SceneView scene;
     scene.view.camera.vertical_fov.value = 0.0;
     scene.view.image_px = {protocol_->view.width_px, protocol_->view.height_px};
-    const MapDescription first = read_map_description(map_file(sculpture, {0}));
+    const MapDescription first = read_map_description(map_file(object, {0}));
     if (first.camera)
         scene.view.camera = *first.camera;
     if (first.bounds) {
@@ -144,7 +144,7 @@ SceneView StimulusCache::scene_of_given_maps(int sculpture) const {
     scene.bounds = {glm::dvec3(std::numeric_limits<double>::infinity()),
                     glm::dvec3(-std::numeric_limits<double>::infinity())};
     for (int pose = 0; pose < static_cast<int>(poses_.angles.size()); ++pose) {
-        for (const glm::vec4& pixel : read_coordinate_image(map_file(sculpture, {pose})).image.pixels) {
+        for (const glm::vec4& pixel : read_coordinate_image(map_file(object, {pose})).image.pixels) {
             if (pixel.w == 0.0f)
                 continue;
             scene.bounds.min = glm::min(scene.bounds.min, glm::dvec3(pixel));
@@ -154,12 +154,12 @@ SceneView StimulusCache::scene_of_given_maps(int sculpture) const {
     return scene;
 }
 
-CoordinateMaps StimulusCache::maps_of(int sculpture) const {
-    const Sculpture& figure = sculptures_[static_cast<std::size_t>(sculpture)];
+CoordinateMaps StimulusCache::maps_of(int object) const {
+    const Object& figure = objects_[static_cast<std::size_t>(object)];
     OVERT_EXPECTS(figure.has_mesh());
     std::vector<TriangleMap> maps;
     for (int pose = 0; pose < static_cast<int>(poses_.angles.size()); ++pose)
-        maps.push_back(read_triangle_map(map_file(sculpture, {pose})));
+        maps.push_back(read_triangle_map(map_file(object, {pose})));
     return {figure.mesh, figure.scene, poses_.angles, std::move(maps)};
 }
 

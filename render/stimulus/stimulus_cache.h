@@ -8,7 +8,7 @@
 
 #include "experiment/base/content_hash.h"
 #include "experiment/maps/coordinate_maps.h"
-#include "experiment/stimulus/sculpture.h"
+#include "experiment/stimulus/object.h"
 #include "experiment/trial.h"
 #include "render/bake/spectral_frame.h"
 #include "render/stimulus/frame_quality.h"
@@ -18,16 +18,15 @@ namespace overt {
 /// Knows where everything lies and what is there, and writes and reads it; makes nothing. From any thread.
 class StimulusCache {
   public:
-    /// `protocol` and `sculptures` must outlive the cache. `folder`: for frames and maps; shared by all
+    /// `protocol` and `objects` must outlive the cache. `folder`: for frames and maps; shared by all
     /// protocols, for each file is named by the hash of everything that made it. Throws InputError for a
     /// light probe that cannot be read.
-    StimulusCache(const Protocol& protocol, std::span<const Sculpture> sculptures,
-                  std::filesystem::path folder);
+    StimulusCache(const Protocol& protocol, std::span<const Object> objects, std::filesystem::path folder);
 
     const Protocol& protocol() const { return *protocol_; }
-    std::span<const Sculpture> sculptures() const { return sculptures_; }
-    const Sculpture& sculpture_of(const Condition& condition) const {
-        return sculptures_[static_cast<std::size_t>(condition.sculpture)];
+    std::span<const Object> objects() const { return objects_; }
+    const Object& object_of(const Condition& condition) const {
+        return objects_[static_cast<std::size_t>(condition.object)];
     }
     const MaterialSettings& material_of(const Condition& condition) const {
         return protocol_->materials[static_cast<std::size_t>(condition.material)];
@@ -37,14 +36,14 @@ class StimulusCache {
 
     /// The ready-made frames of a stimulus, or null if it is to be rendered.
     const FrameSequenceSettings* sequence_of(const Condition& condition) const {
-        return find_frames(*protocol_, condition.sculpture, condition.material);
+        return find_frames(*protocol_, condition.object, condition.material);
     }
     bool is_ready_made(const Condition& condition) const { return sequence_of(condition) != nullptr; }
 
     /// All stimuli that are rendered.
     std::vector<Condition> rendered_stimuli() const;
 
-    /// All stimuli whose sculpture has a mesh or ready-made maps.
+    /// All stimuli whose object has a mesh or ready-made maps.
     std::vector<Condition> stimuli_with_surface() const;
 
     /// Throws InputError if a stimulus has neither a mesh to render nor [[frames]].
@@ -71,11 +70,11 @@ class StimulusCache {
     void store(const Condition& condition, PoseIndex pose, const FrameQuality& quality,
                const SpectralFrame& frame) const;
 
-    /// The sculpture has no mesh, but ready-made maps.
-    bool has_given_maps(int sculpture) const;
+    /// The object has no mesh, but ready-made maps.
+    bool has_given_maps(int object) const;
 
-    /// A map's file; only for a sculpture with a mesh, or ready-made maps.
-    std::filesystem::path map_file(int sculpture, PoseIndex pose) const;
+    /// A map's file; only for an object with a mesh, or ready-made maps.
+    std::filesystem::path map_file(int object, PoseIndex pose) const;
 
     /// Where the small pictures of the light of frames with this hash lie: see light_pictures.h.
     std::filesystem::path light_file(const ContentHash& frames) const {
@@ -87,18 +86,18 @@ class StimulusCache {
         return folder_ / "first_frames" / (frame.substr(0, 24) + ".png");
     }
 
-    /// The box of a sculpture with ready-made maps, and where the camera stood: the field of view is 0 if the
+    /// The box of an object with ready-made maps, and where the camera stood: the field of view is 0 if the
     /// maps do not say. The maps must be there (MapMaker).
-    SceneView scene_of_given_maps(int sculpture) const;
+    SceneView scene_of_given_maps(int object) const;
 
-    /// All maps of a sculpture with a mesh. They must be there.
-    CoordinateMaps maps_of(int sculpture) const;
+    /// All maps of an object with a mesh. They must be there.
+    CoordinateMaps maps_of(int object) const;
 
   private:
     std::filesystem::path file_of(std::string_view kind, const ContentHash& hash, PoseIndex pose) const;
 
     const Protocol* protocol_;
-    std::span<const Sculpture> sculptures_;
+    std::span<const Object> objects_;
     std::filesystem::path folder_;
     PoseTable poses_;
     ContentHash surroundings_;

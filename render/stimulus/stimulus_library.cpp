@@ -13,9 +13,9 @@
 namespace overt {
 
 StimulusLibrary::StimulusLibrary(const GlContext& context, const Protocol& protocol,
-                                 std::span<const Sculpture> sculptures, std::filesystem::path cache)
-    : protocol_(&protocol), cache_(protocol, sculptures, std::move(cache)), maps_(context, cache_),
-      frames_(context, cache_, maps_), qualities_(sculptures.size() * protocol.materials.size(),
+                                 std::span<const Object> objects, std::filesystem::path cache)
+    : protocol_(&protocol), cache_(protocol, objects, std::move(cache)), maps_(context, cache_),
+      frames_(context, cache_, maps_), qualities_(objects.size() * protocol.materials.size(),
                                                   quality_of(protocol.bake.least(), protocol.bake)) {}
 
 void StimulusLibrary::prepare_frames(const Progress& progress, BakeQuality least) {
@@ -212,7 +212,7 @@ std::filesystem::path StimulusLibrary::first_frame_file(const Condition& conditi
 }
 
 std::size_t StimulusLibrary::index_of(const Condition& condition) const {
-    return static_cast<std::size_t>(condition.sculpture) * protocol_->materials.size() +
+    return static_cast<std::size_t>(condition.object) * protocol_->materials.size() +
            static_cast<std::size_t>(condition.material);
 }
 

@@ -10,8 +10,8 @@ namespace overt {
 
 class StimulusLibrary final : public FrameSource {
   public:
-    /// `protocol` and `sculptures` must outlive the library. `cache`: see StimulusCache.
-    StimulusLibrary(const GlContext& context, const Protocol& protocol, std::span<const Sculpture> sculptures,
+    /// `protocol` and `objects` must outlive the library. `cache`: see StimulusCache.
+    StimulusLibrary(const GlContext& context, const Protocol& protocol, std::span<const Object> objects,
                     std::filesystem::path cache);
 
     StimulusLibrary(const StimulusLibrary&) = delete; // its parts know one another by their addresses

@@ -1,4 +1,4 @@
-/// Sculptures in metal under a light probe, drawn by OpenGL: an approximation for a first look and for quick
+/// Objects in metal under a light probe, drawn by OpenGL: an approximation for a first look and for quick
 /// protocols. It knows no interreflection but one guessed bounce, and no spectra.
 #pragma once
 

@@ -52,7 +52,7 @@ void write_grey(const std::filesystem::path& file, int width, int height, float 
 
 const std::string with_frames = std::string(small_protocol) + R"(
 [[frames]]
-sculpture = "bust"
+object = "bust"
 material = "matt"
 files = "frames/##.exr"
 )";

@@ -51,19 +51,19 @@ duration_s = 1
 
 [schedule]
 observers = 2
-max_sculpture_run = 0
+max_object_run = 0
 
 [screens]
 task_min_s = 0.2
 drift_target_s = 0.3
 response_min_s = 0.2
 
-[[sculpture]]
+[[object]]
 id = "bust"
 title = "Bust"
 mesh = "meshes/bust.ply"
 
-[[sculpture]]
+[[object]]
 id = "tall"
 title = "Tall bust"
 mesh = "meshes/tall.ply"
@@ -89,10 +89,10 @@ simulated_head_share = 0
 [[task]]
 id = "free"
 question = "Look as you like."
-stimuli = "once-per-sculpture"
+stimuli = "once-per-object"
 simulated_head_share = 0.5
 )";
-inline constexpr int small_trials = 10; ///< two tasks for four stimuli, one for each sculpture
+inline constexpr int small_trials = 10; ///< two tasks for four stimuli, one for each object
 
 /// The text with one of its lines, or a part of it, replaced. It must occur exactly once.
 inline std::string with(std::string_view text, std::string_view part, std::string_view instead) {

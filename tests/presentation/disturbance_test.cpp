@@ -81,7 +81,7 @@ TEST_CASE("a trial in which the machine slept or its wall clock was set says so,
     EventList log;
     Protocol protocol;
     protocol.tasks = {{"free", "Look."}};
-    protocol.sculptures.resize(1);
+    protocol.objects.resize(1);
     protocol.materials.resize(1);
     Schedule schedule;
     schedule.trials = {{0, 0, {}}, {1, 0, {}}, {2, 0, {}}};

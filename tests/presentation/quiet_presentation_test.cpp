@@ -72,7 +72,7 @@ void run_quietly(const DisplayFaults& faults) {
     NotingPresenter presenter(refresh);
     Protocol protocol;
     protocol.tasks = {{"free", "Look."}, {"clothes", "Which clothes?"}};
-    protocol.sculptures.resize(1);
+    protocol.objects.resize(1);
     protocol.materials.resize(1);
     Schedule schedule;
     schedule.trials = {{0, 0, {}}, {1, 1, {}}, {2, 0, {}}};

@@ -1,4 +1,4 @@
-/// Small closed figures for tests that need a sculpture.
+/// Small closed figures for tests that need an object.
 #pragma once
 
 #include <algorithm>

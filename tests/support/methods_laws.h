@@ -84,10 +84,10 @@ inline void check_methods(const nlohmann::json& study) {
     CHECK(empty_place == "");
     // Singular and plural.
     static const std::regex one_of_many(
-        R"((^|[^\d.,])1 (trials|sessions|observers|simulated observers|fixations|maps|sculptures|materials|refreshes|times|questions|samples|calibrations|were)\b)");
+        R"((^|[^\d.,])1 (trials|sessions|observers|simulated observers|fixations|maps|objects|materials|refreshes|times|questions|samples|calibrations|were)\b)");
     CHECK_FALSE(std::regex_search(text, one_of_many));
     static const std::regex many_of_one(
-        R"(\b([02-9]|\d{2,}) (trial|session|observer|simulated observer|fixation|map|sculpture|material|time|question)\b(?! of))");
+        R"(\b([02-9]|\d{2,}) (trial|session|observer|simulated observer|fixation|map|object|material|time|question)\b(?! of))");
     CHECK_FALSE(std::regex_search(text, many_of_one));
 
     std::vector<double> numbers;

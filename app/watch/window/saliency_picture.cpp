@@ -49,7 +49,7 @@ void SaliencyPicture::upload(const SaliencyMap& map) {
     attribute(2, colours_, colours);
 }
 
-GLuint SaliencyPicture::draw(const WatchedSculpture& sculpture, const std::shared_ptr<const SaliencyMap>& map,
+GLuint SaliencyPicture::draw(const WatchedObject& object, const std::shared_ptr<const SaliencyMap>& map,
                              const Orbit& orbit, glm::ivec2 size_px) {
     const bool is_other_size = !frame_ || frame_->size_px() != size_px;
     if (map == map_ && is_same(orbit, orbit_) && !is_other_size)
@@ -60,7 +60,7 @@ GLuint SaliencyPicture::draw(const WatchedSculpture& sculpture, const std::share
         upload(*map);
     map_ = map;
     orbit_ = orbit;
-    SceneView scene = sculpture.scene();
+    SceneView scene = object.scene();
     scene.view.image_px = size_px;
     seen_ = seen_from(scene, orbit);
     const TurntablePose pose = seen_.pose_at(Degrees{orbit.turn_deg});
@@ -88,7 +88,7 @@ GLuint SaliencyPicture::draw(const WatchedSculpture& sculpture, const std::share
     return frame_->texture().name();
 }
 
-std::optional<SaliencyPicture::Place> SaliencyPicture::place_of(const WatchedSculpture& sculpture,
+std::optional<SaliencyPicture::Place> SaliencyPicture::place_of(const WatchedObject& object,
                                                                 const glm::dvec3& position) const {
     if (!map_)
         return std::nullopt;
@@ -96,7 +96,7 @@ std::optional<SaliencyPicture::Place> SaliencyPicture::place_of(const WatchedScu
     const glm::dvec3 projected = lines.project(position);
     if (projected.z <= 0.0)
         return std::nullopt;
-    return Place{glm::dvec2(projected), sculpture.rays().is_hidden(position, lines.origin())};
+    return Place{glm::dvec2(projected), object.rays().is_hidden(position, lines.origin())};
 }
 
 } // namespace overt

@@ -1,11 +1,11 @@
-/// The live map of gaze on a sculpture, as a picture that can be turned by hand.
+/// The live map of gaze on an object, as a picture that can be turned by hand.
 #pragma once
 
 #include <memory>
 #include <optional>
 
 #include "app/watch/live_saliency.h"
-#include "app/watch/watched_sculpture.h"
+#include "app/watch/watched_object.h"
 #include "experiment/scene/orbit.h"
 #include "render/gl/gl_objects.h"
 #include "render/gl/shader_program.h"
@@ -19,16 +19,16 @@ class SaliencyPicture {
     explicit SaliencyPicture(const GlContext& context);
 
     /// The texture, bottom row first.
-    GLuint draw(const WatchedSculpture& sculpture, const std::shared_ptr<const SaliencyMap>& map,
+    GLuint draw(const WatchedObject& object, const std::shared_ptr<const SaliencyMap>& map,
                 const Orbit& orbit, glm::ivec2 size_px);
 
     /// Where a point of the surface is in the picture drawn last, from its top left, and whether the
-    /// sculpture hides it.
+    /// object hides it.
     struct Place {
         glm::dvec2 px{0.0};
         bool is_hidden = false;
     };
-    std::optional<Place> place_of(const WatchedSculpture& sculpture, const glm::dvec3& position) const;
+    std::optional<Place> place_of(const WatchedObject& object, const glm::dvec3& position) const;
 
   private:
     void upload(const SaliencyMap& map);

@@ -150,7 +150,7 @@ void WatchPanels::draw_display(const ViewText& text, const WatchedSession& sessi
 void WatchPanels::draw_saliency(const ViewText& text, const WatchedSession& session) {
     surface_drawn_ = {};
     ImGui::TextColored(quiet, "gaze on %s",
-                       text.view.sculpture.empty() ? "the sculpture" : text.view.sculpture.c_str());
+                       text.view.object.empty() ? "the object" : text.view.object.c_str());
     ImGui::SameLine();
     if (ImGui::RadioButton("all seen here", !of_trial_))
         of_trial_ = false;
@@ -162,19 +162,19 @@ void WatchPanels::draw_saliency(const ViewText& text, const WatchedSession& sess
     if (ImGui::SmallButton("Front"))
         orbit_ = {};
     const ImVec2 at = ImGui::GetCursorScreenPos(), room = ImGui::GetContentRegionAvail();
-    const auto& sculpture = session.sculpture();
-    const auto map = sculpture ? saliency_.newest(sculpture->id()) : nullptr;
+    const auto& object = session.object();
+    const auto map = object ? saliency_.newest(object->id()) : nullptr;
     if (!map || room.x < 40.0f || room.y < 40.0f) {
         ImGui::TextColored(quiet, "%s",
-                           text.view.sculpture.empty() ? "shown with the first trial"
-                           : sculpture                 ? "the surface is being prepared"
-                                                       : "no mesh, or it is being read");
+                           text.view.object.empty() ? "shown with the first trial"
+                           : object                 ? "the surface is being prepared"
+                                                    : "no mesh, or it is being read");
         return;
     }
     ImDrawList& draws = *ImGui::GetWindowDrawList();
-    draws.AddImage(texture_of(surface_.draw(*sculpture, map, orbit_,
-                                            {static_cast<int>(room.x), static_cast<int>(room.y)})),
-                   at, {at.x + room.x, at.y + room.y}, {0.0f, 1.0f}, {1.0f, 0.0f});
+    draws.AddImage(
+        texture_of(surface_.draw(*object, map, orbit_, {static_cast<int>(room.x), static_cast<int>(room.y)})),
+        at, {at.x + room.x, at.y + room.y}, {0.0f, 1.0f}, {1.0f, 0.0f});
     ImGui::InvisibleButton("turn", room);
     if (ImGui::IsItemActive() && ImGui::IsMouseDragging(ImGuiMouseButton_Left, 0.0f))
         orbit_.drag({static_cast<double>(ImGui::GetIO().MouseDelta.x),
@@ -211,8 +211,8 @@ std::vector<Mark> WatchPanels::marks(const WatchedSession& session) const {
         const bool is_newest = i + 1 == gaze.size();
         marks.push_back({place, is_newest ? 9.0f : 2.5f, is_newest ? 2.5f : 0.0f, colour});
     }
-    if (surface_drawn_.scale > 0.0f && session.sculpture() && session.last_gaze() && session.last_gaze()->hit)
-        if (const auto place = surface_.place_of(*session.sculpture(), session.last_gaze()->hit->position)) {
+    if (surface_drawn_.scale > 0.0f && session.object() && session.last_gaze() && session.last_gaze()->hit)
+        if (const auto place = surface_.place_of(*session.object(), session.last_gaze()->hit->position)) {
             const glm::vec2 at = surface_drawn_.corner_px + glm::vec2(place->px);
             if (is_within(surface_drawn_, at))
                 marks.push_back({at,
@@ -238,7 +238,7 @@ void WatchPanels::draw_figures(const ViewText& text, std::optional<double> delay
                             duration_text(view.time_s)));
     row("failed attempts", fmt::format("{}", view.failed));
     if (!view.task.empty())
-        row("stimulus", fmt::format("{}, {}: {}", view.sculpture, view.material, view.question));
+        row("stimulus", fmt::format("{}, {}: {}", view.object, view.material, view.question));
     ImGui::Separator();
     row("missed refreshes", missed_text(facts, view), !facts.is_timing_unproven && view.missed_in_trial > 0);
     if (!facts.has_tracker)

@@ -122,7 +122,7 @@ int watch_in_window(const std::filesystem::path& socket, const std::filesystem::
     WatchPanels panels(client, saliency, surface);
     ShownTimes shown(!times.empty());
     const auto between = window.description().is_software ? between_drawn_frames : between_frames;
-    std::shared_ptr<const WatchedSculpture> prepared;
+    std::shared_ptr<const WatchedObject> prepared;
     bool has_right = false; // of both eyes one is enough: their gaze would be counted twice
     SteadyClock::time_point due{};
     while (!window.is_closed() && !Interruption::requested()) {
@@ -131,15 +131,15 @@ int watch_in_window(const std::filesystem::path& socket, const std::filesystem::
             for (const GazeOnSurface& one : session.new_gaze()) {
                 has_right = has_right || one.gaze.is_right;
                 if (one.hit && one.gaze.is_right == has_right)
-                    saliency.looked(session.sculpture(), one.gaze.trial, *one.hit, seconds_of_point);
+                    saliency.looked(session.object(), one.gaze.trial, *one.hit, seconds_of_point);
             }
             return !session.new_gaze().empty();
         };
         while (SteadyClock::now() < due)
             take(std::chrono::milliseconds(1));
         due = SteadyClock::now() + between;
-        if (session.sculpture() && session.sculpture() != prepared) {
-            prepared = session.sculpture();
+        if (session.object() && session.object() != prepared) {
+            prepared = session.object();
             saliency.prepare(prepared);
         }
         const ViewText text = session.text();

@@ -56,9 +56,9 @@ SessionHeader header_of(const AscFiles& files, const AscSurvey& survey, const As
     header.animation = no_animation;
     header.poses = distinct_poses(header.animation);
     header.tasks = {{"imported", ""}};
-    RecordedSculpture nothing;
+    RecordedObject nothing;
     nothing.id = "none";
-    header.sculptures = {nothing};
+    header.objects = {nothing};
     header.materials = {{"none", ""}};
     return header;
 }
@@ -81,7 +81,7 @@ void insert_trial(SQLite::Database& database, const AscTrialTimes& times,
         return found == times.screens.end() ? std::nullopt : std::optional(session_time(found->second));
     };
     insert_values(database,
-                  "INTO trial (trial_id, sitting, trial, attempt, task, sculpture, material, status, "
+                  "INTO trial (trial_id, sitting, trial, attempt, task, object, material, status, "
                   "started_ns, task_screen_onset_ns, presentation_onset_ns, presentation_end_ns, "
                   "response_screen_onset_ns, responded_ns, shown_refreshes, missed_refreshes, answer, "
                   "lost_flips, lost_samples)",

@@ -38,7 +38,7 @@ struct AscImportSummary {
 };
 
 /// Makes a session of a recording: its samples, its trials (see AscTrialCutter), its own events and messages.
-/// The session's clock begins with the file's first line. What the file does not say (sculptures, questions)
+/// The session's clock begins with the file's first line. What the file does not say (objects, questions)
 /// stays empty; a viewing distance or screen size that nobody knows is 0. Memory does not grow with the file.
 ///
 /// The session's directory appears when it is complete; nothing is overwritten. Throws InputError as

@@ -10,6 +10,7 @@
 #include "experiment/record/asc/asc_trial.h"
 #include "experiment/record/asc/imported_session.h"
 #include "experiment/record/read/session_record.h"
+#include "experiment/record/schema_migration.h"
 #include "experiment/record/session_schema.h"
 #include "experiment/record/sql.h"
 
@@ -175,6 +176,7 @@ AscImportSummary import_asc_into(const AscFiles& files, const fs::path& session,
     copy_files(record.directory(), partial.path());
     const fs::path session_file = partial.path() / session_file_name;
     copy_session_file(record.directory() / session_file_name, session_file);
+    migrate_session_file(session_file, KeptCopy::none);
     write_session_rows(session_file, [&](SQLite::Database& database) {
         GazeRows rows(database);
         for (const TrialRecord& trial : record.trials())

@@ -21,7 +21,7 @@ std::vector<std::pair<std::string_view, std::string>> variables_of(const Session
                                                                    const Trial& trial) {
     const auto id = [](const auto& list, int index) { return list[static_cast<std::size_t>(index)].id; };
     return {{"task", id(header.tasks, trial.task)},
-            {"sculpture", id(header.sculptures, trial.condition.sculpture)},
+            {"object", id(header.objects, trial.condition.object)},
             {"material", id(header.materials, trial.condition.material)}};
 }
 

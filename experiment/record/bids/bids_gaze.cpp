@@ -10,9 +10,9 @@
 #include "experiment/base/json_text.h"
 #include "experiment/record/bids/bids_gaze_events.h"
 #include "experiment/record/bids/bids_tracker.h"
+#include "experiment/record/read/tracker_facts.h"
 #include "experiment/record/tables/export_tables.h"
 #include "experiment/record/tables/joined_cells.h"
-#include "experiment/record/read/tracker_facts.h"
 #include "experiment/record/tables/sample_rows.h"
 
 namespace fs = std::filesystem;
@@ -155,10 +155,10 @@ BidsGazeCounts write_bids_gaze(const SessionRecord& record, int run, const Looku
     for (const TrialRecord& trial : record.trials()) {
         if (trial.sitting != run || files.empty())
             continue;
-        const int sculpture = trial.trial.condition.sculpture;
+        const int object = trial.trial.condition.object;
         const bool has_places = files.front()->has_places();
-        const SampleJoin join(record, trial, has_places ? lookup_for(sculpture) : nullptr);
-        const std::vector<std::string> parts = part_cells_of(record.header(), sculpture, TableFormat::tsv);
+        const SampleJoin join(record, trial, has_places ? lookup_for(object) : nullptr);
+        const std::vector<std::string> parts = part_cells_of(record.header(), object, TableFormat::tsv);
         const auto take = [&](std::span<const GazeSample> samples) {
             joined.resize(samples.size());
             if (has_places)

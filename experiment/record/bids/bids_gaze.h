@@ -21,7 +21,7 @@ struct BidsGazeCounts {
 /// samples or readings of the tracker's clock. Throws RecordError.
 std::optional<SessionTime> bids_zero(const SessionRecord& record, int run);
 
-/// Writes into `raw` and `derived`, the folders of the run's files. A sculpture without a lookup has no
+/// Writes into `raw` and `derived`, the folders of the run's files. An object without a lookup has no
 /// surface. Throws RecordError.
 BidsGazeCounts write_bids_gaze(const SessionRecord& record, int run, const LookupFor& lookup_for,
                                const std::filesystem::path& raw, const std::filesystem::path& derived);

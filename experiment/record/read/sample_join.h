@@ -21,8 +21,8 @@ struct JoinedSample {
     std::optional<glm::dvec2> image_px; ///< continuous image point, also outside of it; nothing without gaze
     std::optional<LitFrame> shown;      ///< the frame lit at the gaze's row; nothing without gaze or time
     Sight sight;                        ///< empty without a lit frame, or without a lookup
-    /// Visual angle between the gaze and the nearest place of the outline of the sculpture's picture (see
-    /// PoseCells::outline_near): positive beside the sculpture, negative on it. Nothing without a lit frame,
+    /// Visual angle between the gaze and the nearest place of the outline of the object's picture (see
+    /// PoseCells::outline_near): positive beside the object, negative on it. Nothing without a lit frame,
     /// or where the lookup knows no outline.
     std::optional<Degrees> outline_distance;
     bool off_plan = false; ///< see FlipHistory::is_off_plan
@@ -31,7 +31,7 @@ struct JoinedSample {
 /// Joins the samples of one trial. May be used from any thread.
 class SampleJoin {
   public:
-    /// `lookup` answers for the trial's sculpture and outlives this; null if there is none. Throws
+    /// `lookup` answers for the trial's object and outlives this; null if there is none. Throws
     /// RecordError.
     SampleJoin(const SessionRecord& record, const TrialRecord& trial, const SurfaceLookup* lookup);
 

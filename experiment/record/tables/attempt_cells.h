@@ -38,9 +38,9 @@ inline auto question_of(const SessionHeader& header) {
         return plain_line_of(item(header.tasks, attempt.trial.task).question);
     };
 }
-inline auto sculpture_of(const SessionHeader& header) {
+inline auto object_of(const SessionHeader& header) {
     return [&header](const TrialRecord& attempt) -> std::string_view {
-        return item(header.sculptures, attempt.trial.condition.sculpture).id;
+        return item(header.objects, attempt.trial.condition.object).id;
     };
 }
 inline auto material_of(const SessionHeader& header) {

@@ -18,7 +18,7 @@
 
 namespace overt {
 
-/// All tables of one session's export. Levels name the session's own tasks, sculptures and materials.
+/// All tables of one session's export. Levels name the session's own tasks, objects and materials.
 class ExportTables {
   public:
     /// `pupil`: what the tracker calls the size of a pupil. With the columns of a gaze cone if its accuracy

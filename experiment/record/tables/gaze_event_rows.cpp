@@ -47,9 +47,9 @@ std::vector<RowLayout<GazeEventRow>::Column> surface_columns(const SessionHeader
     };
     const auto share = [](double StudyFixation::*of) {
         return [of](const GazeEventRow& row) {
-            const bool is_known =
-                row.fixation && row.fixation->samples > 0 && row.fixation->why != NotCounted::no_surface &&
-                row.fixation->why != NotCounted::no_stimulus;
+            const bool is_known = row.fixation && row.fixation->samples > 0 &&
+                                  row.fixation->why != NotCounted::no_surface &&
+                                  row.fixation->why != NotCounted::no_stimulus;
             return when(is_known, Fixed{is_known ? (*row.fixation).*of : 0.0, share_decimals});
         };
     };
@@ -66,10 +66,9 @@ std::vector<RowLayout<GazeEventRow>::Column> surface_columns(const SessionHeader
           std::pair{NotCounted::began_before_onset, "it was under way when the presentation began"},
           std::pair{NotCounted::no_frame_lit, "no frame is known to have been lit during it"},
           std::pair{NotCounted::no_stimulus, "the session knows of no stimulus, as an imported recording"},
-          std::pair{NotCounted::not_on_surface,
-                    "fewer than half of its samples met the sculpture, or missed it "
-                    "by no more than the error that the validation found"},
-          std::pair{NotCounted::no_surface, "the session has no maps of the sculpture"}})
+          std::pair{NotCounted::not_on_surface, "fewer than half of its samples met the object, or missed it "
+                                                "by no more than the error that the validation found"},
+          std::pair{NotCounted::no_surface, "the session has no maps of the object"}})
         place.levels.emplace_back(name_of(why), meaning);
     return {
         axis("surface_x", 0, ""),
@@ -84,7 +83,7 @@ std::vector<RowLayout<GazeEventRow>::Column> surface_columns(const SessionHeader
              const std::size_t index = has_point(row) ? *row.fixation->part : row.part_cells.size();
              index < row.part_cells.size() ? to.ready(row.part_cells[index]) : to.missing();
          }},
-        {{"on_surface", "Share of a fixation's samples that met the sculpture, of those with a lit frame"},
+        {{"on_surface", "Share of a fixation's samples that met the object, of those with a lit frame"},
          share(&StudyFixation::on_surface)},
         {{"within_reach", "Share that missed it by no more than the error that the validation found"},
          share(&StudyFixation::within_reach)},
@@ -188,7 +187,7 @@ void write_gaze_events(TableWriter& writer, const RowLayout<GazeEventRow>& layou
     const std::optional<ClockMap> clock_map = record.clock_map(trial);
     const SessionRecord::EventOrigin::From origin = record.event_origin(trial.sitting).from;
     const std::vector<std::string> parts =
-        part_cells_of(record.header(), trial.trial.condition.sculpture, writer.format());
+        part_cells_of(record.header(), trial.trial.condition.object, writer.format());
     for (std::size_t i = 0; i < events.size(); ++i)
         layout.write(writer, {{events[i]}, trial.trial.index + 1, clock_map, origin, fixations[i], parts});
 }

@@ -29,7 +29,7 @@ struct GazeEventRow : TrackerEventRow {
     SessionRecord::EventOrigin::From origin; ///< of fixations, saccades and blinks
     /// Where a fixation of the trial met the surface; empty of all else, and beside the presentation.
     std::optional<StudyFixation> fixation = {};
-    std::span<const std::string> part_cells = {}; ///< of the trial's sculpture: part_cells_of()
+    std::span<const std::string> part_cells = {}; ///< of the trial's object: part_cells_of()
 };
 
 /// One row for each fixation, saccade, blink, message, button, input, begin and end of a recording, and note.

@@ -55,8 +55,8 @@ std::int64_t tracker_time_us(const JoinedRow& row) { return microseconds_of(row.
 
 std::vector<std::string> all_part_names(const SessionHeader& header) {
     std::vector<std::string> names;
-    for (const RecordedSculpture& sculpture : header.sculptures)
-        for (const std::string& name : sculpture.part_names)
+    for (const RecordedObject& object : header.objects)
+        for (const std::string& name : object.part_names)
             if (std::find(names.begin(), names.end(), name) == names.end())
                 names.push_back(name);
     return names;
@@ -71,26 +71,26 @@ TableColumn part_column(const SessionHeader& header) {
 
 Fixed surface_coordinate(double value) { return Fixed{value, surface_decimals}; }
 
-std::vector<std::string> part_cells_of(const SessionHeader& header, int sculpture, TableFormat format) {
+std::vector<std::string> part_cells_of(const SessionHeader& header, int object, TableFormat format) {
     std::vector<std::string> cells;
-    for (const std::string& name : header.sculptures[static_cast<std::size_t>(sculpture)].part_names)
+    for (const std::string& name : header.objects[static_cast<std::size_t>(object)].part_names)
         cells.push_back(text_cell(name, format));
     return cells;
 }
 
 LengthWords length_words(const SessionHeader& header) {
     std::vector<std::string> own, unknown;
-    for (const RecordedSculpture& sculpture : header.sculptures) {
-        if (sculpture.unit == "own")
-            own.push_back(sculpture.id);
-        else if (sculpture.unit != "mm")
-            unknown.push_back(sculpture.id);
+    for (const RecordedObject& object : header.objects) {
+        if (object.unit == "own")
+            own.push_back(object.id);
+        else if (object.unit != "mm")
+            unknown.push_back(object.id);
     }
     if (own.empty() && unknown.empty())
         return {"mm", ""};
     LengthWords words;
-    words.unit = own.size() + unknown.size() < header.sculptures.size() ? "mm, or as the description says"
-                                                                        : "as the description says";
+    words.unit = own.size() + unknown.size() < header.objects.size() ? "mm, or as the description says"
+                                                                     : "as the description says";
     if (!own.empty())
         words.remark += fmt::format("; of {} in the unit of the mesh or map, times the protocol's scale: the "
                                     "protocol does not know which that is",
@@ -150,10 +150,10 @@ JoinedColumns place_columns(const SessionHeader& header) {
              return Fixed{surface.incidence.value, incidence_decimals};
          })},
         {{"silhouette_distance_deg",
-          "Visual angle from the gaze to the nearest place of the outline of the sculpture's picture: "
+          "Visual angle from the gaze to the nearest place of the outline of the object's picture: "
           "positive "
-          "beside the sculpture, negative on it; n/a without gaze, when no frame was lit, or if the "
-          "sculpture "
+          "beside the object, negative on it; n/a without gaze, when no frame was lit, or if the "
+          "object "
           "has no map. Right to within a pixel",
           "deg"},
          [](auto& row) {

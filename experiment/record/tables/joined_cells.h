@@ -20,14 +20,14 @@ inline constexpr int angle_decimals = 6; // a millionth of a degree
 struct JoinedRow {
     const GazeSample& sample;
     const JoinedSample& joined;
-    std::span<const std::string> part_cells; ///< of the sample's sculpture, by PartIndex: part_cells_of()
+    std::span<const std::string> part_cells; ///< of the sample's object, by PartIndex: part_cells_of()
 };
 using JoinedColumns = std::vector<RowLayout<JoinedRow>::Column>;
 
-/// The names of a sculpture's parts as cells, made once for many rows.
-std::vector<std::string> part_cells_of(const SessionHeader& header, int sculpture, TableFormat format);
+/// The names of an object's parts as cells, made once for many rows.
+std::vector<std::string> part_cells_of(const SessionHeader& header, int object, TableFormat format);
 
-/// The unit of lengths on and before the sculptures, and what has to be added to a column's meaning where not
+/// The unit of lengths on and before the objects, and what has to be added to a column's meaning where not
 /// all of them are known to be in millimetres; else empty.
 struct LengthWords {
     std::string unit, remark;
@@ -54,7 +54,7 @@ TableColumn part_column(const SessionHeader& header);
 /// A coordinate on a surface, with the decimals of all of them.
 Fixed surface_coordinate(double value);
 
-/// The parts of all sculptures, each name once.
+/// The parts of all objects, each name once.
 std::vector<std::string> all_part_names(const SessionHeader& header);
 
 } // namespace overt

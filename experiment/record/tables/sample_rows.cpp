@@ -24,7 +24,7 @@ RowLayout<SampleCells> samples_layout(const SharedColumns& shared, const Session
         {
             {shared.trial, &SampleCells::trial},
             {shared.task, [](auto& to, auto& row) { to.ready(row.task); }},
-            {shared.sculpture, [](auto& to, auto& row) { to.ready(row.sculpture); }},
+            {shared.object, [](auto& to, auto& row) { to.ready(row.object); }},
             {shared.material, [](auto& to, auto& row) { to.ready(row.material); }},
         }};
     layout.add<JoinedRow>(time_columns());
@@ -41,10 +41,9 @@ RowLayout<SampleCells> samples_layout(const SharedColumns& shared, const Session
     const Degrees accuracy = *cone_accuracy;
     layout.add<SampleCells>({
         {{"p_object",
-          fmt::format(
-              "Probability that the gaze was on the sculpture, taking the tracker to be {} degrees off "
-              "on average, normally distributed to all sides; n/a as in silhouette_distance_deg",
-              accuracy.value)},
+          fmt::format("Probability that the gaze was on the object, taking the tracker to be {} degrees off "
+                      "on average, normally distributed to all sides; n/a as in silhouette_distance_deg",
+                      accuracy.value)},
          [](auto& row) {
              return of_maybe(row.shares, [](const GazeCone::Shares& shares) {
                  return Fixed{shares.of_object, probability_decimals};
@@ -54,10 +53,9 @@ RowLayout<SampleCells> samples_layout(const SharedColumns& shared, const Session
     for (const std::string& part : all_part_names(header))
         layout.add<SampleCells>({
             {{"p_" + part,
-              fmt::format(
-                  "The same for the part \"{}\"; n/a, too, if the sculpture has no such part. All parts "
-                  "together make p_object",
-                  part)},
+              fmt::format("The same for the part \"{}\"; n/a, too, if the object has no such part. All parts "
+                          "together make p_object",
+                          part)},
              [part](auto& row) {
                  const auto own = std::ranges::find(row.own_parts, part) - row.own_parts.begin();
                  const auto index = static_cast<std::size_t>(own);
@@ -94,12 +92,11 @@ SampleCounts SampleRows::write_all(TableWriter& to, const TrialRecord& trial, co
     const bool is_after = !fixations;
     const Condition condition = trial.trial.condition;
     const std::string task = text_cell(is_after ? "" : item(header_.tasks, trial.trial.task).id, format_);
-    const std::string sculpture =
-        text_cell(is_after ? "" : item(header_.sculptures, condition.sculpture).id, format_);
+    const std::string object = text_cell(is_after ? "" : item(header_.objects, condition.object).id, format_);
     const std::string material =
         text_cell(is_after ? "" : item(header_.materials, condition.material).id, format_);
-    const std::vector<std::string> parts = part_cells_of(header_, condition.sculpture, format_);
-    const std::vector<std::string>& own_parts = item(header_.sculptures, condition.sculpture).part_names;
+    const std::vector<std::string> parts = part_cells_of(header_, condition.object, format_);
+    const std::vector<std::string>& own_parts = item(header_.objects, condition.object).part_names;
     const auto number = is_after ? std::nullopt : std::optional(trial.trial.index + 1);
     SampleCounts counts;
     const auto take = [&](std::span<const GazeSample> samples) {
@@ -113,7 +110,7 @@ SampleCounts SampleRows::write_all(TableWriter& to, const TrialRecord& trial, co
             texts[i] = std::make_unique<TableText>(layout_.table(), format_);
             of_batch[i] = write_batch(
                 *texts[i], placed[i],
-                {piece, number, join, lookup, task, sculpture, material, parts, own_parts, fixations});
+                {piece, number, join, lookup, task, object, material, parts, own_parts, fixations});
         });
         for (std::size_t i = 0; i < batches; ++i) {
             to.take(*texts[i]);
@@ -139,7 +136,7 @@ SampleCounts SampleRows::write_batch(TableText& to, std::vector<PlacedSample>& p
         layout_.write(to, {{piece.samples[i], joined[i], piece.parts},
                            piece.trial,
                            piece.task,
-                           piece.sculpture,
+                           piece.object,
                            piece.material,
                            piece.own_parts,
                            shares.empty() || shares[i].of_part.empty() ? nullptr : &shares[i]});

@@ -19,10 +19,10 @@ namespace overt {
 inline constexpr std::size_t samples_at_a_time = 16384;
 
 struct SampleCells : JoinedRow {
-    std::optional<int> trial;                       ///< from 1; nothing: of no trial
-    const std::string &task, &sculpture, &material; ///< as cells
-    const std::vector<std::string>& own_parts;      ///< of the sculpture, by PartIndex
-    const GazeCone::Shares* shares;                 ///< null without a cone, and beside lit frames
+    std::optional<int> trial;                    ///< from 1; nothing: of no trial
+    const std::string &task, &object, &material; ///< as cells
+    const std::vector<std::string>& own_parts;   ///< of the object, by PartIndex
+    const GazeCone::Shares* shares;              ///< null without a cone, and beside lit frames
 };
 
 /// With the columns of a gaze cone if its accuracy is given. `pupil`: see pupil_words(). `header` must
@@ -36,7 +36,7 @@ class SampleRows {
     SampleRows(const RowLayout<SampleCells>& layout, const SessionRecord& record, TableFormat format,
                std::optional<Degrees> cone_accuracy);
 
-    /// Writes the samples of a trial, made on all processors; `lookup` is null if its sculpture has no
+    /// Writes the samples of a trial, made on all processors; `lookup` is null if its object has no
     /// surface. They pass by `fixations`, too. Throws RecordError.
     SampleCounts write(TableWriter& to, const TrialRecord& trial, const std::optional<TrialLedger>& ledger,
                        const SurfaceLookup* lookup, PassingFixations& fixations);
@@ -49,7 +49,7 @@ class SampleRows {
         std::optional<int> trial; ///< from 1; nothing: of none
         const SampleJoin& join;
         const SurfaceLookup* lookup;
-        const std::string &task, &sculpture, &material; ///< as cells
+        const std::string &task, &object, &material; ///< as cells
         const std::vector<std::string>&parts, &own_parts;
         const PassingFixations* fixations; ///< null: of none
     };

@@ -9,17 +9,17 @@ constexpr int rate_decimals = 3;  // a millihertz
 constexpr int drift_decimals = 3; // a thousandth of a millionth
 constexpr int scale_decimals = 9;
 
-/// What the header has of a stimulus's sculpture.
-auto of_sculpture(const SessionHeader& header, std::string RecordedSculpture::*what) {
+/// What the header has of a stimulus's object.
+auto of_object(const SessionHeader& header, std::string RecordedObject::*what) {
     return [&header, what](const RecordedStimulus& row) {
-        return of_maybe(item_of(header.sculptures, row.condition.sculpture), what);
+        return of_maybe(item_of(header.objects, row.condition.object), what);
     };
 }
 
-/// How large the stimulus's sculpture is, and is shown.
+/// How large the stimulus's object is, and is shown.
 auto of_scale(const SessionHeader& header, double ObjectScale::*what) {
     return [&header, what](const RecordedStimulus& row) {
-        const RecordedSculpture& of = item(header.sculptures, row.condition.sculpture);
+        const RecordedObject& of = item(header.objects, row.condition.object);
         const auto scale = object_scale(of.camera, of.axis_point, header.display.screen, of.unit);
         return of_maybe(scale, [what](const ObjectScale& known) {
             return Fixed{known.*what, scale_decimals};
@@ -52,18 +52,18 @@ RowLayout<RecordedEvent> events_layout() {
 RowLayout<RecordedStimulus> stimuli_layout(const SharedColumns& shared, const SessionHeader& header) {
     return {
         "stimuli",
-        "What was shown: one row for each sculpture in each material.",
+        "What was shown: one row for each object in each material.",
         {
-            {shared.sculpture, of_sculpture(header, &RecordedSculpture::id)},
+            {shared.object, of_object(header, &RecordedObject::id)},
             {shared.material,
              [&header](auto& row) {
                  return of_maybe(item_of(header.materials, row.condition.material), &RecordedMaterial::id);
              }},
             {{"source", "How the frames were made"}, &RecordedStimulus::source},
             {{"frames_sha256", "SHA-256 of the frames"}, &RecordedStimulus::frames_sha256},
-            {{"mesh_file", "The sculpture's mesh, relative to the session's directory"},
-             of_sculpture(header, &RecordedSculpture::mesh_file)},
-            {{"mesh_sha256", "SHA-256 of the mesh"}, of_sculpture(header, &RecordedSculpture::mesh_sha256)},
+            {{"mesh_file", "The object's mesh, relative to the session's directory"},
+             of_object(header, &RecordedObject::mesh_file)},
+            {{"mesh_sha256", "SHA-256 of the mesh"}, of_object(header, &RecordedObject::mesh_sha256)},
             {{"mm_per_unit",
               "Millimetres of the object in a unit of surface_x, surface_y, surface_z and depth; "
               "where the unit of the mesh is not known, the object is taken to be as large as "

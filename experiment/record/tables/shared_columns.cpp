@@ -8,14 +8,13 @@ namespace overt {
 
 SharedColumns::SharedColumns(const SessionHeader& header)
     : trial{"trial", "Position of the trial in the observer's order, from 1"},
-      task{"task", "Which question was asked"}, sculpture{"sculpture", "Which sculpture was shown"},
+      task{"task", "Which question was asked"}, object{"object", "Which object was shown"},
       material{"material", "In which material it was shown"},
-      angle{"angle_deg", "Turn of the sculpture in the frame shown, counter-clockwise seen from above",
-            "deg"} {
+      angle{"angle_deg", "Turn of the object in the frame shown, counter-clockwise seen from above", "deg"} {
     for (const RecordedTask& entry : header.tasks)
         task.levels.emplace_back(entry.id, plain_line_of(entry.question));
-    for (const RecordedSculpture& entry : header.sculptures)
-        sculpture.levels.emplace_back(entry.id, plain_line_of(entry.title));
+    for (const RecordedObject& entry : header.objects)
+        object.levels.emplace_back(entry.id, plain_line_of(entry.title));
     for (const RecordedMaterial& entry : header.materials)
         material.levels.emplace_back(entry.id, plain_line_of(entry.title));
 }

@@ -21,10 +21,10 @@ template <class List> const auto* item_of(const List& list, int index) {
 }
 
 struct SharedColumns {
-    /// Levels name the session's own tasks, sculptures and materials.
+    /// Levels name the session's own tasks, objects and materials.
     explicit SharedColumns(const SessionHeader& header);
 
-    TableColumn trial, task, sculpture, material, angle;
+    TableColumn trial, task, object, material, angle;
 };
 
 inline TableColumn eye_column() {

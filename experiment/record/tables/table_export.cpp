@@ -45,9 +45,9 @@ class TableExport {
             writers_.try_emplace(table, directory, *table, format_);
     }
 
-    /// What the samples of the sculpture's trials are to be joined with.
-    void begin_sculpture(int sculpture, const SurfaceLookup* lookup);
-    /// Puts the samples and events of the trial aside: those of trials of one sculpture come one after
+    /// What the samples of the object's trials are to be joined with.
+    void begin_object(int object, const SurfaceLookup* lookup);
+    /// Puts the samples and events of the trial aside: those of trials of one object come one after
     /// another.
     void join_samples(const TrialRecord& trial);
     /// With what was put aside.
@@ -96,7 +96,7 @@ class TableExport {
     /// Whose the fixations are that name no eye: they are of the one that was recorded.
     Eye eye_of_unnamed(std::span<const GazeEvent> events, int sitting) const;
 
-    /// The sculpture's whose trials are joined now.
+    /// The object's whose trials are joined now.
     const SurfaceLookup* lookup_ = nullptr;
     std::optional<ObjectScale> scale_;
     std::optional<SurfaceWays> ways_;
@@ -104,8 +104,8 @@ class TableExport {
     const std::vector<RecordedAccuracy> validations_;
 };
 
-void TableExport::begin_sculpture(int sculpture, const SurfaceLookup* lookup) {
-    const RecordedSculpture& recorded = item(header_.sculptures, sculpture);
+void TableExport::begin_object(int object, const SurfaceLookup* lookup) {
+    const RecordedObject& recorded = item(header_.objects, object);
     lookup_ = lookup;
     scale_ = object_scale(recorded.camera, recorded.axis_point, header_.display.screen, recorded.unit);
     ways_.reset();
@@ -223,15 +223,15 @@ TableExportCounts export_tables(const SessionRecord& record, const LookupFor& lo
     TableExport tables(record, folder.path(), options);
     const int all = static_cast<int>(record.trials().size());
     int done = 0;
-    // Sculpture by sculpture, for the maps of one take much memory, and making them ready much time.
-    std::set<int> sculptures;
+    // Object by object, for the maps of one take much memory, and making them ready much time.
+    std::set<int> objects;
     for (const TrialRecord& trial : record.trials())
         if (trial.counts)
-            sculptures.insert(trial.trial.condition.sculpture);
-    for (const int sculpture : sculptures) {
-        tables.begin_sculpture(sculpture, lookup_for(sculpture));
+            objects.insert(trial.trial.condition.object);
+    for (const int object : objects) {
+        tables.begin_object(object, lookup_for(object));
         for (const TrialRecord& trial : record.trials()) {
-            if (!trial.counts || trial.trial.condition.sculpture != sculpture)
+            if (!trial.counts || trial.trial.condition.object != object)
                 continue;
             tables.join_samples(trial);
             if (options.progress)

@@ -34,7 +34,7 @@ template <class Enum, int count> std::optional<Enum> called(const std::string& w
 class SealCheck {
   public:
     SealCheck(const SQLite::Database& database, bool is_closed)
-        : database_(database), is_closed_(is_closed) {}
+        : database_(database), is_closed_(is_closed), has_todays_names_(has_table(database, "object")) {}
 
     SealFindings run() {
         attempt("trial", {}, [&] { learn_trials(); });
@@ -161,13 +161,19 @@ class SealCheck {
         return 0;
     }
 
+    /// The file's own names for tables and columns that a seal may know by the names of an earlier format.
+    std::string names_here(const std::string& sealed) const {
+        return has_todays_names_ ? todays_names(sealed) : sealed;
+    }
+
     void compare(const Seal& seal, const TableSeal& sealed) {
-        const auto known = std::find_if(tables_.begin(), tables_.end(),
-                                        [&](const SealedTable& table) { return table.name == sealed.name; });
+        const auto known =
+            std::find_if(tables_.begin(), tables_.end(),
+                         [name = names_here(sealed.name)](const auto& table) { return table.name == name; });
         if (known == tables_.end())
             return report(sealed.name, seal.trial_id, "", "the table is gone");
         SealedTable table = *known;
-        table.columns = sealed.columns;
+        table.columns = names_here(sealed.columns);
         const RowChoice rows = sealed_choice(table, sealed.rows);
         const RowDigest now = digest_rows(database_, rows, sealed.after_id, sealed.to_id);
         if (now.sha256 == sealed.sha256 && now.rows == sealed.row_count)
@@ -250,7 +256,7 @@ class SealCheck {
     }
 
     const SQLite::Database& database_;
-    bool is_closed_;
+    bool is_closed_, has_todays_names_;
     SealFindings findings_;
     std::map<std::int64_t, std::pair<int, int>> trials_; ///< trial and attempt by trial_id
     std::vector<Seal> seals_;

@@ -26,7 +26,7 @@ constexpr std::string_view header_table_names[] = {"session",
                                                    "pose",
                                                    "animation_frame",
                                                    "map",
-                                                   "sculpture",
+                                                   "object",
                                                    "dataset_entry"};
 
 /// Columns that two tables of one name have both, separated by commas.

@@ -102,7 +102,7 @@ class SessionVerification {
             const auto log_bytes = fs::file_size(folder_ / log_name_, error);
             has_log_ = !error && log_bytes > 0; // now: opening the file may make an empty one
             const SQLite::Database database =
-                open_session_file(folder_ / session_file_name, SessionFileUse::read);
+                open_session_file(folder_ / session_file_name, SessionFileUse::as_it_is);
             SQLite::Statement(database, "BEGIN").exec(); // one state of it, also while it is written
             look_at_database(database);
         } catch (const NewerFormatError& error) {

@@ -55,9 +55,9 @@ RowWriter::RowWriter(const std::filesystem::path& session_file, const Sitting& s
       insert_clock_pair_(database_, "INSERT INTO clock_pair VALUES (NULL,?,?,?,?)"),
       insert_event_(database_, "INSERT INTO event VALUES (NULL,?,?,?,?,?)"),
       insert_map_(database_,
-                  "INSERT OR REPLACE INTO map (sculpture, pose, file, sha256, made) VALUES (?,?,?,?,?)"),
+                  "INSERT OR REPLACE INTO map (object, pose, file, sha256, made) VALUES (?,?,?,?,?)"),
       insert_trial_(database_,
-                    "INSERT INTO trial (trial_id, sitting, trial, attempt, task, sculpture, material, "
+                    "INSERT INTO trial (trial_id, sitting, trial, attempt, task, object, material, "
                     "status, started_ns) VALUES (?,?,?,?,?,?,?,'open',?)"),
       finish_trial_(
           database_,
@@ -265,7 +265,7 @@ void RowWriter::write(const EventRow& event) {
 
 void RowWriter::write(const RecordedMap& map) {
     begin_sealed();
-    run_statement(insert_map_, map.sculpture, map.pose.value, map.file, map.sha256,
+    run_statement(insert_map_, map.object, map.pose.value, map.file, map.sha256,
                   map.made == RecordedMap::Made::prepared ? "prepared" : "live");
 }
 
@@ -329,7 +329,7 @@ void RowWriter::write(const TrialStart& start) {
     const std::int64_t attempt =
         1 + number(database_, "SELECT COUNT(*) FROM trial WHERE trial = ?1", trial.index);
     run_statement(insert_trial_, trial_counts_.trial_id, sitting_, trial.index, attempt, trial.task,
-                  trial.condition.sculpture, trial.condition.material, start.at);
+                  trial.condition.object, trial.condition.material, start.at);
     gaze_rows_.begin_trial(trial_counts_.trial_id);
     if (events_)
         events_->begin_trial();

@@ -78,7 +78,7 @@ class SessionStore final : public SessionLog {
     void trial_started(const Trial& trial, SessionTime at) override;
     void trial_finished(const Trial& trial, const TrialOutcome& outcome) override;
 
-    /// Notes a map made while the session runs, replacing one of the same sculpture and pose.
+    /// Notes a map made while the session runs, replacing one of the same object and pose.
     void map_made(const RecordedMap& map);
 
     /// Notes which display box this sitting has, or why none; replaces what was noted before.

@@ -7,7 +7,7 @@ namespace overt {
 
 namespace {
 
-/// The point seen at the centre of the covered pixel that is nearest to a place beside the sculpture.
+/// The point seen at the centre of the covered pixel that is nearest to a place beside the object.
 std::optional<SurfacePoint> surface_at_outline(const SurfaceLookup& lookup, PoseIndex pose, glm::dvec2 place,
                                                glm::dvec2 outline) {
     // The outline runs along the pixel's border: a little farther on is inside of it. A place whose own pixel

@@ -25,7 +25,7 @@ struct PlacedSample {
 };
 
 /// What a join found of a sample. `lookup` is null without a surface; it is the join's. A sample that misses
-/// the sculpture's picture by no more than `reach` (visual angle, 0: none) has the point seen at the centre
+/// the object's picture by no more than `reach` (visual angle, 0: none) has the point seen at the centre
 /// of the picture's nearest pixel.
 PlacedSample placed_sample(const GazeSample& sample, const JoinedSample& joined, const SurfaceLookup* lookup,
                            SessionTime onset, Degrees reach);

@@ -98,7 +98,7 @@ void find_spread(StudyFixation& fixation, std::span<const PlacedSample* const> p
     fixation.spread_deg = *fixation.spread_mm / (scale.mm_per_deg * depth / count / scale.axis_depth);
 }
 
-/// Where else a gaze cone around the fixation's middle sample lands: its share beside the sculpture, or on a
+/// Where else a gaze cone around the fixation's middle sample lands: its share beside the object, or on a
 /// sheet of surface whose depth differs by more than the kernel's sigma, and how far the rest scatters.
 void find_cone(StudyFixation& fixation, const PlacedSample& middle, const FixationContext& context) {
     double same_sheet = 0.0, squares = 0.0;

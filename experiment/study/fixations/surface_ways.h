@@ -1,4 +1,4 @@
-/// Ways along a sculpture's surface, on a coarser one that is made when it is first needed.
+/// Ways along an object's surface, on a coarser one that is made when it is first needed.
 #pragma once
 
 #include <cstddef>

@@ -45,8 +45,7 @@ std::string not_counted_words(NotCounted why, int count) {
 }
 
 bool any_placed(const StudyResults& results) {
-    return std::ranges::any_of(results.sculptures,
-                               [](const StudySculpture& one) { return one.mesh != nullptr; });
+    return std::ranges::any_of(results.objects, [](const StudyObject& one) { return one.mesh != nullptr; });
 }
 
 void add_counts(std::string& text, const StudyResults& results) {

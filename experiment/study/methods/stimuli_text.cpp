@@ -9,7 +9,7 @@ namespace overt {
 
 namespace {
 
-/// "3 sculptures (a, b and c)".
+/// "3 objects (a, b and c)".
 std::string named_things(const std::vector<NamedThing>& things, std::string_view one) {
     std::vector<std::string> names;
     for (const NamedThing& thing : things)
@@ -52,14 +52,13 @@ std::string questions_clause(const std::vector<NamedThing>& tasks) {
 
 std::string stimuli_text(const StudyResults& results) {
     std::string text;
-    const std::vector<NamedThing> sculptures = sculptures_shown(results),
-                                  materials = materials_shown(results);
+    const std::vector<NamedThing> objects = objects_shown(results), materials = materials_shown(results);
     const auto unknown = static_cast<int>(std::ranges::count_if(
         results.sessions, [](const StudySession& one) { return one.setup.stimuli.frame_count == 0; }));
-    if (!sculptures.empty())
+    if (!objects.empty())
         add_sentence(text,
-                     fmt::format("{} {} shown{}", named_things(sculptures, "sculpture"),
-                                 sculptures.size() == 1 ? "was" : "were",
+                     fmt::format("{} {} shown{}", named_things(objects, "object"),
+                                 objects.size() == 1 ? "was" : "were",
                                  materials.empty() ? "" : ", in " + named_things(materials, "material")));
     if (unknown > 0)
         add_sentence(text, fmt::format("what was shown {}is not on record",
@@ -70,7 +69,7 @@ std::string stimuli_text(const StudyResults& results) {
     add_over_sessions(text, results, motion_clause);
     if (const auto spread = spread_over_trials(results, trial_measure(TrialMeasureOf::presentation)))
         add_sentence(text, fmt::format("presentations lasted {}", as_spread(*spread, "s", 3)));
-    if (!sculptures.empty())
+    if (!objects.empty())
         add_sentence(text, questions_clause(tasks_asked(results)));
     return text;
 }

@@ -197,16 +197,16 @@ std::vector<FormField> form_fields(const StudyResults& results) {
     return fields;
 }
 
-std::vector<NamedThing> sculptures_shown(const StudyResults& results) {
+std::vector<NamedThing> objects_shown(const StudyResults& results) {
     std::set<int> in_trials;
     for (const StudyTrial& trial : results.trials)
         // Imported recordings have one that stands for nothing.
         if (results.sessions[static_cast<std::size_t>(trial.session)].setup.stimuli.frame_count > 0)
-            in_trials.insert(trial.sculpture);
+            in_trials.insert(trial.object);
     std::vector<NamedThing> shown;
     for (const int index : in_trials) {
-        const StudySculpture& sculpture = results.sculptures[static_cast<std::size_t>(index)];
-        add_once(shown, {sculpture.id, sculpture.title});
+        const StudyObject& object = results.objects[static_cast<std::size_t>(index)];
+        add_once(shown, {object.id, object.title});
     }
     return shown;
 }

@@ -101,7 +101,7 @@ struct FormField {
 std::vector<FormField> form_fields(const StudyResults& results);
 
 /// What was shown and asked in the trials: ids with titles, in the order of the protocols.
-std::vector<NamedThing> sculptures_shown(const StudyResults& results);
+std::vector<NamedThing> objects_shown(const StudyResults& results);
 std::vector<NamedThing> materials_shown(const StudyResults& results);
 std::vector<NamedThing> tasks_asked(const StudyResults& results);
 

@@ -134,7 +134,7 @@ Exposure exposure_of(const CoordinateMaps& maps, const Animation& animation, con
     return exposure;
 }
 
-std::vector<ExposureRow> exposure_rows(const PartExposure& of, int sculpture,
+std::vector<ExposureRow> exposure_rows(const PartExposure& of, int object,
                                        std::span<const std::string> part_names) {
     struct Sum {
         double area = 0.0, never = 0.0, seconds = 0.0, pixels = 0.0; ///< mm^2, mm^2, mm^2 s, px s
@@ -160,7 +160,7 @@ std::vector<ExposureRow> exposure_rows(const PartExposure& of, int sculpture,
         all.pixels += parts[part].pixels = of.exposure.part_pixel_seconds[part];
     const auto row_of = [&](const std::string& name, const Sum& sum) {
         ExposureRow row;
-        row.sculpture = sculpture;
+        row.object = object;
         row.part = name;
         row.area_mm2 = sum.area;
         row.share_of_area = all.area > 0.0 ? sum.area / all.area : 0.0;

@@ -1,4 +1,4 @@
-/// What of a sculpture a presentation shows, and for how long: the baseline of gaze that looks at all of the
+/// What of an object a presentation shows, and for how long: the baseline of gaze that looks at all of the
 /// picture alike.
 #pragma once
 
@@ -13,7 +13,7 @@
 namespace overt {
 
 struct Exposure {
-    /// By vertex: see StudySculpture.
+    /// By vertex: see StudyObject.
     std::vector<float> seconds_visible;
     /// By vertex: seconds times pixels of the picture that show its triangles, shared among their corners.
     /// How long a place was visible, how large it was and how obliquely it was seen are all in it.
@@ -29,14 +29,14 @@ struct Exposure {
 Exposure exposure_of(const CoordinateMaps& maps, const Animation& animation, const PoseTable& poses);
 
 /// Each part with its area, how long it is visible, and its share of the exposure and of the fixations; the
-/// first row is the whole sculpture. `px_mm2`: the area of the object, seen head-on in the depth of its axis,
+/// first row is the whole object. `px_mm2`: the area of the object, seen head-on in the depth of its axis,
 /// that a pixel shows.
 struct PartExposure {
     const Exposure& exposure;
     const Mesh& mesh;
     double mm_per_unit = 1.0, px_mm2 = 1.0;
 };
-std::vector<ExposureRow> exposure_rows(const PartExposure& of, int sculpture,
+std::vector<ExposureRow> exposure_rows(const PartExposure& of, int object,
                                        std::span<const std::string> part_names);
 
 } // namespace overt

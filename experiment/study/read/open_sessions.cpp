@@ -113,13 +113,13 @@ StudySession describe_session(const OpenSession& open, const std::filesystem::pa
     return session;
 }
 
-bool is_same_sculpture(const SessionHeader& a, int in_a, const SessionHeader& b, int in_b) {
-    const RecordedSculpture &one = a.sculptures[static_cast<std::size_t>(in_a)],
-                            &other = b.sculptures[static_cast<std::size_t>(in_b)];
-    const auto maps_of = [](const SessionHeader& header, int sculpture) {
+bool is_same_object(const SessionHeader& a, int in_a, const SessionHeader& b, int in_b) {
+    const RecordedObject &one = a.objects[static_cast<std::size_t>(in_a)],
+                         &other = b.objects[static_cast<std::size_t>(in_b)];
+    const auto maps_of = [](const SessionHeader& header, int object) {
         std::vector<std::pair<int, ContentHash>> maps;
         for (const RecordedMap& map : header.maps) {
-            if (map.sculpture == sculpture)
+            if (map.object == object)
                 maps.emplace_back(map.pose.value, map.sha256);
         }
         std::sort(maps.begin(), maps.end());
@@ -139,18 +139,18 @@ bool is_same_sculpture(const SessionHeader& a, int in_a, const SessionHeader& b,
            (!one.mesh_file.empty() || maps_of(a, in_a) == maps_of(b, in_b));
 }
 
-StudySculpture describe_sculpture(const SessionHeader& header, int index) {
-    const RecordedSculpture& recorded = header.sculptures[static_cast<std::size_t>(index)];
-    StudySculpture sculpture;
-    sculpture.id = recorded.id;
-    sculpture.title = recorded.title;
-    sculpture.part_names = recorded.part_names;
-    sculpture.head = HeadParts(recorded.part_names);
-    sculpture.camera = recorded.camera;
-    sculpture.axis_point = recorded.axis_point;
-    sculpture.unit = recorded.unit;
-    sculpture.screen = header.display.screen;
-    return sculpture;
+StudyObject describe_object(const SessionHeader& header, int index) {
+    const RecordedObject& recorded = header.objects[static_cast<std::size_t>(index)];
+    StudyObject object;
+    object.id = recorded.id;
+    object.title = recorded.title;
+    object.part_names = recorded.part_names;
+    object.head = HeadParts(recorded.part_names);
+    object.camera = recorded.camera;
+    object.axis_point = recorded.axis_point;
+    object.unit = recorded.unit;
+    object.screen = header.display.screen;
+    return object;
 }
 
 // Who resumes a session adds to both.

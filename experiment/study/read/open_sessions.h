@@ -21,7 +21,7 @@ struct OpenSession {
     std::vector<std::unique_ptr<SessionRecord>> readers;
     std::vector<std::unique_ptr<TrialKeys>> keys; ///< by reader
     std::vector<RecordedAccuracy> validations;    ///< in the order of time
-    std::vector<int> sculptures;                  ///< of the study, by the session's own index
+    std::vector<int> objects;                     ///< of the study, by the session's own index
     const SessionRecord& record() const { return *readers.front(); }
 };
 
@@ -35,11 +35,11 @@ std::vector<OpenSession> open_sessions(std::span<const std::filesystem::path> se
 /// SessionRecord::event_origins().
 StudySession describe_session(const OpenSession& open, const std::filesystem::path& path);
 
-/// Whether two sessions' sculptures, by their indices there, are one: the same picture of the same mesh.
-bool is_same_sculpture(const SessionHeader& a, int in_a, const SessionHeader& b, int in_b);
+/// Whether two sessions' objects, by their indices there, are one: the same picture of the same mesh.
+bool is_same_object(const SessionHeader& a, int in_a, const SessionHeader& b, int in_b);
 
-/// What a study knows of a session's sculpture, by its index there, without its mesh.
-StudySculpture describe_sculpture(const SessionHeader& header, int index);
+/// What a study knows of a session's object, by its index there, without its mesh.
+StudyObject describe_object(const SessionHeader& header, int index);
 
 /// How far a session has got: another text once it was gone on with.
 std::string state_of(const SessionRecord& record);

@@ -31,16 +31,16 @@ class StudyReader {
         for (std::size_t i = 0; i < open_.size(); ++i)
             add_session(i, sessions[i]);
         name_same_observers();
-        study_.surfaces.resize(results().sculptures.size());
+        study_.surfaces.resize(results().objects.size());
     }
 
     ReadStudy read() {
         begin_reading();
-        for (int sculpture = 0; sculpture < static_cast<int>(study_.surfaces.size()); ++sculpture) {
-            const SurfaceLookup* lookup = load_surface(sculpture);
-            find_exposure(sculpture, lookup);
-            read_trials(sculpture, lookup);
-            add_evidence(sculpture);
+        for (int object = 0; object < static_cast<int>(study_.surfaces.size()); ++object) {
+            const SurfaceLookup* lookup = load_surface(object);
+            find_exposure(object, lookup);
+            read_trials(object, lookup);
+            add_evidence(object);
         }
         collect();
         return std::move(study_);
@@ -48,9 +48,9 @@ class StudyReader {
 
     std::vector<ReadSession> read_alone() {
         begin_reading();
-        for (int sculpture = 0; sculpture < static_cast<int>(study_.surfaces.size()); ++sculpture) {
-            read_trials(sculpture, load_surface(sculpture));
-            study_.surfaces[static_cast<std::size_t>(sculpture)] = {};
+        for (int object = 0; object < static_cast<int>(study_.surfaces.size()); ++object) {
+            read_trials(object, load_surface(object));
+            study_.surfaces[static_cast<std::size_t>(object)] = {};
         }
         return std::move(read_);
     }
@@ -63,9 +63,9 @@ class StudyReader {
                                              read_[i].session.string()));
             results().sessions[i].events = read_[i].events;
         }
-        for (int sculpture = 0; sculpture < static_cast<int>(study_.surfaces.size()); ++sculpture) {
-            find_exposure(sculpture, load_surface(sculpture));
-            add_evidence(sculpture);
+        for (int object = 0; object < static_cast<int>(study_.surfaces.size()); ++object) {
+            find_exposure(object, load_surface(object));
+            add_evidence(object);
         }
         collect();
         return std::move(study_);
@@ -94,11 +94,11 @@ class StudyReader {
         };
         const auto id_of = [](const auto& item) { return item.id; };
         take_levels("task", header.tasks, id_of);
-        take_levels("sculpture", header.sculptures, id_of);
+        take_levels("object", header.objects, id_of);
         take_levels("material", header.materials, id_of);
         take_levels("block", header.blocks, [](const std::string& block) { return block; });
-        for (int i = 0; i < static_cast<int>(header.sculptures.size()); ++i)
-            open_[index].sculptures.push_back(sculpture_of(index, i));
+        for (int i = 0; i < static_cast<int>(header.objects.size()); ++i)
+            open_[index].objects.push_back(object_of(index, i));
         results().sessions.push_back(describe_session(open_[index], path));
     }
 
@@ -120,23 +120,23 @@ class StudyReader {
         }
     }
 
-    /// The study's index of a session's sculpture, which is new or was in a session before.
-    int sculpture_of(std::size_t session, int own) {
+    /// The study's index of a session's object, which is new or was in a session before.
+    int object_of(std::size_t session, int own) {
         const SessionHeader& header = open_[session].record().header();
         for (std::size_t i = 0; i < shown_in_.size(); ++i) {
             const auto [other, index] = shown_in_[i];
-            if (is_same_sculpture(open_[other].record().header(), index, header, own))
+            if (is_same_object(open_[other].record().header(), index, header, own))
                 return static_cast<int>(i);
         }
         shown_in_.emplace_back(session, own);
-        results().sculptures.push_back(describe_sculpture(header, own));
-        return static_cast<int>(results().sculptures.size()) - 1;
+        results().objects.push_back(describe_object(header, own));
+        return static_cast<int>(results().objects.size()) - 1;
     }
 
     void read_trials(int index, const SurfaceLookup* lookup) {
         const std::string what =
-            fmt::format("reading gaze on {}", results().sculptures[static_cast<std::size_t>(index)].id);
-        const SculptureSurface& surface = study_.surfaces[static_cast<std::size_t>(index)];
+            fmt::format("reading gaze on {}", results().objects[static_cast<std::size_t>(index)].id);
+        const ObjectSurface& surface = study_.surfaces[static_cast<std::size_t>(index)];
         const LightOfStimuli light = load_light(index, lookup);
         struct Job {
             std::size_t session, reader;
@@ -173,7 +173,7 @@ class StudyReader {
         });
     }
 
-    /// Of a sculpture's stimuli by the hash of their frames.
+    /// Of an object's stimuli by the hash of their frames.
     using LightOfStimuli = std::map<ContentHash, LightScores>;
 
     /// Each from the first session that has it. A file that cannot be read is as good as none.
@@ -183,10 +183,10 @@ class StudyReader {
             const SessionRecord& record = open_[session].record();
             const SessionHeader& header = record.header();
             for (const RecordedStimulus& stimulus : header.stimuli) {
-                const auto own = static_cast<std::size_t>(stimulus.condition.sculpture);
+                const auto own = static_cast<std::size_t>(stimulus.condition.object);
                 const std::filesystem::path file =
                     record.directory() / light_file(header, stimulus.condition);
-                if (open_[session].sculptures[own] != index || light.contains(stimulus.frames_sha256) ||
+                if (open_[session].objects[own] != index || light.contains(stimulus.frames_sha256) ||
                     !std::filesystem::exists(file))
                     continue;
                 try {
@@ -209,11 +209,11 @@ class StudyReader {
         return found == light.end() ? nullptr : &found->second;
     }
 
-    /// Fixations of all sessions together tell where on the sculpture gaze was.
+    /// Fixations of all sessions together tell where on the object gaze was.
     void add_evidence(int index) {
-        const StudySculpture& sculpture = results().sculptures[static_cast<std::size_t>(index)];
-        const SculptureSurface& surface = study_.surfaces[static_cast<std::size_t>(index)];
-        if (!sculpture.mesh || !sculpture.head || !surface.scale)
+        const StudyObject& object = results().objects[static_cast<std::size_t>(index)];
+        const ObjectSurface& surface = study_.surfaces[static_cast<std::size_t>(index)];
+        if (!object.mesh || !object.head || !surface.scale)
             return;
         std::vector<StudyFixation*> fixations;
         std::vector<MeasuredPlace> places;
@@ -225,35 +225,31 @@ class StudyReader {
                 header = &open_[session].record().header();
                 const std::optional<double>& accuracy = read_[session].trials[t].trial.quality.accuracy_deg;
                 const double sigma_deg =
-                    GazeCone(sculpture.screen, Degrees{accuracy.value_or(0.0)}, 1).sigma().value;
+                    GazeCone(object.screen, Degrees{accuracy.value_or(0.0)}, 1).sigma().value;
                 if (!(sigma_deg > 0.0))
                     continue;
                 const glm::dvec2 px_per_deg = surface.scale->mm_per_deg * surface.scale->shown_size *
-                                              glm::dvec2(sculpture.screen.screen_px) /
-                                              sculpture.screen.screen_mm;
+                                              glm::dvec2(object.screen.screen_px) / object.screen.screen_mm;
                 for (StudyFixation& fixation : read_[session].trials[t].fixations) {
                     if (!fixation.counted() && fixation.why != NotCounted::not_on_surface)
                         continue;
                     fixations.push_back(&fixation);
-                    places.push_back({fixation.mid_pose,
-                                      sculpture.screen.image_from_screen(fixation.mid_gaze),
+                    places.push_back({fixation.mid_pose, object.screen.image_from_screen(fixation.mid_gaze),
                                       sigma_deg * px_per_deg});
                 }
             }
         }
         if (fixations.empty())
             return;
-        const SceneView scene{{sculpture.camera, sculpture.screen.image_px}, sculpture.mesh->bounds()};
-        const auto evidence =
-            part_evidence(*sculpture.mesh, sculpture.head, scene, header->poses.angles, places);
+        const SceneView scene{{object.camera, object.screen.image_px}, object.mesh->bounds()};
+        const auto evidence = part_evidence(*object.mesh, object.head, scene, header->poses.angles, places);
         for (std::size_t i = 0; i < fixations.size(); ++i)
             fixations[i]->evidence = evidence[i];
     }
 
-    bool is_of(std::size_t session, const TrialRecord& trial, int sculpture) const {
-        const auto own = static_cast<std::size_t>(trial.trial.condition.sculpture);
-        return trial.counts && own < open_[session].sculptures.size() &&
-               open_[session].sculptures[own] == sculpture;
+    bool is_of(std::size_t session, const TrialRecord& trial, int object) const {
+        const auto own = static_cast<std::size_t>(trial.trial.condition.object);
+        return trial.counts && own < open_[session].objects.size() && open_[session].objects[own] == object;
     }
 
     /// From the first session that has it whole.
@@ -261,7 +257,7 @@ class StudyReader {
         const SurfaceLookup* lookup = nullptr;
         std::string fault;
         for (std::size_t session = 0; session < open_.size() && !lookup; ++session) {
-            const std::vector<int>& own = open_[session].sculptures;
+            const std::vector<int>& own = open_[session].objects;
             const auto found = std::find(own.begin(), own.end(), index);
             if (found == own.end())
                 continue;
@@ -273,32 +269,32 @@ class StudyReader {
                     fault = error.what();
             }
         }
-        add_surface(lookup, fault, results().sculptures[static_cast<std::size_t>(index)],
+        add_surface(lookup, fault, results().objects[static_cast<std::size_t>(index)],
                     study_.surfaces[static_cast<std::size_t>(index)]);
         return lookup;
     }
 
     void find_exposure(int index, const SurfaceLookup* lookup) {
-        StudySculpture& sculpture = results().sculptures[static_cast<std::size_t>(index)];
-        SculptureSurface& surface = study_.surfaces[static_cast<std::size_t>(index)];
+        StudyObject& object = results().objects[static_cast<std::size_t>(index)];
+        ObjectSurface& surface = study_.surfaces[static_cast<std::size_t>(index)];
         const auto* maps = dynamic_cast<const CoordinateMaps*>(lookup);
         if (!maps)
             return;
         const SessionHeader& header =
             open_[shown_in_[static_cast<std::size_t>(index)].first].record().header();
-        progress_(fmt::format("exposure of {}", sculpture.id), 0, 1);
+        progress_(fmt::format("exposure of {}", object.id), 0, 1);
         Exposure exposure = exposure_of(*maps, header.animation, header.poses);
         if (surface.scale) {
-            const ScreenGeometry& screen = sculpture.screen;
+            const ScreenGeometry& screen = object.screen;
             const double px_mm = screen.screen_mm.y / screen.screen_px.y / surface.scale->shown_size;
             for (ExposureRow& row :
-                 exposure_rows({exposure, *sculpture.mesh, surface.scale->mm_per_unit, px_mm * px_mm}, index,
-                               sculpture.part_names))
+                 exposure_rows({exposure, *object.mesh, surface.scale->mm_per_unit, px_mm * px_mm}, index,
+                               object.part_names))
                 results().exposures.push_back(std::move(row));
         }
-        sculpture.seconds_visible = std::move(exposure.seconds_visible);
+        object.seconds_visible = std::move(exposure.seconds_visible);
         surface.pixel_seconds = std::move(exposure.pixel_seconds);
-        progress_(fmt::format("exposure of {}", sculpture.id), 1, 1);
+        progress_(fmt::format("exposure of {}", object.id), 1, 1);
     }
 
     /// Everything in the order of sessions and trials, however it was read.
@@ -315,8 +311,8 @@ class StudyReader {
                 for (StudyKey& key : read.trial.keys)
                     if (key.column == "observer")
                         key.value = results().sessions[session].observer;
-                read.trial.sculpture =
-                    open_[session].sculptures[static_cast<std::size_t>(trials[t].trial.condition.sculpture)];
+                read.trial.object =
+                    open_[session].objects[static_cast<std::size_t>(trials[t].trial.condition.object)];
                 read.trial.first_fixation = results().fixations.size();
                 read.trial.fixations = read.fixations.size();
                 for (StudyFixation& fixation : read.fixations) {
@@ -349,8 +345,8 @@ class StudyReader {
             results().remarks.emplace_back(
                 "Of binocular recordings the eye that the session names is taken.");
         remark_on_sessions_without_stimulus();
-        for (std::size_t i = 0; i < results().sculptures.size(); ++i) {
-            const std::string& remark = results().sculptures[i].remark;
+        for (std::size_t i = 0; i < results().objects.size(); ++i) {
+            const std::string& remark = results().objects[i].remark;
             if (!remark.empty() && !knows_no_stimulus(open_[shown_in_[i].first].record().header()))
                 results().remarks.push_back(remark);
         }
@@ -382,9 +378,8 @@ class StudyReader {
     const StudyOptions& options_;
     const StudyProgress& progress_;
     std::vector<OpenSession> open_;
-    std::vector<std::pair<std::size_t, int>>
-        shown_in_;                  ///< by sculpture: a session that has it, and its index
-    std::vector<ReadSession> read_; ///< by session
+    std::vector<std::pair<std::size_t, int>> shown_in_; ///< by object: a session that has it, and its index
+    std::vector<ReadSession> read_;                     ///< by session
     ReadStudy study_;
 };
 

@@ -67,9 +67,9 @@ template <class Archive> void fields(Archive& archive, StudyQuality& quality) {
             off_plan);
 }
 template <class Archive> void fields(Archive& archive, StudyTrial& trial) {
-    auto& [session, sculpture, label, number, keys, presentation_s, excluded, why, first_fixation, fixations,
+    auto& [session, object, label, number, keys, presentation_s, excluded, why, first_fixation, fixations,
            turns, clock_uncertainty_s, quality, has_gaze] = trial;
-    archive(session, sculpture, label, number, keys, presentation_s, excluded, why, first_fixation, fixations,
+    archive(session, object, label, number, keys, presentation_s, excluded, why, first_fixation, fixations,
             turns, clock_uncertainty_s, quality, has_gaze);
 }
 template <class Archive> void fields(Archive& archive, FixationLight& light) {

@@ -12,7 +12,7 @@
 namespace overt {
 
 struct ReadTrial {
-    StudyTrial trial; ///< session and sculpture are not set
+    StudyTrial trial; ///< session and object are not set
     std::vector<StudyFixation> fixations;
     StudyTrace trace;
     std::int64_t samples = 0;

@@ -44,11 +44,10 @@ template <class Visit> void for_each_counted(const StudyResults& results, int tr
     }
 }
 
-/// The counted fixations on a sculpture, of all trials in their order.
-template <class Visit>
-void for_each_counted_on(const StudyResults& results, int sculpture, const Visit& visit) {
+/// The counted fixations on an object, of all trials in their order.
+template <class Visit> void for_each_counted_on(const StudyResults& results, int object, const Visit& visit) {
     for (std::size_t trial = 0; trial < results.trials.size(); ++trial) {
-        if (results.trials[trial].sculpture == sculpture)
+        if (results.trials[trial].object == object)
             for_each_counted(results, static_cast<int>(trial), visit);
     }
 }

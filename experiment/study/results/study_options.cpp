@@ -74,12 +74,12 @@ std::vector<StudyParameter> parameters_of(const StudyOptions& options) {
         {"shortest-fixation", fmt::format("{}", options.shortest_fixation_s), "s",
          "Fixations shorter than this are not counted."},
         {"least-on-surface", fmt::format("{}", options.least_on_surface), "",
-         "Share of a fixation's samples that must meet the sculpture, or miss it by no more than the reach, "
+         "Share of a fixation's samples that must meet the object, or miss it by no more than the reach, "
          "for it "
          "to be counted."},
         {"reach", options.reach_deg ? fmt::format("{}", *options.reach_deg) : "accuracy",
          options.reach_deg ? "deg" : "",
-         "A sample that misses the sculpture by no more than this counts at the nearest place of its "
+         "A sample that misses the object by no more than this counts at the nearest place of its "
          "outline; "
          "accuracy: the mean error of the validation before the trial, 0 if there was none."},
         {"most-lost", number_or_none(rules.most_lost_share), "",

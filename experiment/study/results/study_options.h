@@ -43,13 +43,13 @@ std::vector<ExclusionRule> rules_of(const ExclusionRules& rules);
 std::optional<ExclusionRule> broken_rule(const StudyQuality& quality, const ExclusionRules& rules);
 
 struct StudyOptions {
-    std::vector<std::string> by{"task", "sculpture", "material"};
+    std::vector<std::string> by{"task", "object", "material"};
     std::string compare = "material"; ///< the column whose levels are compared within observers
     KernelWidth sigma;
     MapKernel kernel = MapKernel::geodesic;
     double shortest_fixation_s = 0.0;
-    double least_on_surface = 0.5; ///< share of a fixation's samples that must meet the sculpture
-    /// A sample that misses the sculpture by no more than this counts at the nearest place of its outline.
+    double least_on_surface = 0.5; ///< share of a fixation's samples that must meet the object
+    /// A sample that misses the object by no more than this counts at the nearest place of its outline.
     /// Nothing: the mean error of the validation before the trial, and 0 if there was none.
     std::optional<double> reach_deg;
     ExclusionRules exclude;

@@ -2,7 +2,7 @@
 /// analyze_study() fills it in, and nothing reckons with it afterwards.
 ///
 /// Places, lengths, areas and densities on surfaces are in the object's own millimetres (object_scale.h),
-/// which StudySculpture::mm_per_unit makes of the mesh's unit. Angles are of the observer's eye.
+/// which StudyObject::mm_per_unit makes of the mesh's unit. Angles are of the observer's eye.
 #pragma once
 
 #include <array>
@@ -76,22 +76,22 @@ struct MethodsParagraph {
     std::string topic, text;
 };
 
-/// A sculpture with all sessions that showed the same mesh.
-struct StudySculpture {
+/// An object with all sessions that showed the same mesh.
+struct StudyObject {
     std::string id, title;
     /// Null where the sessions have no mesh, such as imported ones: no maps then, and `remark` says why.
     std::shared_ptr<const Mesh> mesh;
     std::vector<std::string> part_names;
     HeadParts head; ///< false if there is none
     Camera camera;
-    glm::dvec3 axis_point{0.0}; ///< in the mesh's unit; the sculpture turns about the vertical through it
+    glm::dvec3 axis_point{0.0}; ///< in the mesh's unit; the object turns about the vertical through it
     ScreenGeometry screen;
-    std::string unit = "mm"; ///< of the mesh, as RecordedSculpture has it: "mm" if it is that
+    std::string unit = "mm"; ///< of the mesh, as RecordedObject has it: "mm" if it is that
     // As ObjectScale has them; nothing without a known camera.
     std::optional<double> mm_per_unit, mm_per_deg, shown_size;
     /// By vertex of the mesh: how long one presentation shows it, in seconds; 0: never visible.
     std::vector<float> seconds_visible;
-    /// By vertex: density that gaze would have that is spread evenly over the sculpture's picture all the
+    /// By vertex: density that gaze would have that is spread evenly over the object's picture all the
     /// time, per mm^2; its integral over the surface is 1.
     std::vector<float> exposure_density;
     std::string remark;
@@ -103,8 +103,8 @@ enum class NotCounted : std::uint8_t {
     began_before_onset, ///< under way when the presentation began
     too_short,          ///< shorter than the least duration of the options
     no_frame_lit,       ///< no frame was lit during it
-    not_on_surface,     ///< too small a share of its samples met the sculpture
-    no_surface,         ///< the session has no maps of this sculpture
+    not_on_surface,     ///< too small a share of its samples met the object
+    no_surface,         ///< the session has no maps of this object
     trial_excluded,     ///< its trial is
     no_stimulus,        ///< the session knows of no stimulus: an imported recording
 };
@@ -113,7 +113,7 @@ enum class NotCounted : std::uint8_t {
 enum class ExclusionRule : std::uint8_t { lost_share, accuracy, drift, missed_refreshes };
 
 /// How probable a fixation's measured place is, per square pixel, if the head was looked at, and if something
-/// else of the sculpture was: the tracker's error lies between the two (part_evidence.h).
+/// else of the object was: the tracker's error lies between the two (part_evidence.h).
 struct PartEvidence {
     double head = 0.0, elsewhere = 0.0;
 };
@@ -133,11 +133,11 @@ struct StudyFixation {
     ScreenPoint place;       ///< mean of its samples, on the screen
     NotCounted why = NotCounted::counted;
     int samples = 0;                       ///< with gaze, while a frame was lit
-    double on_surface = 0.0;               ///< share of these that met the sculpture
+    double on_surface = 0.0;               ///< share of these that met the object
     double within_reach = 0.0;             ///< share that missed it by no more than the reach
     bool only_by_reach = false;            ///< counted, and would not be without the reach
     int first_frame = -1, last_frame = -1; ///< of the animation; -1: none
-    double mid_angle_deg = 0.0;            ///< of the sculpture, halfway through
+    double mid_angle_deg = 0.0;            ///< of the object, halfway through
     PoseIndex mid_pose;                    ///< of its session, lit halfway through if samples > 0
     ScreenPoint mid_gaze;                  ///< then
     std::optional<PartEvidence> evidence;  ///< nothing if the tracker's error is not known
@@ -186,7 +186,7 @@ struct StudyTrace {
     std::vector<StudyTraceEvent> events;
 };
 
-/// When the sculpture came to stand at another angle.
+/// When the object came to stand at another angle.
 struct StudyTurn {
     double time_s = 0.0; ///< since the presentation's onset
     double angle_deg = 0.0;
@@ -215,7 +215,7 @@ struct StudyQuality {
 /// A trial that came to its end.
 struct StudyTrial {
     int session = 0;            ///< index into StudyResults::sessions
-    int sculpture = 0;          ///< index into StudyResults::sculptures
+    int object = 0;             ///< index into StudyResults::objects
     std::string label;          ///< "observer 07, trial 3"
     int number = 0;             ///< in the observer's order, from 1
     std::vector<StudyKey> keys; ///< all columns of the table of trials, and the form's fields
@@ -250,14 +250,14 @@ struct ErrorBudget {
     std::optional<double> lut_mm;       ///< of the look-up of surface points
     std::optional<double> timing_mm;    ///< uncertainty of the clocks times the speed of the surface there
     std::optional<double> together_mm;  ///< root of the sum of these squares; nothing without the accuracy
-    std::optional<double> at_edge;   ///< mean share of the gaze cone beside the sculpture or on another sheet
-    std::optional<double> near_edge; ///< share of samples with any of their gaze cone there
+    std::optional<double> at_edge;      ///< mean share of the gaze cone beside the object or on another sheet
+    std::optional<double> near_edge;    ///< share of samples with any of their gaze cone there
 };
 
-/// The map of one group on one sculpture.
+/// The map of one group on one object.
 struct StudyMap {
     int group = 0;
-    int sculpture = 0;
+    int object = 0;
     MapWeighting weighting = MapWeighting::duration;
     /// By vertex, the mean over trials: by duration in ms of fixation per mm^2, by count in fixations per
     /// mm^2. Empty if there is none, and `absent` says why.
@@ -288,9 +288,9 @@ struct HeadFractionRow {
     std::vector<double> of_observers{}; ///< their own fractions by count, those who have any
 };
 
-/// Figure 5: the distribution of a group's fixations on one sculpture.
+/// Figure 5: the distribution of a group's fixations on one object.
 struct DistributionRow {
-    int group = 0, sculpture = 0;
+    int group = 0, object = 0;
     Estimate wss_mm2, wss_deg2;            ///< sum of the variances, 1 / N
     std::optional<double> planted_wss_mm2; ///< of simulated observers: of what they mean to look at
     std::array<std::optional<double>, 3> variance_mm2, variance_deg2; ///< of x, y, z
@@ -318,17 +318,17 @@ struct PairRow {
     Estimate head_difference; ///< share of fixations on the head, of a less that of b
     // Sign flips over observers. Holm's correction is over the rows of groups, or over those of all groups.
     std::optional<double> wss_p, wss_p_holm, head_p, head_p_holm;
-    std::optional<double> maps_cc; ///< of the maps of all observers, mean over sculptures and groups
+    std::optional<double> maps_cc;             ///< of the maps of all observers, mean over objects and groups
     std::optional<double> maps_p, maps_p_holm; ///< swaps of the levels within observers (swap_test)
     SimilarityEstimate cc, sim_mit, sim_pysaliency;
-    int observers = 0, comparisons = 0; ///< of an observer with one sculpture
+    int observers = 0, comparisons = 0; ///< of an observer with one object
     std::string absent;                 ///< why there is nothing
 };
 
-/// Where two levels differ on one sculpture, within observers.
+/// Where two levels differ on one object, within observers.
 struct DifferenceMap {
     std::vector<StudyKey> keys; ///< what is the same in both; empty: anything
-    int sculpture = 0;
+    int object = 0;
     std::string column, a, b;
     /// By vertex: mean over observers of a less b, of maps that hold each observer's share of the time of
     /// fixation per mm^2. Empty if there is none, and `absent` says why.
@@ -357,10 +357,10 @@ enum class MapPredictor : std::uint8_t {
     exposure     ///< how long, how large and how obliquely each place could be seen
 };
 
-/// How well a group's fixations on one sculpture are told by a map that none of them made: means over
+/// How well a group's fixations on one object are told by a map that none of them made: means over
 /// observers of what each one's fixations give. Only places that could be seen count.
 struct MapPredictionRow {
-    int group = 0, sculpture = 0;
+    int group = 0, object = 0;
     MapPredictor by = MapPredictor::same_level;
     std::string level; ///< of the compared column, of the predicting map; empty: exposure
     Estimate kl;       ///< nats, of the observer's map from the predicting one
@@ -374,7 +374,7 @@ struct MapPredictionRow {
 /// How well a map would come out again with other observers.
 struct MapReliabilityRow {
     std::vector<StudyKey> keys; ///< a group's, or a single one of these: all trials with it; empty: all
-    int sculpture = 0;
+    int object = 0;
     Estimate split_half_cc; ///< of the maps of halves of the observers, mean over random halves
     Estimate reliability;   ///< the same for all observers together, by Spearman and Brown
     int observers = 0, fixations = 0;
@@ -407,17 +407,17 @@ struct LightAtGazeRow {
     int observers = 0, fixations = 0;
 };
 
-/// What a presentation shows of a part of a sculpture.
+/// What a presentation shows of a part of an object.
 struct ExposureRow {
-    int sculpture = 0;
-    std::string part; ///< "all": the whole sculpture
+    int object = 0;
+    std::string part; ///< "all": the whole object
     double area_mm2 = 0.0;
     double share_of_area = 0.0;
     double never_visible = 0.0;     ///< share of its area
     double seconds_visible = 0.0;   ///< mean over its area
-    double share_of_exposure = 0.0; ///< of the time and solid angle that the sculpture fills in the picture
+    double share_of_exposure = 0.0; ///< of the time and solid angle that the object fills in the picture
     std::optional<double> foreshortening;     ///< mean cosine of sight line and normal while it is visible
-    std::optional<double> share_of_fixations; ///< of all that are counted on the sculpture
+    std::optional<double> share_of_fixations; ///< of all that are counted on the object
 };
 
 /// Share of fixations on the head in a stretch of the presentation.
@@ -452,11 +452,11 @@ struct StudyResults {
     double confidence = 0.95;
     std::vector<StudySession> sessions;
     std::vector<StudyObserver> observers; ///< in the order of the sessions
-    std::vector<StudySculpture> sculptures;
+    std::vector<StudyObject> objects;
     std::vector<StudyTrial> trials;
     std::vector<StudyFixation> fixations; ///< by trial, in the order of their onsets
     std::vector<StudyGroup> groups;
-    std::vector<StudyMap> maps; ///< by group, sculpture and weighting
+    std::vector<StudyMap> maps; ///< by group, object and weighting
     std::vector<HeadFractionRow> head_fractions;
     std::vector<DistributionRow> distributions;
     std::vector<PairRow> pairs;

@@ -12,9 +12,9 @@ RowLayout<StudyMap> study_maps_layout(const StudyResults& results) {
         return [what](const Row& row) { return row.error.*what; };
     };
     StudyLayout<Row> to("maps",
-                        "One row for each map of a group on a sculpture: by duration in ms per mm^2 and "
+                        "One row for each map of a group on an object: by duration in ms per mm^2 and "
                         "trial, by count in fixations per mm^2 and trial.");
-    to.group_and_sculpture(results);
+    to.group_and_object(results);
     to.text("weighting", "duration: fixations count with their duration; count: alike",
             [](const Row& row) { return name_of(row.weighting); });
     to.count("observers", "Observers", &Row::observers);
@@ -40,7 +40,7 @@ RowLayout<StudyMap> study_maps_layout(const StudyResults& results) {
               density_decimals);
     to.number("together_mm", "Root of the sum of the squares of these; n/a without an accuracy", "mm",
               budget(&ErrorBudget::together_mm));
-    to.number("at_edge", "Mean share of the gaze cone beyond a depth edge, or beside the sculpture", "",
+    to.number("at_edge", "Mean share of the gaze cone beyond a depth edge, or beside the object", "",
               budget(&ErrorBudget::at_edge));
     to.number("near_edge", "Share of samples with any of their gaze cone there", "",
               budget(&ErrorBudget::near_edge));
@@ -50,11 +50,10 @@ RowLayout<StudyMap> study_maps_layout(const StudyResults& results) {
 
 RowLayout<MapPredictionRow> map_predictions_layout(const StudyResults& results) {
     using Row = MapPredictionRow;
-    StudyLayout<Row> to(
-        "map_predictions",
-        "How well a group's fixations on one sculpture are told by maps that the same observer "
-        "did not make: means over observers, over the places that could be seen.");
-    to.group_and_sculpture(results);
+    StudyLayout<Row> to("map_predictions",
+                        "How well a group's fixations on one object are told by maps that the same observer "
+                        "did not make: means over observers, over the places that could be seen.");
+    to.group_and_object(results);
     to.text(
         "predicted_by",
         "same level: other observers' fixations in the group; other level: theirs in another level of the "
@@ -80,7 +79,7 @@ RowLayout<MapReliabilityRow> map_reliability_layout(const StudyResults& results)
                         "How well maps would come out again with other observers: of groups, of "
                         "each level of each column, and of all.");
     to.keys(results.by, &Row::keys);
-    to.sculpture(results, &Row::sculpture);
+    to.object(results, &Row::object);
     to.estimate("split_half_cc", "Correlation of the maps of random halves of the observers, mean", "",
                 &Row::split_half_cc);
     to.estimate("reliability", "The same for all observers, after Spearman and Brown", "", &Row::reliability);
@@ -92,23 +91,22 @@ RowLayout<MapReliabilityRow> map_reliability_layout(const StudyResults& results)
 RowLayout<ExposureRow> exposure_layout(const StudyResults& results) {
     using Row = ExposureRow;
     StudyLayout<Row> to("exposure",
-                        "What one presentation shows of each part of a sculpture: the baseline of gaze "
+                        "What one presentation shows of each part of an object: the baseline of gaze "
                         "that looks at all of the picture alike.");
-    to.sculpture(results, &Row::sculpture, "The sculpture");
-    to.text("part", "The part; all: the whole sculpture", &Row::part);
+    to.object(results, &Row::object, "The object");
+    to.text("part", "The part; all: the whole object", &Row::part);
     to.number("area_mm2", "Area", "mm^2", &Row::area_mm2);
-    to.number("share_of_area", "Share of the sculpture's area", "", &Row::share_of_area);
+    to.number("share_of_area", "Share of the object's area", "", &Row::share_of_area);
     to.number("never_visible", "Share of the part's area that no frame shows", "", &Row::never_visible);
     to.number("seconds_visible", "How long it is visible, mean over its area", "s", &Row::seconds_visible);
-    to.number("share_of_exposure", "Share of the time and area of the picture that shows the sculpture", "",
+    to.number("share_of_exposure", "Share of the time and area of the picture that shows the object", "",
               &Row::share_of_exposure);
     to.number(
         "foreshortening",
         "Area in the picture divided by area on the surface, while it is visible: the mean cosine of the "
         "angle of view",
         "", &Row::foreshortening);
-    to.number("share_of_fixations", "Share of the sculpture's counted fixations", "",
-              &Row::share_of_fixations);
+    to.number("share_of_fixations", "Share of the object's counted fixations", "", &Row::share_of_fixations);
     return to;
 }
 

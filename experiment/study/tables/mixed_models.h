@@ -10,7 +10,7 @@ namespace overt {
 
 /// Writes mixed_models.R into the folder of the study's tables: a binomial model of fixations on the head and
 /// a linear one of the logarithm of WSS, with lme4, by the columns of `--by` that are neither observer nor
-/// sculpture. Throws RecordError.
+/// object. Throws RecordError.
 void write_mixed_models(const StudyResults& results, const std::filesystem::path& folder, TableFormat format);
 
 } // namespace overt

@@ -67,20 +67,19 @@ template <class Row> class StudyLayout : public RowLayout<Row> {
             });
     }
 
-    /// The sculpture with this index. `results` must outlive the layout, as in the next.
+    /// The object with this index. `results` must outlive the layout, as in the next.
     template <class Index>
-    void sculpture(const StudyResults& results, Index index,
-                   std::string meaning = "The sculpture on whose surface this is") {
-        text("on_sculpture", std::move(meaning), [&results, index](const Row& row) {
-            return item(results.sculptures, std::invoke(index, row)).id;
-        });
+    void object(const StudyResults& results, Index index,
+                std::string meaning = "The object on whose surface this is") {
+        text("on_object", std::move(meaning),
+             [&results, index](const Row& row) { return item(results.objects, std::invoke(index, row)).id; });
     }
 
-    /// The keys of the row's group, and the sculpture that it is of.
-    void group_and_sculpture(const StudyResults& results) {
+    /// The keys of the row's group, and the object that it is of.
+    void group_and_object(const StudyResults& results) {
         keys(
             results.by, [&results](const Row& row) -> auto& { return item(results.groups, row.group).keys; });
-        sculpture(results, &Row::sculpture);
+        object(results, &Row::object);
     }
 
   private:

@@ -28,15 +28,15 @@ template <class Row> void add_trial(StudyLayout<Row>& to, const StudyResults& re
     to.count("trial", "Position of the trial in the observer's order, from 1",
              [](const Row& row) { return row.trial.number; });
     to.text("task", "Which question was asked", factor("task"));
-    to.text("sculpture", "Which sculpture was shown", factor("sculpture"));
+    to.text("object", "Which object was shown", factor("object"));
     to.text("material", "In which material it was shown", factor("material"));
     for (const std::string& column :
-         others_of(results.by, {"observer", "session_folder", "trial", "task", "sculpture", "material"}))
+         others_of(results.by, {"observer", "session_folder", "trial", "task", "object", "material"}))
         to.text(column, "As in the table of trials", factor(column));
 }
 
-std::string part_name(const StudySculpture& sculpture, const std::optional<PartIndex>& part) {
-    return part && *part < sculpture.part_names.size() ? sculpture.part_names[*part] : std::string();
+std::string part_name(const StudyObject& object, const std::optional<PartIndex>& part) {
+    return part && *part < object.part_names.size() ? object.part_names[*part] : std::string();
 }
 
 auto of_fixation(auto what) {
@@ -77,7 +77,7 @@ RowLayout<FixationRow> study_fixations_layout(const StudyResults& results) {
     using Fixation = StudyFixation;
     const auto axis = [&results](int which) {
         return [&results, which](const FixationRow& row) {
-            const auto& mm = item(results.sculptures, row.trial.sculpture).mm_per_unit;
+            const auto& mm = item(results.objects, row.trial.object).mm_per_unit;
             return row.fixation.part && mm ? std::optional(row.fixation.position[which] * *mm) : std::nullopt;
         };
     };
@@ -97,13 +97,13 @@ RowLayout<FixationRow> study_fixations_layout(const StudyResults& results) {
     to.text("why", "counted, or why not", of_fixation([](auto& fixation) { return name_of(fixation.why); }));
     to.count("samples", "Samples with gaze while a frame was lit; where no stimulus is known, all with gaze",
              of_fixation(&Fixation::samples));
-    to.number("on_surface", "Share of these that met the sculpture", "", of_shown(&Fixation::on_surface));
+    to.number("on_surface", "Share of these that met the object", "", of_shown(&Fixation::on_surface));
     to.number("within_reach", "Share that missed it by no more than the reach, placed at its outline", "",
               of_shown(&Fixation::within_reach));
     to.count("only_by_reach", "1 if it is counted and would not be without the reach, else 0",
              of_fixation(&Fixation::only_by_reach));
     to.text("part", "The part with most of both", [&results](const FixationRow& row) {
-        return part_name(item(results.sculptures, row.trial.sculpture), row.fixation.part);
+        return part_name(item(results.objects, row.trial.object), row.fixation.part);
     });
     to.number("x_mm", "Place on the surface of the unturned object", "mm", axis(0));
     to.number("y_mm", "The same, y", "mm", axis(1));
@@ -111,16 +111,15 @@ RowLayout<FixationRow> study_fixations_layout(const StudyResults& results) {
     to.number("spread_mm", "Root mean square distance of its samples from that place", "mm",
               of_fixation(&Fixation::spread_mm));
     to.number("spread_deg", "The same, as the observer sees it", "deg", of_fixation(&Fixation::spread_deg));
-    to.number("cone_at_edge",
-              "Share of the tracker's gaze cone beside the sculpture, or on another sheet of it", "",
-              of_fixation(&Fixation::cone_at_edge));
+    to.number("cone_at_edge", "Share of the tracker's gaze cone beside the object, or on another sheet of it",
+              "", of_fixation(&Fixation::cone_at_edge));
     to.number("evidence_head",
               "How probable its place is, per square pixel and with the tracker's error, if the head was "
               "looked at; n/a: the error is not known",
               "1/px^2", of_evidence(&PartEvidence::head), density_decimals);
     to.number("evidence_elsewhere", "The same if another part was", "1/px^2",
               of_evidence(&PartEvidence::elsewhere), density_decimals);
-    to.number("angle_deg", "Turn of the sculpture halfway through", "deg", of_shown(&Fixation::mid_angle_deg),
+    to.number("angle_deg", "Turn of the object halfway through", "deg", of_shown(&Fixation::mid_angle_deg),
               pixel_decimals);
     return to;
 }
@@ -137,7 +136,7 @@ RowLayout<TrialSummaryRow> study_trials_layout(const StudyResults& results) {
     to.number("presentation_s", "Duration of the presentation", "s",
               [](const Row& row) { return row.trial.presentation_s; });
     to.count("fixations", "Counted fixations", &Row::counted);
-    to.count("on_head", "Of these on the head; n/a: the sculpture has none",
+    to.count("on_head", "Of these on the head; n/a: the object has none",
              [](const Row& row) { return when(row.has_head.value_or(false), row.on_head); });
     to.number("fixated_s", "Time of counted fixations", "s", &Row::counted_s);
     to.number("head_s", "Of these on the head", "s",
@@ -176,8 +175,8 @@ RowLayout<DistributionRow> distributions_layout(const StudyResults& results) {
     using Row = DistributionRow;
     StudyLayout<Row> to(
         "figure5_distribution",
-        "How the fixations of a group scatter on one sculpture; those of all observers together.");
-    to.group_and_sculpture(results);
+        "How the fixations of a group scatter on one object; those of all observers together.");
+    to.group_and_object(results);
     to.estimate("wss_mm2", "Mean within-cluster sum of squares: the sum of the three variances", "mm^2",
                 &Row::wss_mm2);
     to.estimate("wss_deg2", "The same in degrees at the depth of the axis", "deg^2", &Row::wss_deg2);
@@ -204,8 +203,8 @@ RowLayout<PairRow> pairs_layout(const StudyResults& results) {
         "The same, corrected after Holm for the rows of the table, those over all groups apart";
     StudyLayout<Row> to("table1_pairs",
                         "Two levels of a factor compared within observers: means over observers of "
-                        "the means over their sculptures.");
-    to.keys(others_of(results.by, {"sculpture"}), &Row::keys);
+                        "the means over their objects.");
+    to.keys(others_of(results.by, {"object"}), &Row::keys);
     to.text("compared", "The column whose levels are compared", &Row::column);
     to.text("a", "First level", &Row::a);
     to.text("b", "Second level", &Row::b);
@@ -217,9 +216,8 @@ RowLayout<PairRow> pairs_layout(const StudyResults& results) {
                 &Row::head_difference);
     to.number("head_p", "Of flipping the signs of observers' differences, two-sided", "", &Row::head_p);
     to.number("head_p_holm", holm_words, "", &Row::head_p_holm);
-    to.number("maps_cc",
-              "Pearson's correlation of the maps of all observers, mean over sculptures and groups", "",
-              &Row::maps_cc);
+    to.number("maps_cc", "Pearson's correlation of the maps of all observers, mean over objects and groups",
+              "", &Row::maps_cc);
     to.number("maps_p", "How often swapping the levels within observers gives as little", "", &Row::maps_p);
     to.number("maps_p_holm", holm_words, "", &Row::maps_p_holm);
     const auto similarity = [&to](const std::string& name, const std::string& what, auto member) {
@@ -250,7 +248,7 @@ RowLayout<PairRow> pairs_layout(const StudyResults& results) {
     similarity("sim_mit", "Similarity, maps scaled from minimum to maximum first", &Row::sim_mit);
     similarity("sim_pysaliency", "Similarity, maps divided by their integral only", &Row::sim_pysaliency);
     to.count("observers", "Observers", &Row::observers);
-    to.count("comparisons", "Of an observer on one sculpture", &Row::comparisons);
+    to.count("comparisons", "Of an observer on one object", &Row::comparisons);
     to.text("absent", "Why there is nothing; n/a: there is", &Row::absent);
     return to;
 }
@@ -264,8 +262,8 @@ RowLayout<ClusterRow> clusters_layout(const StudyResults& results) {
         "difference_clusters",
         "Clusters of vertices where two levels differ within observers, corrected over the "
         "surface by the largest cluster of permutations.");
-    to.keys(others_of(results.by, {"sculpture"}), of_difference(&DifferenceMap::keys));
-    to.sculpture(results, of_difference(&DifferenceMap::sculpture), "The sculpture");
+    to.keys(others_of(results.by, {"object"}), of_difference(&DifferenceMap::keys));
+    to.object(results, of_difference(&DifferenceMap::object), "The object");
     to.text("compared", "The column whose levels are compared", of_difference(&DifferenceMap::column));
     to.text("a", "First level", of_difference(&DifferenceMap::a));
     to.text("b", "Second level", of_difference(&DifferenceMap::b));
@@ -283,8 +281,7 @@ RowLayout<ClusterRow> clusters_layout(const StudyResults& results) {
     to.number("z_mm", "The same, z, upwards", "mm", centroid(2));
     to.text("part", "The part with most of the difference within the cluster",
             [&results](const ClusterRow& row) {
-                return row.cluster ? part_name(item(results.sculptures, row.map.sculpture), row.cluster->part)
-                                   : "";
+                return row.cluster ? part_name(item(results.objects, row.map.object), row.cluster->part) : "";
             });
     to.number("p", "Corrected over the surface", "", of_cluster(&Cluster::p));
     to.number("p_of_all", "Corrected over all maps of this table, too (Bonferroni)", "",

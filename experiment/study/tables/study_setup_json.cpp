@@ -95,8 +95,8 @@ FactsJson setup_json(const StudyResults& results) {
     const auto of_setup = [](auto SessionSetup::*member) {
         return [member](const StudySession& session) { return session.setup.*member; };
     };
-    const std::vector<NamedThing> sculptures = sculptures_shown(results),
-                                  materials = materials_shown(results), tasks = tasks_asked(results);
+    const std::vector<NamedThing> objects = objects_shown(results), materials = materials_shown(results),
+                                  tasks = tasks_asked(results);
     FactsJson calibrations = FactsJson::array();
     int times = 0;
     for (const SessionSetup::Calibrations& one : calibrations_of(results)) {
@@ -112,8 +112,8 @@ FactsJson setup_json(const StudyResults& results) {
             {"program", shared_json(results, of_setup(&SessionSetup::program_version), program_json)},
             {"calibrated_times", times},
             {"calibrations", calibrations},
-            {"sculptures_shown", sculptures.size()},
-            {"sculptures", named_json(sculptures, "title")},
+            {"objects_shown", objects.size()},
+            {"objects", named_json(objects, "title")},
             {"materials_shown", materials.size()},
             {"materials", named_json(materials, "title")},
             {"tasks_asked", tasks.size()},

@@ -92,7 +92,7 @@ std::string study_json(const StudyResults& results) {
               {"by", results.by},
               {"parameters", Json::array()},
               {"remarks", results.remarks},
-              {"sculptures", Json::array()},
+              {"objects", Json::array()},
               {"head_fractions", Json::array()}};
     json.update(study_facts_json(results));
     json["methods"] = Json::array();
@@ -126,17 +126,17 @@ std::string study_json(const StudyResults& results) {
                                       {"value", parameter.value},
                                       {"unit", parameter.unit},
                                       {"meaning", parameter.meaning}});
-    for (const StudySculpture& sculpture : results.sculptures) {
-        Json one{{"id", sculpture.id}, {"title", sculpture.title}};
-        if (sculpture.mm_per_unit)
-            one["mm_per_unit"] = *sculpture.mm_per_unit;
-        if (sculpture.mm_per_deg)
-            one["mm_per_deg"] = *sculpture.mm_per_deg;
-        if (sculpture.shown_size)
-            one["shown_size"] = *sculpture.shown_size;
-        if (!sculpture.remark.empty())
-            one["remark"] = sculpture.remark;
-        json["sculptures"].push_back(std::move(one));
+    for (const StudyObject& object : results.objects) {
+        Json one{{"id", object.id}, {"title", object.title}};
+        if (object.mm_per_unit)
+            one["mm_per_unit"] = *object.mm_per_unit;
+        if (object.mm_per_deg)
+            one["mm_per_deg"] = *object.mm_per_deg;
+        if (object.shown_size)
+            one["shown_size"] = *object.shown_size;
+        if (!object.remark.empty())
+            one["remark"] = object.remark;
+        json["objects"].push_back(std::move(one));
     }
     for (const HeadFractionRow& row : results.head_fractions) {
         Json one{{"keys", keys_json(row.keys)}, {"fixations", row.fixations}, {"observers", row.observers}};

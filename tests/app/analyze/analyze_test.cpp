@@ -14,12 +14,12 @@ using namespace overt::test;
 
 namespace {
 
-/// Of the row over all tasks, sculptures and materials.
+/// Of the row over all tasks, objects and materials.
 struct HeadShare {
     explicit HeadShare(const fs::path& analysis) {
         const TsvFile fractions(analysis / "figure4_head_fraction.tsv");
         for (std::size_t row = 0; row < fractions.size(); ++row) {
-            if (fractions.text(row, "task") == "all" && fractions.text(row, "sculpture") == "all" &&
+            if (fractions.text(row, "task") == "all" && fractions.text(row, "object") == "all" &&
                 fractions.text(row, "material") == "all") {
                 pooled = fractions.number(row, "pooled");
                 low = fractions.number(row, "pooled_low");
@@ -93,7 +93,7 @@ TEST_CASE("where simulated observers mean to look comes back as head fractions",
     int rows = 0;
     const TsvFile fractions(out / "figure4_head_fraction.tsv");
     for (std::size_t row = 0; row < fractions.size(); ++row) {
-        if (fractions.text(row, "sculpture") != "all" || fractions.text(row, "material") != "all")
+        if (fractions.text(row, "object") != "all" || fractions.text(row, "material") != "all")
             continue;
         const std::string task = fractions.text(row, "task");
         if (task == "face" || task == "clothes") {
@@ -191,7 +191,7 @@ TEST_CASE("where simulated observers mean to look comes back as head fractions",
         CHECK(study.analyze(by / "x", {"--sigma", "-2deg"}).exit_code == 2);
         const ProgramRun compared = study.analyze(by / "x", {"--compare", "task,material"});
         CHECK(compared.exit_code == 2);
-        CHECK(compared.err.find("takes one of the columns of --by, which are task, sculpture, material") !=
+        CHECK(compared.err.find("takes one of the columns of --by, which are task, object, material") !=
               std::string::npos);
     }
     SECTION("sessions without the light of their stimuli have no table of it") {

@@ -165,8 +165,7 @@ TEST_CASE("a study says what it lacks and reckons what it can", "[session]") {
     }
 }
 
-TEST_CASE("sessions of different protocols are pooled, and another turn makes another sculpture",
-          "[session]") {
+TEST_CASE("sessions of different protocols are pooled, and another turn makes another object", "[session]") {
     const SmallExperiment first;
     const SmallExperiment second(with(with(small_protocol, "A small experiment", "Another experiment"),
                                       "amplitude_deg = 25", "amplitude_deg = 10"));
@@ -177,7 +176,7 @@ TEST_CASE("sessions of different protocols are pooled, and another turn makes an
         first, {first.session(1, "P01").string(), second.session(1, "P02").string()}, out, {"--json"});
     CHECK(run.out.find("2 protocols") != std::string::npos);
     const auto json = nlohmann::json::parse(run.out);
-    CHECK(json.at("sculptures").size() == 4);
+    CHECK(json.at("objects").size() == 4);
     // Each finds what it finds alone.
     const auto alone = nlohmann::json::parse(
         analysis_of(second, {second.session(1, "P02").string()}, second.folder().path() / "alone", {"--json"})
@@ -195,7 +194,7 @@ TEST_CASE("sessions of different protocols are pooled, and another turn makes an
     CHECK(own == of_one.size());
 }
 
-TEST_CASE("sculptures without a head have no head fraction, and all else", "[session]") {
+TEST_CASE("objects without a head have no head fraction, and all else", "[session]") {
     const SmallExperiment experiment;
     overt::Mesh block;
     add_part(block, box({-45.0, -40.0, 0.0}, {45.0, 40.0, 260.0}), "body");

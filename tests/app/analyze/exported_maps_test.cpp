@@ -17,18 +17,18 @@ using namespace overt::test;
 
 namespace {
 
-/// Counted fixations of a group on its sculpture.
+/// Counted fixations of a group on its object.
 struct GroupTime {
     double ms = 0.0;
     glm::dvec3 sum_mm{0.0}; ///< of their places, each weighted by its duration in ms
-    std::string sculpture;
+    std::string object;
     int trials = 0;
 };
 
 std::string title_of(const TsvFile& table, std::size_t row) {
-    const std::string sculpture = table.text(row, "sculpture");
-    return fmt::format("{}: task {}, sculpture {}, material {}", sculpture == "bust" ? "Bust" : "Tall bust",
-                       table.text(row, "task"), sculpture, table.text(row, "material"));
+    const std::string object = table.text(row, "object");
+    return fmt::format("{}: task {}, object {}, material {}", object == "bust" ? "Bust" : "Tall bust",
+                       table.text(row, "task"), object, table.text(row, "material"));
 }
 
 /// By the title of its map.
@@ -37,7 +37,7 @@ std::map<std::string, GroupTime> times_of(const fs::path& analysis) {
     const TsvFile trials(analysis / "trials.tsv"), fixations(analysis / "fixations.tsv");
     for (std::size_t row = 0; row < trials.size(); ++row) {
         GroupTime& group = groups[title_of(trials, row)];
-        group.sculpture = trials.text(row, "sculpture");
+        group.object = trials.text(row, "object");
         ++group.trials;
     }
     for (std::size_t row = 0; row < fixations.size(); ++row) {
@@ -67,13 +67,13 @@ TEST_CASE("exported maps hold the time of their fixations, in the space of the t
     REQUIRE(groups.size() == 12);
 
     const auto json = nlohmann::json::parse(bytes_of_file((out / "study.json").string()));
-    std::map<std::string, nlohmann::json> sculptures;
-    for (const auto& one : json.at("sculptures"))
-        sculptures[one.at("id")] = one;
-    CHECK(sculptures["tall"].at("mm_per_unit") == 1.0);
-    CHECK(sculptures["tall"].at("shown_size") < 0.2);
-    CHECK(sculptures["bust"].at("mm_per_unit") < 0.1);
-    CHECK(sculptures["bust"].at("shown_size") == 1.0);
+    std::map<std::string, nlohmann::json> objects;
+    for (const auto& one : json.at("objects"))
+        objects[one.at("id")] = one;
+    CHECK(objects["tall"].at("mm_per_unit") == 1.0);
+    CHECK(objects["tall"].at("shown_size") < 0.2);
+    CHECK(objects["bust"].at("mm_per_unit") < 0.1);
+    CHECK(objects["bust"].at("shown_size") == 1.0);
 
     // Names of files by the titles of their maps.
     std::map<std::string, std::string> names;
@@ -100,11 +100,11 @@ TEST_CASE("exported maps hold the time of their fixations, in the space of the t
         const ReadVolume volume = read_nrrd((out / "volumes" / (names.at(title) + ".nrrd")).string());
         CHECK(volume.integral == Approx(wanted).epsilon(1e-4));
         // To half a voxel, which is a quarter of the kernel's sigma.
-        const double sigma_mm = sculptures[group.sculpture].at("mm_per_deg");
+        const double sigma_mm = objects[group.object].at("mm_per_deg");
         CHECK(glm::distance(volume.centre, mean_mm) < 0.5 * sigma_mm);
         CHECK(glm::all(glm::greaterThan(mean_mm, ply.low())));
         CHECK(glm::all(glm::lessThan(mean_mm, ply.high())));
-        if (group.sculpture == "tall") {
+        if (group.object == "tall") {
             CHECK(ply.high().z - ply.low().z == Approx(358.0).margin(1.0));
         } else {
             CHECK(ply.legend.find("the unit of the mesh is not known") != std::string::npos);
@@ -113,7 +113,7 @@ TEST_CASE("exported maps hold the time of their fixations, in the space of the t
     }
     // The numbers in the index of the files are those of the files.
     const std::string index = bytes_of_file((out / "meshes/index.csv").string());
-    CHECK(index.find("map_tall_task_face__sculpture_tall__material_matt.glb,map,") != std::string::npos);
+    CHECK(index.find("map_tall_task_face__object_tall__material_matt.glb,map,") != std::string::npos);
     CHECK(index.find("ms of fixation of a trial per m^2 of the object,m of the object,") !=
           std::string::npos);
 }

@@ -43,16 +43,15 @@ TEST_CASE("the text on methods has each number of the study, whoever took part a
     // The questions have marks, which only a screen shows.
     const SmallStudy study(with(small_protocol, "Look at the face.", "Look at the <b>face</b>."));
     const std::string three = methods_of(study_of(study.experiment, study.sessions));
-    CHECK_THAT(
-        three,
-        Contains("3 simulated observers took part in 3 sessions with 30 trials that came to an end. "
-                 "Nothing here was measured of people.") &&
-            Contains("2 sculptures (Bust and Tall bust) were shown, in 2 materials (smooth and matt).") &&
-            Contains("one of 3 questions or instructions: \"Look at the face.\"") &&
-            Contains("Gaze of the right eye was simulated at 1000 Hz.") &&
-            Contains("was 272 x 96 mm large, was refreshed at 120 Hz and was seen from 573 mm") &&
-            Contains("planned for 1 s") && Contains("by 25 deg to each side, in 31 frames") &&
-            Contains("Intervals are of 95 %") && Contains("200 draws"));
+    CHECK_THAT(three,
+               Contains("3 simulated observers took part in 3 sessions with 30 trials that came to an end. "
+                        "Nothing here was measured of people.") &&
+                   Contains("2 objects (Bust and Tall bust) were shown, in 2 materials (smooth and matt).") &&
+                   Contains("one of 3 questions or instructions: \"Look at the face.\"") &&
+                   Contains("Gaze of the right eye was simulated at 1000 Hz.") &&
+                   Contains("was 272 x 96 mm large, was refreshed at 120 Hz and was seen from 573 mm") &&
+                   Contains("planned for 1 s") && Contains("by 25 deg to each side, in 31 frames") &&
+                   Contains("Intervals are of 95 %") && Contains("200 draws"));
 
     const std::string one = methods_of(study_of(study.experiment, {study.sessions[0]}));
     CHECK_THAT(one,
@@ -112,7 +111,7 @@ TEST_CASE("the text on methods tells imported gaze from simulated, and what an i
                             "tracker, EyeLink") &&
                    Contains("What was shown is not on record.") && Contains("are not on record") &&
                    Contains("The recording was imported by overt") && !Contains("simulated") &&
-                   !Contains("sculptures were shown"));
+                   !Contains("objects were shown"));
     CHECK_THAT(methods_of(study_of(study.experiment, {own})),
                Contains("1 simulated observer") && Contains("of simulated gaze") && !Contains("EyeLink"));
     // A study with two trackers.
@@ -125,10 +124,9 @@ TEST_CASE("the text on methods tells imported gaze from simulated, and what an i
                          Contains("Gaze was calibrated 2 times by the simulated eye tracker."));
 }
 
-TEST_CASE("the text on methods of one sculpture without a head says nothing of heads", "[session]") {
+TEST_CASE("the text on methods of one object without a head says nothing of heads", "[session]") {
     std::string protocol(small_protocol);
-    const std::size_t first = protocol.find("[[sculpture]]"),
-                      second = protocol.find("[[sculpture]]", first + 1);
+    const std::size_t first = protocol.find("[[object]]"), second = protocol.find("[[object]]", first + 1);
     protocol.replace(first, second - first, "");
     protocol = with(with(protocol, "meshes/tall.ply", "meshes/vase.ply"), "\"Tall bust\"", "\"Vase\"");
     for (const char* const share :
@@ -142,6 +140,6 @@ TEST_CASE("the text on methods of one sculpture without a head says nothing of h
     INFO(run.err);
     REQUIRE(run.exit_code == 0);
     const std::string text = methods_of(study_of(experiment, {experiment.session().string()}));
-    CHECK_THAT(text, Contains("1 sculpture (Vase) was shown, in 2 materials (smooth and matt).") &&
+    CHECK_THAT(text, Contains("1 object (Vase) was shown, in 2 materials (smooth and matt).") &&
                          !Contains("fixations on the head"));
 }

@@ -27,12 +27,12 @@ class PlantedStudies {
 
     PlantedStudies() {
         const View view{fit_camera(mesh_, {11.9}, {1024, 1024}, {25.0}, 0.06), {1024, 1024}};
-        scene_.sculptures = {{&mesh_, SceneView{view, mesh_.bounds()}}};
+        scene_.objects = {{&mesh_, SceneView{view, mesh_.bounds()}}};
         scene_.animation.frame_count = 31;
         for (const double share : planted)
             scene_.tasks.push_back({"", share});
         poses_ = distinct_poses(scene_.animation);
-        targets_ = std::make_unique<GazeTargets>(scene_.sculptures[0], scene_);
+        targets_ = std::make_unique<GazeTargets>(scene_.objects[0], scene_);
         turn_ = std::make_unique<PursuedTurn>(scene_);
     }
 
@@ -71,7 +71,7 @@ class PlantedStudies {
                 }
             }
         }
-        const auto evidence = part_evidence(mesh_, head, scene_.sculptures[0].scene, poses_.angles, places);
+        const auto evidence = part_evidence(mesh_, head, scene_.objects[0].scene, poses_.angles, places);
         std::array<Found, 4> found;
         for (int task = 0; task < 4; ++task) {
             for (int observer = 0; observer < observers; ++observer) {
@@ -93,7 +93,7 @@ class PlantedStudies {
     }
 
     const Mesh& mesh() const { return mesh_; }
-    const SceneView& view() const { return scene_.sculptures[0].scene; }
+    const SceneView& view() const { return scene_.objects[0].scene; }
     const PoseTable& poses() const { return poses_; }
     static constexpr PartIndex head = 1;
 

@@ -33,7 +33,7 @@ std::string paper_protocol() {
     return text + "[[simulated_effect]]\ntask = \"pose\"\nmaterial = \"matt\"\nhead_odds = 3\n";
 }
 
-/// Columns of figure 4's table where a task stands, in all sculptures, of one material or of all.
+/// Columns of figure 4's table where a task stands, in all objects, of one material or of all.
 struct Fraction {
     double corrected = -1.0, low = -1.0, high = -1.0, raw = -1.0;
     Fraction(const TsvFile& table, const std::string& task, const std::string& material) {

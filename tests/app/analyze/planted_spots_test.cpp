@@ -27,7 +27,7 @@ std::string spot_protocol() {
     return text + "[[simulated_effect]]\nmaterial = \"matt\"\nspot_share = 0.5\n";
 }
 
-/// The middle of the spot that the effect has on each sculpture, in the mesh's unit.
+/// The middle of the spot that the effect has on each object, in the mesh's unit.
 std::vector<glm::dvec3> planted_spots(const SmallExperiment& experiment) {
     Diagnostics diagnostics;
     const auto read =
@@ -35,10 +35,10 @@ std::vector<glm::dvec3> planted_spots(const SmallExperiment& experiment) {
     INFO(diagnostics.print());
     REQUIRE(read);
     const ObservedScene scene =
-        make_observed_scene(read->protocol, read->sculptures, screen_geometry_of(read->protocol));
+        make_observed_scene(read->protocol, read->objects, screen_geometry_of(read->protocol));
     std::vector<glm::dvec3> spots;
-    for (const ObservedSculpture& sculpture : scene.sculptures) {
-        const GazeTargets targets(sculpture, scene);
+    for (const ObservedObject& object : scene.objects) {
+        const GazeTargets targets(object, scene);
         RandomStream random(1, "middle of a spot");
         glm::dvec3 sum(0.0);
         for (int i = 0; i < 1000; ++i)
@@ -70,7 +70,7 @@ TEST_CASE("a spot that a material draws gaze to comes back through whole session
     };
     const fs::path analysis = analyzed("material");
 
-    // Lengths of an analysis are those that the sculptures seem to have at the screen's distance.
+    // Lengths of an analysis are those that the objects seem to have at the screen's distance.
     const auto json = nlohmann::json::parse(text_of(analysis / "study.json"));
     const TsvFile clusters(analysis / "difference_clusters.tsv");
     std::array<int, 2> found{};
@@ -78,17 +78,17 @@ TEST_CASE("a spot that a material draws gaze to comes back through whole session
         if (clusters.text(row, "compared") != "material" || clusters.text(row, "task") != "all" ||
             !clusters.has(row, "p") || clusters.number(row, "p") > 0.05)
             continue;
-        const std::size_t bust = clusters.text(row, "on_sculpture") == "bust" ? 0 : 1;
+        const std::size_t bust = clusters.text(row, "on_object") == "bust" ? 0 : 1;
         // Smooth is the first level: gaze of matt ones is what is more there.
         if (clusters.number(row, "difference") > 0.0)
             continue;
-        const glm::dvec3 spot = json.at("sculptures").at(bust).at("mm_per_unit").get<double>() * spots[bust];
+        const glm::dvec3 spot = json.at("objects").at(bust).at("mm_per_unit").get<double>() * spots[bust];
         const glm::dvec3 centre(clusters.number(row, "x_mm"), clusters.number(row, "y_mm"),
                                 clusters.number(row, "z_mm"));
         CAPTURE(bust, centre.x, centre.y, centre.z, spot.x, spot.y, spot.z);
         // A cluster reaches as far as the kernel smooths the maps, about the width of a head: its centre lies
         // nearer to the spot than that, on busts of five heads' height.
-        const double shown_size = json.at("sculptures").at(bust).at("shown_size");
+        const double shown_size = json.at("objects").at(bust).at("shown_size");
         CHECK(shown_size * glm::distance(centre, spot) < 8.0); // as seen
         ++found[bust];
     }

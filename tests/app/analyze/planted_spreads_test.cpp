@@ -1,5 +1,5 @@
 /// Spreads planted in the gaze of simulated observers, through whole sessions: where a material draws gaze to
-/// the middle of the sculpture, WSS is as much smaller as it was planted.
+/// the middle of the object, WSS is as much smaller as it was planted.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -36,8 +36,7 @@ TEST_CASE("a spread of gaze that a material has comes back through whole session
     int holding = 0;
     for (std::size_t row = 0; row < rows.size(); ++row) {
         const double found = rows.number(row, "wss_mm2"), planted = rows.number(row, "planted_wss_mm2");
-        CAPTURE(rows.text(row, "task"), rows.text(row, "sculpture"), rows.text(row, "material"), found,
-                planted);
+        CAPTURE(rows.text(row, "task"), rows.text(row, "object"), rows.text(row, "material"), found, planted);
         CHECK(found == Approx(planted).epsilon(0.3));
         holding += rows.number(row, "wss_mm2_low") <= planted && planted <= rows.number(row, "wss_mm2_high");
         const double sign = rows.text(row, "material") == "matt" ? 1.0 : -1.0;

@@ -42,7 +42,7 @@ std::string cell(const std::string& table, const std::string& column, const std:
     while (std::getline(lines, line)) {
         const std::vector<std::string> cells = cells_of(line);
         bool is_it = at(cells, column) == level;
-        for (const char* const other : {"task", "sculpture", "material"})
+        for (const char* const other : {"task", "object", "material"})
             is_it = is_it && (other == column || at(cells, other) == "all");
         if (is_it)
             return at(cells, wanted);

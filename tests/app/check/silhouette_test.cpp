@@ -1,4 +1,4 @@
-/// Ready-made frames that show the sculpture where the hidden maps have it, and others that do not.
+/// Ready-made frames that show the object where the hidden maps have it, and others that do not.
 #include <catch2/catch.hpp>
 
 #include <fmt/format.h>
@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::string_view sequence = R"(
 [[frames]]
-sculpture = "bust"
+object = "bust"
 material = "smooth"
 files = "frames/####.png"
 )";
@@ -37,10 +37,10 @@ class PaintedExperiment {
         const SmallExperiment plain;
         Diagnostics diagnostics;
         const auto experiment =
-            read_experiment(plain.protocol(), plain.cache(), InputDepth::sculptures, diagnostics);
+            read_experiment(plain.protocol(), plain.cache(), InputDepth::objects, diagnostics);
         REQUIRE(experiment);
         const auto context = make_headless_context(ContextKind::osmesa);
-        StimulusLibrary library(*context, experiment->protocol, experiment->sculptures, plain.cache());
+        StimulusLibrary library(*context, experiment->protocol, experiment->objects, plain.cache());
         library.maps().prepare_maps(0, {});
         for (int frame = 0; frame < experiment->protocol.animation.frame_count; ++frame) {
             const TriangleMap map =
@@ -108,7 +108,7 @@ TEST_CASE("a camera that moves in one frame is found, and by how much", "[sessio
     CHECK(silhouette.at("worst_offset_px")[0] == Approx(3.0));
     CHECK(silhouette.at("worst_offset_px")[1] == Approx(-2.0));
     CHECK(silhouette.at("worst_size_ratio") == Approx(1.0));
-    CHECK(message_with(report, " shows the sculpture elsewhere") != "");
+    CHECK(message_with(report, " shows the object elsewhere") != "");
     // It stands at the sequence's key.
     CHECK(report.at("findings").back().at("line") == 78);
 }

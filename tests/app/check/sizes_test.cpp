@@ -34,10 +34,10 @@ struct Silhouette {
     glm::ivec2 low{1 << 20}, high{-1};
 };
 
-Silhouette silhouette_of(const SmallExperiment& experiment, const std::string& sculpture, int frame) {
+Silhouette silhouette_of(const SmallExperiment& experiment, const std::string& object, int frame) {
     const std::filesystem::path out = experiment.folder().path() / "luts";
     const ProgramRun run =
-        experiment.overt({"lut", experiment.protocol().string(), "--stimulus", sculpture, "--frame",
+        experiment.overt({"lut", experiment.protocol().string(), "--stimulus", object, "--frame",
                           std::to_string(frame), "--out", out.string(), "--format", "exr", "--overwrite"});
     INFO(run.err);
     REQUIRE(run.exit_code == 0);
@@ -68,8 +68,7 @@ Silhouette silhouette_of(const SmallExperiment& experiment, const std::string& s
 
 } // namespace
 
-TEST_CASE("check says how large each sculpture is, and how large it is seen: as its maps have it",
-          "[session]") {
+TEST_CASE("check says how large each object is, and how large it is seen: as its maps have it", "[session]") {
     const SmallExperiment experiment;
     const nlohmann::json surfaces = surfaces_of(experiment);
     REQUIRE(surfaces.size() == 2);
@@ -91,7 +90,7 @@ TEST_CASE("check says how large each sculpture is, and how large it is seen: as 
     }
     const ProgramRun run = experiment.overt({"check", experiment.protocol().string()});
     CHECK_THAT(run.out, Catch::Contains("mm high and") && Catch::Contains("deg) high and"));
-    CHECK_THAT(run.err, !Catch::Contains("few sculptures") && !Catch::Contains("is that in"));
+    CHECK_THAT(run.err, !Catch::Contains("few objects") && !Catch::Contains("is that in"));
 }
 
 TEST_CASE("check doubts sizes that nobody means, and names the unit that would fit", "[session]") {
@@ -107,9 +106,9 @@ TEST_CASE("check doubts sizes that nobody means, and names the unit that would f
     CHECK_THAT(with_bust("scale = 1000"),
                Catch::Contains("more than 3000 mm") && Catch::Contains("scale = 0.001"));
     // What is written is meant, if it can be.
-    CHECK_THAT(with_bust("scale = 0.1\nunit = \"mm\""), !Catch::Contains("few sculptures"));
+    CHECK_THAT(with_bust("scale = 0.1\nunit = \"mm\""), !Catch::Contains("few objects"));
     CHECK_THAT(with_bust("scale = 0.001\nunit = \"mm\""), Catch::Contains("less than 2 mm"));
-    CHECK_THAT(with_bust("scale = 0.001\nunit = \"own\""), !Catch::Contains("few sculptures"));
+    CHECK_THAT(with_bust("scale = 0.001\nunit = \"own\""), !Catch::Contains("few objects"));
 
     const auto at = [](const char* key, const char* line) {
         return findings_on(with(small_protocol, key, line));
@@ -142,9 +141,8 @@ TEST_CASE("a concave face of many corners is its own polygon in the map that gaz
     }
 }
 
-TEST_CASE(
-    "labels and a head are both areas of the sculpture, and a head that is labelled in part counts whole",
-    "[session]") {
+TEST_CASE("labels and a head are both areas of the object, and a head that is labelled in part counts whole",
+          "[session]") {
     const SmallExperiment experiment(
         with(small_protocol, bust_lines,
              bust_lines + "\nlabels = \"labels.txt\"\nhead = { planes = [[[0, 0, 200], [0, 0, 1]]], spheres "

@@ -7,9 +7,9 @@
 #include <catch2/catch.hpp>
 
 #include "devices/host/clocks.h"
-#include "render/gl/headless_context.h"
 #include "experiment/base/error.h"
 #include "experiment/base/random.h"
+#include "render/gl/headless_context.h"
 
 using namespace overt;
 
@@ -63,8 +63,8 @@ struct Plan {
         protocol.view.width_px = 33;
         protocol.view.height_px = 21;
         protocol.view.left_px = 55;
-        protocol.sculptures.resize(1);
-        protocol.sculptures[0].id = "muse";
+        protocol.objects.resize(1);
+        protocol.objects[0].id = "muse";
         protocol.materials.resize(2);
         protocol.materials[0].id = "gold";
         protocol.materials[1].id = "clay";

@@ -23,7 +23,7 @@ ProgramRun power(const SmallExperiment& experiment, const std::vector<std::strin
 } // namespace
 
 TEST_CASE("a plan is answered in words, with its curve as table and figure", "[session]") {
-    const SmallExperiment experiment(with(small_protocol, "stimuli = \"once-per-sculpture\"\n", ""));
+    const SmallExperiment experiment(with(small_protocol, "stimuli = \"once-per-object\"\n", ""));
     const fs::path out = experiment.folder().path() / "power";
     const ProgramRun run =
         power(experiment, {"--effect", "head:material=matt:task=free:odds=30", "--effect",

@@ -21,8 +21,8 @@ Experiment busts(int tasks) {
     Experiment experiment;
     Protocol& protocol = experiment.protocol;
     protocol.name = "busts";
-    protocol.sculptures.resize(1);
-    protocol.sculptures[0].id = "bust";
+    protocol.objects.resize(1);
+    protocol.objects[0].id = "bust";
     protocol.materials.resize(2);
     protocol.materials[0].id = "smooth";
     protocol.materials[1].id = "rough";
@@ -32,14 +32,14 @@ Experiment busts(int tasks) {
         task.simulated_head_share = i == 0 ? 0.4 : 0.2;
         protocol.tasks.push_back(task);
     }
-    protocol.schedule.max_sculpture_run = 0;
+    protocol.schedule.max_object_run = 0;
     protocol.view.width_px = protocol.view.height_px = 512;
-    Sculpture bust;
+    Object bust;
     bust.id = "bust";
     bust.mesh = test::bust();
     const View view{fit_camera(bust.mesh, {11.9}, {512, 512}, {25.0}, 0.06), {512, 512}};
     bust.scene = {view, bust.mesh.bounds()};
-    experiment.sculptures.push_back(std::move(bust));
+    experiment.objects.push_back(std::move(bust));
     return experiment;
 }
 
@@ -170,10 +170,10 @@ TEST_CASE("plans that cannot be are refused with what can", "[unit]") {
     experiment.protocol.groups[0].cap = 4;
     CHECK_THROWS_WITH(power_of(experiment, {"none"}, {8}, 10), Contains("groups take 4 observers"));
     Experiment without_mesh = busts(1);
-    without_mesh.sculptures[0].mesh = {};
+    without_mesh.objects[0].mesh = {};
     CHECK_THROWS_WITH(power_of(without_mesh, {"none"}, {8}, 10), Contains("has no mesh"));
     Experiment once = busts(1);
-    once.protocol.tasks[0].stimuli = TaskCoverage::once_per_sculpture;
+    once.protocol.tasks[0].stimuli = TaskCoverage::once_per_object;
     const PowerResults nothing = power_of(once, {"head:material=rough:odds=2"}, {8}, 10);
     CHECK(nothing.curves[0].points[0].without_test == 10);
     CHECK(nothing.curves[0].points[0].found == 0);

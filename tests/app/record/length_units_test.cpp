@@ -51,7 +51,7 @@ TEST_CASE("surface points are in millimetres, be the mesh in centimetres or scal
     for (std::size_t row = 0; row < samples.size(); ++row) {
         if (!samples.has(row, "surface_x"))
             continue;
-        const bool is_bust = samples.text(row, "sculpture") == "bust";
+        const bool is_bust = samples.text(row, "object") == "bust";
         const glm::dvec3 centre = is_bust ? glm::dvec3(10.0, 20.0, 30.0) : glm::dvec3(0.0, 0.0, 45.0);
         const double radius = is_bust ? 60.0 : 90.0;
         const glm::dvec3 place(samples.number(row, "surface_x"), samples.number(row, "surface_y"),

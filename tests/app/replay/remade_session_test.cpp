@@ -28,11 +28,12 @@ TEST_CASE("of a session in real time all is made again that does not come from d
     const struct {
         std::string sql, named;
     } changes[] = {
-        {"UPDATE schedule SET task = (task + 1) % 2 WHERE trial = 1", "table schedule, trial 2, task: recorded "},
-        {"UPDATE stimulus SET frames_sha256 = lower(hex(zeroblob(32))) WHERE sculpture = 0 AND material = 1",
-         "table stimulus, sculpture 0, material 1, frames_sha256: recorded 000"},
-        {"UPDATE sculpture SET axis_x = axis_x + 1 WHERE sculpture = 1",
-         "table sculpture, sculpture 1, axis_x: recorded "},
+        {"UPDATE schedule SET task = (task + 1) % 2 WHERE trial = 1",
+         "table schedule, trial 2, task: recorded "},
+        {"UPDATE stimulus SET frames_sha256 = lower(hex(zeroblob(32))) WHERE object = 0 AND material = 1",
+         "table stimulus, object 0, material 1, frames_sha256: recorded 000"},
+        {"UPDATE object SET axis_x = axis_x + 1 WHERE object = 1",
+         "table object, object 1, axis_x: recorded "},
         {"UPDATE gaze_event SET end_us = end_us + 1 WHERE trial_id = 2 AND n = 1",
          "table gaze_event, trial 2, eye movement 2, all: recorded "},
         {"UPDATE sample SET x_px = x_px + 100 WHERE trial_id = 1 AND n = 400", "table gaze_event, trial 1, "},

@@ -117,14 +117,15 @@ TEST_CASE("each single change of a record is found and named", "[session]") {
          "table trial, trial 2, answer: recorded a hat"},
         {"UPDATE trial SET responded_ns = responded_ns - 1000 WHERE trial_id = 3",
          "table trial, trial 3, responded_ns: recorded "},
-        {"UPDATE schedule SET task = (task + 1) % 2 WHERE trial = 0", "table schedule, trial 1, task: recorded "},
-        {"UPDATE stimulus SET frames_sha256 = lower(hex(zeroblob(32))) WHERE sculpture = 1 AND material = 0",
-         "table stimulus, sculpture 1, material 0, frames_sha256: recorded 000"},
+        {"UPDATE schedule SET task = (task + 1) % 2 WHERE trial = 0",
+         "table schedule, trial 1, task: recorded "},
+        {"UPDATE stimulus SET frames_sha256 = lower(hex(zeroblob(32))) WHERE object = 1 AND material = 0",
+         "table stimulus, object 1, material 0, frames_sha256: recorded 000"},
         {"UPDATE session SET protocol_text = replace(protocol_text, 'duration_s = 1', 'duration_s = 2')",
          "table session, protocol_text: recorded "},
         {"UPDATE session SET seed = '8'", "table schedule, "},
-        {"UPDATE map SET sha256 = lower(hex(zeroblob(32))) WHERE sculpture = 0 AND pose = 3",
-         "table map, sculpture 0, pose 3, sha256: recorded 000"},
+        {"UPDATE map SET sha256 = lower(hex(zeroblob(32))) WHERE object = 0 AND pose = 3",
+         "table map, object 0, pose 3, sha256: recorded 000"},
         {"UPDATE missed_refresh SET refresh_in_trial = refresh_in_trial + 1 WHERE trial_id = 1 AND "
          "refresh_in_trial = (SELECT max(refresh_in_trial) FROM missed_refresh WHERE trial_id = 1)",
          "table missed_refresh, trial 1, refresh_in_trial "},
@@ -186,7 +187,7 @@ TEST_CASE("what cannot be presented again is refused with its place and the reme
     write_ply(elsewhere / "meshes/bust.ply", tall_bust());
     const ProgramRun other = replay(experiment, {"--files", elsewhere.string()});
     CHECK(other.exit_code == 1);
-    CHECK_THAT(other.out, Contains("table sculpture, sculpture 0, mesh_sha256: recorded "));
+    CHECK_THAT(other.out, Contains("table object, object 0, mesh_sha256: recorded "));
 
     change(experiment.session(), "UPDATE run_option SET name = 'upside-down' WHERE name = 'maps'");
     const ProgramRun unknown = replay(experiment, {"--files", elsewhere.string()});

@@ -23,7 +23,7 @@ kind = "number"
 
 [[practice]]
 task = "face"
-sculpture = "bust"
+object = "bust"
 material = "matt"
 )";
 }

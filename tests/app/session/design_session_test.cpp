@@ -24,7 +24,7 @@ tasks = ["face", "clothes"]
 order = "blocked"
 by = "task"
 instructions = "First, questions."
-max_sculpture_run = 1
+max_object_run = 1
 
 [[block]]
 id = "free"
@@ -32,7 +32,7 @@ tasks = "free"
 
 [[practice]]
 task = "face"
-sculpture = "tall"
+object = "tall"
 material = "matt"
 feedback = "Well done."
 
@@ -98,8 +98,8 @@ TEST_CASE(
         const Trial& trial = record.trials()[i].trial;
         CHECK(order[i]["task"] == record.header().tasks[static_cast<std::size_t>(trial.task)].id);
         CHECK(order[i]["block"] == (i < 8 ? "asked" : "free"));
-        CHECK(order[i]["sculpture"] ==
-              record.header().sculptures[static_cast<std::size_t>(trial.condition.sculpture)].id);
+        CHECK(order[i]["object"] ==
+              record.header().objects[static_cast<std::size_t>(trial.condition.object)].id);
         CHECK(order[i]["material"] ==
               record.header().materials[static_cast<std::size_t>(trial.condition.material)].id);
     }

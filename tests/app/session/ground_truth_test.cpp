@@ -50,13 +50,12 @@ class ExactSitting {
     const Protocol& protocol = experiment.protocol;
     Schedule schedule = make_schedule(protocol, {"P01", 1}, 11);
     std::unique_ptr<GlContext> context = make_headless_context(ContextKind::osmesa);
-    StimulusLibrary library{*context, protocol, experiment.sculptures, files.cache()};
+    StimulusLibrary library{*context, protocol, experiment.objects, files.cache()};
     ScreenGeometry geometry = screen_geometry_of(protocol);
     VirtualClock clock;
     VirtualDisplay display{*context, clock, protocol.display.refresh_hz};
     PagePresenter presenter{*context, display, library, geometry, protocol.display, protocol.screens};
-    SimulatedObserver observer{make_observed_scene(protocol, experiment.sculptures, geometry), 3,
-                               steady_eyes()};
+    SimulatedObserver observer{make_observed_scene(protocol, experiment.objects, geometry), 3, steady_eyes()};
     SimulatedEyeTracker tracker{clock, observer, 3, without_errors(protocol.tracker)};
     SimulatedResponsePanel panel{clock, observer};
 
@@ -67,10 +66,10 @@ class ExactSitting {
         library.maps().prepare_maps({});
         library.prepare_frames({}, BakeQuality::live);
         const SessionHeader header =
-            make_session_header(protocol, schedule, experiment.sculptures, library, context->description(),
+            make_session_header(protocol, schedule, experiment.objects, library, context->description(),
                                 tracker.description(), ClockKind::virtual_time, true);
         SessionDirectory directory({files.sessions(), protocol.name, "P01"});
-        put_files(directory, header, experiment.sculptures, library);
+        put_files(directory, header, experiment.objects, library);
         directory.publish();
         SessionStore store(directory.session_file(),
                            {.wait_when_full = true,
@@ -86,7 +85,7 @@ class ExactSitting {
         RecordedSurfaces surfaces(record);
         std::filesystem::path tables = files.folder().path() / "tables";
         export_tables(
-            record, [&](int sculpture) { return surfaces.lookup_of(sculpture); }, tables);
+            record, [&](int object) { return surfaces.lookup_of(object); }, tables);
         return tables;
     }
 };
@@ -217,8 +216,8 @@ TEST_CASE("the share of gaze on the head comes back as the tasks had it", "[sess
             continue;
         const std::string& task = samples.text(i, "task");
         const auto trial = static_cast<std::size_t>(samples.integer(i, "trial") - 1);
-        const int sculpture = sitting.schedule.trials.at(trial).condition.sculpture;
-        const Mesh& mesh = sitting.experiment.sculptures[static_cast<std::size_t>(sculpture)].mesh;
+        const int object = sitting.schedule.trials.at(trial).condition.object;
+        const Mesh& mesh = sitting.experiment.objects[static_cast<std::size_t>(object)].mesh;
         ++exported[task].all;
         exported[task].head += samples.text(i, "part") == "head";
         ++meant[task].all;

@@ -25,7 +25,7 @@ std::string eventful_protocol() {
     return with(small_protocol, "duration_s = 1", "duration_s = 20") + R"(
 [[practice]]
 task = "face"
-sculpture = "bust"
+object = "bust"
 material = "matt"
 
 [breaks]

@@ -37,7 +37,7 @@ kind = "number"
 
 [[practice]]
 task = "face"
-sculpture = "bust"
+object = "bust"
 material = "matt"
 )";
 }

@@ -26,7 +26,7 @@ TEST_CASE("exported frames, given back as ready-made ones, are the same light", 
     REQUIRE(bake(experiment, {"--quality", "draft", "--stimulus", "bust/smooth", "--out",
                               (folder / "xyz").string(), "--as", "xyz"})
                 .exit_code == 0);
-    const std::string frames = "[[frames]]\nsculpture = \"bust\"\nmaterial = \"smooth\"\n";
+    const std::string frames = "[[frames]]\nobject = \"bust\"\nmaterial = \"smooth\"\n";
     const auto light_of = [&](const std::string& name, const std::string& more) {
         experiment.folder().file(name, traced_protocol() + more);
         Diagnostics diagnostics;
@@ -35,7 +35,7 @@ TEST_CASE("exported frames, given back as ready-made ones, are the same light", 
         INFO(diagnostics.print());
         REQUIRE(read);
         const auto context = make_headless_context(ContextKind::osmesa);
-        StimulusLibrary library(*context, read->protocol, read->sculptures, experiment.cache());
+        StimulusLibrary library(*context, read->protocol, read->objects, experiment.cache());
         library.prepare_frames({0, 0}, {});
         return library.page({0, 0}, library.page_of_frame({0, 0})[2]);
     };
@@ -80,7 +80,7 @@ TEST_CASE("an exported frame names its channels and everything that made it", "[
     for (int bin = 0; bin < 31; ++bin)
         CHECK(header.channel(fmt::format("{}nm", 400 + 10 * bin)) >= 0);
     CHECK(header.channel("A") >= 0);
-    for (const auto& [name, value] : std::map<std::string, std::string>{{"sculpture", "tall"},
+    for (const auto& [name, value] : std::map<std::string, std::string>{{"object", "tall"},
                                                                         {"material", "matt"},
                                                                         {"samples", "16"},
                                                                         {"seed", "0"},
@@ -119,9 +119,8 @@ TEST_CASE("a PNG has the light over the background in 16 bits, and says what it 
     const SmallExperiment experiment(
         with(traced_protocol(), "[animation]\n", "[light]\nexposure = 4\n[animation]\n"), Cache::own);
     const std::filesystem::path out = experiment.folder().path() / "out";
-    const std::vector<std::string> wish{"--quality", "draft", "--stimulus", "bust/smooth",
-                                        "--frames",  "0",     "--out",  (out / "p").string(),
-                                        "--png16"};
+    const std::vector<std::string> wish{"--quality", "draft", "--stimulus",         "bust/smooth", "--frames",
+                                        "0",         "--out", (out / "p").string(), "--png16"};
     const ProgramRun run = bake(experiment, wish);
     INFO(run.err);
     REQUIRE(run.exit_code == 0);
@@ -181,7 +180,7 @@ TEST_CASE("nothing that was made otherwise is replaced unless it is said", "[ses
     const SmallExperiment experiment(traced_protocol(), Cache::own);
     const std::string out = (experiment.folder().path() / "out").string();
     const std::vector<std::string> wish{"--stimulus", "bust/matt", "--frames",  "1",
-                                        "--out",  out,         "--quality", "draft"};
+                                        "--out",      out,         "--quality", "draft"};
     const auto file = experiment.folder().file("out/bust_matt/frame_0001.exr", "mine");
     const auto other = experiment.folder().file("out/notes.txt", "mine, too");
     const ProgramRun refused = bake(experiment, wish);
@@ -206,8 +205,8 @@ TEST_CASE("sheet and strip are pictures of all that was asked for", "[session]")
         bake(experiment, {"--quality", "preview", "--sheet", (folder / "sheet.png").string()});
     INFO(run.err);
     REQUIRE(run.exit_code == 0);
-    REQUIRE(bake(experiment,
-                 {"--quality", "preview", "--stimulus", "tall/matt", "--strip", (folder / "strip.png").string()})
+    REQUIRE(bake(experiment, {"--quality", "preview", "--stimulus", "tall/matt", "--strip",
+                              (folder / "strip.png").string()})
                 .exit_code == 0);
     const glm::ivec2 sheet = header_of(folder / "sheet.png").size_px,
                      strip = header_of(folder / "strip.png").size_px;

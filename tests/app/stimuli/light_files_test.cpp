@@ -18,9 +18,8 @@ TEST_CASE("a session keeps the light of its stimuli, as their frames have it", "
     // Of 40 x 48 pixels, so that a square is one of them.
     const SmallExperiment experiment(traced_protocol(), Cache::own);
     const fs::path out = experiment.folder().path() / "out";
-    REQUIRE(
-        bake(experiment, {"--quality", "draft", "--stimulus", "bust/smooth", "--out", out.string()}).exit_code ==
-        0);
+    REQUIRE(bake(experiment, {"--quality", "draft", "--stimulus", "bust/smooth", "--out", out.string()})
+                .exit_code == 0);
     REQUIRE(bake(experiment, {"--quality", "draft"}).exit_code == 0);
     REQUIRE(experiment.run({"--trials", "1"}).exit_code == 0);
     for (const char* const stimulus : {"bust_smooth", "bust_matt", "tall_smooth", "tall_matt"})
@@ -69,7 +68,7 @@ TEST_CASE(
             arguments.push_back(more);
         REQUIRE(bake(experiment, arguments).exit_code == 0);
         experiment.folder().file(
-            "small.toml", traced_protocol() + "[[frames]]\nsculpture = \"bust\"\nmaterial = \"smooth\"\n" +
+            "small.toml", traced_protocol() + "[[frames]]\nobject = \"bust\"\nmaterial = \"smooth\"\n" +
                               "files = \"" + name + "/bust_smooth/frame_####." + name + "\"\n");
         const ProgramRun run = experiment.run({"--trials", "1", "--observer", name + "01"});
         INFO(run.err);

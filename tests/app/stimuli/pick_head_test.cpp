@@ -21,11 +21,11 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-/// Of a protocol that has a sculpture with this key besides.
-SculptureSettings sculpture_with_key(const std::string& key) {
-    const ReadText read(minimal_protocol, "[[sculpture]]\nid = \"b\"\nmesh = \"b.ply\"\n" + key + "\n");
+/// Of a protocol that has an object with this key besides.
+ObjectSettings object_with_key(const std::string& key) {
+    const ReadText read(minimal_protocol, "[[object]]\nid = \"b\"\nmesh = \"b.ply\"\n" + key + "\n");
     REQUIRE(read.lines().empty());
-    return read.protocol->sculptures.back();
+    return read.protocol->objects.back();
 }
 
 bool is_close(const glm::dvec3& a, const glm::dvec3& b) { return glm::distance(a, b) < 1e-9; }
@@ -87,7 +87,7 @@ TEST_CASE("the key that is printed is read as the same head", "[unit]") {
     const PartRegion head{"head",
                           {glm::dvec4(1.25, -2.5, 310.0, 48.0), glm::dvec4(0.0, 0.5, 1e-3, 2.0)},
                           {{{0.0, 0.0, 262.0}, {0.0, -0.6, 0.8}}}};
-    const SculptureSettings read = sculpture_with_key(head_key(head));
+    const ObjectSettings read = object_with_key(head_key(head));
     CHECK(read.head_spheres ==
           std::vector<std::array<double, 4>>{{1.25, -2.5, 310.0, 48.0}, {0.0, 0.5, 1e-3, 2.0}});
     CHECK(read.head_planes == std::vector<std::array<double, 6>>{{0.0, 0.0, 262.0, 0.0, -0.6, 0.8}});
@@ -151,7 +151,7 @@ TEST_CASE("clicks on both sides of a head and on its neck outline it", "[session
     CHECK(exit_code == 0);
     const std::size_t key = text.find("head = {");
     REQUIRE(key != std::string::npos);
-    const SculptureSettings head = sculpture_with_key(text.substr(key));
+    const ObjectSettings head = object_with_key(text.substr(key));
     REQUIRE(head.head_spheres.size() == 1);
     REQUIRE(head.head_planes.size() == 1);
     // The head is a ball about (0, -15, 310) with a radius of 48.

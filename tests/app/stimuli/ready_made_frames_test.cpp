@@ -38,7 +38,7 @@ frame_rate_hz = 30
 duration_s = 1
 [screens]
 text_height_deg = 0.45
-[[sculpture]]
+[[object]]
 id = "a"
 [[material]]
 id = "png"
@@ -53,17 +53,17 @@ kind = "diffuse"
 id = "free"
 question = "Look."
 [[frames]]
-sculpture = "a"
+object = "a"
 material = "png"
 files = "frames/####.png"
 first_number = 7
 [[frames]]
-sculpture = "a"
+object = "a"
 material = "tiff"
 files = "frames/####.tif"
 first_number = 7
 [[frames]]
-sculpture = "a"
+object = "a"
 material = "exr"
 files = "frames/####.exr"
 first_number = 7
@@ -121,7 +121,7 @@ TEST_CASE("the 16 bits of PNG, TIFF and EXR frames arrive in the signal, bit for
     const ScreenGeometry geometry = screen_geometry_of(protocol);
     for (const ContextKind kind : headless_kinds) {
         const auto context = make_headless_context(kind);
-        StimulusLibrary library(*context, protocol, experiment->sculptures, folder.path() / "cache");
+        StimulusLibrary library(*context, protocol, experiment->objects, folder.path() / "cache");
         library.prepare_frames({}, BakeQuality::preview);
         VirtualClock clock;
         VirtualDisplay display(*context, clock, protocol.display.refresh_hz);
@@ -148,7 +148,7 @@ TEST_CASE("the 16 bits of PNG, TIFF and EXR frames arrive in the signal, bit for
     }
 }
 
-TEST_CASE("a sculpture that is frames only runs through a whole session", "[session]") {
+TEST_CASE("an object that is frames only runs through a whole session", "[session]") {
     const TemporaryFolder folder;
     write_frames(folder.path() / "frames");
     const std::string protocol = folder.file("p.toml", protocol_text).string();
@@ -164,7 +164,7 @@ TEST_CASE("a sculpture that is frames only runs through a whole session", "[sess
     const ProgramRun exported = run_overt({"export", session.string()});
     INFO(exported.err);
     CHECK(exported.exit_code == 0);
-    CHECK(exported.out.find("0.0 % on the sculpture") != std::string::npos);
+    CHECK(exported.out.find("0.0 % on the object") != std::string::npos);
     // There is no surface to show.
     CHECK(run_overt({"show", session.string(), "--picture", (folder.path() / "p.png").string()}).exit_code ==
           2);

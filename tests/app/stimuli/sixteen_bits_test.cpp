@@ -56,11 +56,11 @@ TEST_CASE("every level of a ramp comes through film, cache, frame store and enco
     const SmallExperiment files(ramp_protocol(), Cache::own);
     Diagnostics diagnostics;
     const auto experiment =
-        read_experiment(files.protocol(), files.cache(), InputDepth::sculptures, diagnostics);
+        read_experiment(files.protocol(), files.cache(), InputDepth::objects, diagnostics);
     REQUIRE(experiment);
     const Protocol& protocol = experiment->protocol;
     const auto context = make_headless_context(ContextKind::osmesa);
-    StimulusLibrary library(*context, protocol, experiment->sculptures, files.cache());
+    StimulusLibrary library(*context, protocol, experiment->objects, files.cache());
     const StimulusCache& cache = library.cache();
     library.maps().prepare_maps(0, {});
 

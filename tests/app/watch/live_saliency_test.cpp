@@ -13,10 +13,10 @@ using namespace overt::test;
 
 namespace {
 
-std::shared_ptr<const SaliencyMap> awaited(const LiveSaliency& saliency, const std::string& sculpture,
+std::shared_ptr<const SaliencyMap> awaited(const LiveSaliency& saliency, const std::string& object,
                                            const std::function<bool(const SaliencyMap&)>& is_it) {
     for (int tries = 0; tries < 3000; ++tries) {
-        auto map = saliency.newest(sculpture);
+        auto map = saliency.newest(object);
         if (map && is_it(*map))
             return map;
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
@@ -34,7 +34,7 @@ TEST_CASE("a view meets the surface where the session's own maps have it, and ad
     const SessionRecord record(folder);
     RecordedSurfaces surfaces(record);
     const ScreenGeometry& screen = record.header().display.screen;
-    const auto sculpture = std::make_shared<const WatchedSculpture>(folder, "bust");
+    const auto object = std::make_shared<const WatchedObject>(folder, "bust");
     const SurfaceLookup* const maps = surfaces.lookup_of(0);
     REQUIRE(maps);
     int met = 0, missed = 0;
@@ -43,31 +43,31 @@ TEST_CASE("a view meets the surface where the session's own maps have it, and ad
         for (double y = -3.3; y < screen.image_px.y + 3.0; y += 4.7)
             for (double x = -3.3; x < screen.image_px.x + 3.0; x += 4.7) {
                 const auto expected = maps->surface_at(PoseIndex{pose}, {x, y});
-                const auto hit = sculpture->met_at(screen.screen_from_image({x, y}), pose);
+                const auto hit = object->met_at(screen.screen_from_image({x, y}), pose);
                 REQUIRE(hit.has_value() == expected.has_value());
                 ++(hit ? met : missed);
                 if (!hit)
                     continue;
                 CHECK(glm::distance(hit->position, expected->position) < 1e-6);
-                CHECK(sculpture->part_of(*hit) == sculpture->mesh().part_names[expected->part]);
+                CHECK(object->part_of(*hit) == object->mesh().part_names[expected->part]);
                 if (!first)
                     first = hit;
                 last = hit;
             }
     REQUIRE(met > 100);
     CHECK(missed > 100);
-    CHECK(!sculpture->met_at(screen.centre(), -1));
-    CHECK(!sculpture->met_at(screen.centre(), 15));
-    CHECK_THROWS_AS(WatchedSculpture(folder, "nobody"), InputError);
+    CHECK(!object->met_at(screen.centre(), -1));
+    CHECK(!object->met_at(screen.centre(), 15));
+    CHECK_THROWS_AS(WatchedObject(folder, "nobody"), InputError);
 
     LiveSaliency saliency;
-    saliency.prepare(sculpture);
+    saliency.prepare(object);
     const auto empty = awaited(saliency, "bust", [](const SaliencyMap&) { return true; });
     REQUIRE(empty);
     CHECK(empty->gaze_s == 0.0);
     CHECK(*std::ranges::max_element(empty->share) == 0.0f);
-    saliency.looked(sculpture, 0, *first, 3.0);
-    saliency.looked(sculpture, 1, *last, 1.0);
+    saliency.looked(object, 0, *first, 3.0);
+    saliency.looked(object, 1, *last, 1.0);
     const auto both =
         awaited(saliency, "bust", [](const SaliencyMap& map) { return map.gaze_s == Approx(4.0); });
     REQUIRE(both);
@@ -76,7 +76,7 @@ TEST_CASE("a view meets the surface where the session's own maps have it, and ad
         return glm::dvec3(map.surface->positions[static_cast<std::size_t>(
             std::ranges::max_element(map.share) - map.share.begin())]);
     };
-    const double kernel = sculpture->degree_on_surface();
+    const double kernel = object->degree_on_surface();
     REQUIRE(glm::distance(first->position, last->position) > 3.0 * kernel);
     CHECK(glm::distance(highest(*both), first->position) < 1.5 * kernel);
     CHECK(*std::ranges::max_element(both->share) == 1.0f);

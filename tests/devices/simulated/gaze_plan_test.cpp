@@ -49,7 +49,7 @@ double logit(double share) { return std::log(share / (1.0 - share)); }
 
 TEST_CASE("effects multiply the odds of the head in their trials, and in no others", "[unit]") {
     const ObservedScene scene =
-        scene_with({{.task = 0, .material = 1, .head_odds = 2.0}, {.sculpture = 2, .head_odds = 3.0}});
+        scene_with({{.task = 0, .material = 1, .head_odds = 2.0}, {.object = 2, .head_odds = 3.0}});
     const auto share = [&](int task, Condition condition) {
         return gaze_plan(scene, 7, task, condition).head_share;
     };
@@ -94,7 +94,7 @@ TEST_CASE("an effect's spot gets its share of the fixations, the same spot of ev
         // Where fixations of a plan that goes nowhere else lie.
         ObservedScene only = scene;
         only.effects[0].spot_share = 1.0;
-        const GazeTargets targets(only.sculptures[0], only);
+        const GazeTargets targets(only.objects[0], only);
         RandomStream random(seed, "spot");
         glm::dvec3 middle(0.0);
         for (int i = 0; i < 2000; ++i)
@@ -128,7 +128,7 @@ TEST_CASE("a spread of gaze prefers places far from the middle or near it, in he
           "[unit]") {
     const Sitting sitting(1);
     const ObservedScene scene = sitting.observer.scene();
-    const GazeTargets targets(scene.sculptures[0], scene);
+    const GazeTargets targets(scene.objects[0], scene);
     const std::vector<std::string>& parts = sitting.mesh.part_names;
     for (const Region region : {Region::head, Region::elsewhere}) {
         constexpr int draws = 20000;

@@ -11,7 +11,7 @@ using namespace overt;
 TEST_CASE("a region that is small against saccades gets the fixations that are planned for it", "[unit]") {
     const Mesh mesh = test::bust();
     const ObservedScene scene = test::scene_with(mesh);
-    const GazeTargets targets(scene.sculptures[0], scene);
+    const GazeTargets targets(scene.objects[0], scene);
     const PursuedTurn turn(scene);
     GazePlan plan;
     plan.head_share = 0.6;

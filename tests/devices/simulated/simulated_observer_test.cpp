@@ -23,7 +23,7 @@ double distance_px(ScreenPoint a, ScreenPoint b) { return std::hypot(a.x_px - b.
 /// Where a point of the object is on the screen in a frame.
 ScreenPoint shown_at(const Sitting& sitting, const SurfacePoint& point, AnimationFrameIndex frame) {
     const ObservedScene& scene = sitting.observer.scene();
-    const SceneView& view = scene.sculptures[0].scene;
+    const SceneView& view = scene.objects[0].scene;
     const glm::dmat4 turn = view.pose_at(scene.animation.angle_of(frame)).world_from_object();
     return scene.screen.screen_from_image(
         view.view.project(glm::dvec3(turn * glm::dvec4(point.position, 1.0))));
@@ -33,7 +33,7 @@ ScreenPoint shown_at(const Sitting& sitting, const SurfacePoint& point, Animatio
 std::optional<RayHit> cast(const Sitting& sitting, const RayCaster& caster, ScreenPoint place,
                            AnimationFrameIndex frame) {
     const ObservedScene& scene = sitting.observer.scene();
-    const SceneView& view = scene.sculptures[0].scene;
+    const SceneView& view = scene.objects[0].scene;
     return caster.first_hit(to_object(view.view.ray_through(scene.screen.image_from_screen(place)),
                                       view.pose_at(scene.animation.angle_of(frame))));
 }
@@ -155,7 +155,7 @@ TEST_CASE("what a fixation is meant for is visible in every frame lit meanwhile"
     Sitting sitting(46);
     const RayCaster caster(sitting.mesh);
     const ObservedScene& scene = sitting.observer.scene();
-    const SceneView& view = scene.sculptures[0].scene;
+    const SceneView& view = scene.objects[0].scene;
     sitting.present({0, 0, {}});
     int checked = 0;
     for (const ScriptedFixation& fixation : sitting.observer.script_of(0)->fixations()) {
@@ -319,10 +319,10 @@ TEST_CASE("before and after a presentation the observer looks at the middle of t
     }
 }
 
-TEST_CASE("a sculpture of which only pictures exist is looked at within the picture", "[unit]") {
+TEST_CASE("an object of which only pictures exist is looked at within the picture", "[unit]") {
     const Mesh mesh = test::bust();
     ObservedScene scene = test::scene_with(mesh);
-    scene.sculptures[0].mesh = nullptr;
+    scene.objects[0].mesh = nullptr;
     SimulatedObserver observer(scene, 1, test::without_wandering());
     observer.presentation_begins({0, 0, {}});
     FlipRecord flip;

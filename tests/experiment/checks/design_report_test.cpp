@@ -90,7 +90,7 @@ TEST_CASE("consent and each page of instructions are read in the session's lengt
 TEST_CASE("frames and maps need a page for each distinct pose", "[unit]") {
     const DesignReport report = make_design_report(paper_protocol(), {});
     CHECK(report.memory.pages_per_stimulus_bytes == 31.0 * 1024 * 1024 * 4);
-    CHECK(report.memory.maps_per_sculpture_bytes == 31.0 * 1024 * 1024 * 4);
+    CHECK(report.memory.maps_per_object_bytes == 31.0 * 1024 * 1024 * 4);
     CHECK(report.memory.pages_at_once_bytes() == 2 * 31.0 * 1024 * 1024 * 4);
 }
 
@@ -98,7 +98,7 @@ TEST_CASE("ready-made frames need a page each, and a small frame store holds one
           "[unit]") {
     Protocol protocol = paper_protocol();
     protocol.frames.emplace_back();
-    protocol.frames.back().sculpture = protocol.sculptures[1].id;
+    protocol.frames.back().object = protocol.objects[1].id;
     protocol.frames.back().material = protocol.materials[2].id;
     protocol.display.frame_store_mb = 500;
     const DesignReport report = make_design_report(protocol, {});
@@ -193,7 +193,7 @@ TEST_CASE("the orders shown are those of the sessions with the same seed", "[uni
 TEST_CASE("the report reads in sentences, tables and codes", "[unit]") {
     const Protocol protocol = paper_protocol();
     const std::string one = to_text(make_design_report(protocol, {{"P01", 1}}));
-    CHECK_THAT(one, Contains("3 sculptures x 3 materials = 9 stimuli; 6 tasks: 54 maps"));
+    CHECK_THAT(one, Contains("3 objects x 3 materials = 9 stimuli; 6 tasks: 54 maps"));
     CHECK_THAT(one, Contains("240 frames at 30 Hz = 8.000 s = 4 swings"));
     CHECK_THAT(one, Contains("lit for 4 refreshes at 120 Hz: 960 refreshes"));
     CHECK_THAT(one, Contains("61 frames (cycle), 31 distinct poses"));

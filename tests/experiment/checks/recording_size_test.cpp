@@ -10,12 +10,12 @@ using namespace overt::test;
 
 namespace {
 
-/// A sculpture of 1000 vertices and 2000 triangles.
-std::vector<Sculpture> one_sculpture() {
-    Sculpture sculpture;
-    sculpture.mesh.positions.resize(1000);
-    sculpture.mesh.triangles.resize(2000);
-    return {sculpture};
+/// An object of 1000 vertices and 2000 triangles.
+std::vector<Object> one_object() {
+    Object object;
+    object.mesh.positions.resize(1000);
+    object.mesh.triangles.resize(2000);
+    return {object};
 }
 
 } // namespace
@@ -24,8 +24,8 @@ TEST_CASE("a record's rows are those of its samples and flips, whatever is answe
     Protocol protocol = paper_protocol();
     protocol.answers.record = AnswerUse::none;
     protocol.screens.recording_lead_s = 0.0;
-    const RecordingSize ten = recording_size(protocol, one_sculpture(), 10, 5.0),
-                        twenty = recording_size(protocol, one_sculpture(), 20, 50.0);
+    const RecordingSize ten = recording_size(protocol, one_object(), 10, 5.0),
+                        twenty = recording_size(protocol, one_object(), 20, 50.0);
     // 8 s at 2000 Hz and 120 Hz.
     CHECK(twenty.rows - ten.rows == Approx(10 * (16000 * 42.0 + 960 * 52.0)));
     CHECK(twenty.maps == ten.maps);
@@ -36,35 +36,35 @@ TEST_CASE("a record's rows are those of its samples and flips, whatever is answe
     CHECK(ten.answers == 0.0);
     CHECK(ten.total() == Approx(ten.rows + ten.maps + ten.meshes + ten.pictures));
     protocol.screens.recording_lead_s = 0.5;
-    CHECK(recording_size(protocol, one_sculpture(), 10, 5.0).rows - ten.rows ==
+    CHECK(recording_size(protocol, one_object(), 10, 5.0).rows - ten.rows ==
           Approx(11 * 2000 * 42.0)); // ten trials, and one in the log
 }
 
 TEST_CASE("without a tracker there are flips alone, and spoken answers take their limits", "[unit]") {
     Protocol protocol = paper_protocol();
     protocol.tracker.kind = tracker_kind_called("none");
-    const RecordingSize without = recording_size(protocol, one_sculpture(), 9, 5.0);
+    const RecordingSize without = recording_size(protocol, one_object(), 9, 5.0);
     CHECK(without.rows == Approx(300e3 + 10 * 960 * 52.0));
     protocol.answers.record = AnswerUse::required;
     protocol.answers.sample_rate_hz = 44100;
     protocol.answers.bits = 24;
     protocol.screens.response_min_s = 2.0;
     protocol.screens.response_max_s = 20.0;
-    CHECK(recording_size(protocol, one_sculpture(), 9, 5.0).answers == Approx(9 * 5 * 44100 * 3.0));
-    CHECK(recording_size(protocol, one_sculpture(), 9, 1.0).answers == Approx(9 * 2 * 44100 * 3.0));
-    CHECK(recording_size(protocol, one_sculpture(), 9, 500.0).answers == Approx(9 * 20 * 44100 * 3.0));
+    CHECK(recording_size(protocol, one_object(), 9, 5.0).answers == Approx(9 * 5 * 44100 * 3.0));
+    CHECK(recording_size(protocol, one_object(), 9, 1.0).answers == Approx(9 * 2 * 44100 * 3.0));
+    CHECK(recording_size(protocol, one_object(), 9, 500.0).answers == Approx(9 * 20 * 44100 * 3.0));
 }
 
-TEST_CASE("a sculpture that is frames only has pictures, and maps where the protocol gives them", "[unit]") {
+TEST_CASE("an object that is frames only has pictures, and maps where the protocol gives them", "[unit]") {
     Protocol protocol = paper_protocol();
-    const std::vector<Sculpture> without_mesh(1);
+    const std::vector<Object> without_mesh(1);
     const RecordingSize frames = recording_size(protocol, without_mesh, 10, 5.0);
     CHECK(frames.maps == 0.0);
     CHECK(frames.meshes == 0.0);
     CHECK(frames.pictures > 0.0);
-    protocol.sculptures[0].lut = "maps/##.exr";
+    protocol.objects[0].lut = "maps/##.exr";
     CHECK(recording_size(protocol, without_mesh, 10, 5.0).maps ==
-          recording_size(protocol, one_sculpture(), 10, 5.0).maps);
+          recording_size(protocol, one_object(), 10, 5.0).maps);
 }
 
 TEST_CASE("a record's size is told in words and in JSON", "[unit]") {

@@ -20,8 +20,8 @@ constexpr int seeds = 1000;
 /// The paper's protocol with limits taken out, and blocks.
 Protocol with_blocks(std::string_view blocks, std::string_view schedule = "") {
     std::string text = text_of_file(source_path("protocols/overt_2019.toml"));
-    const std::string limit = "max_sculpture_run = 2\n";
-    text.replace(text.find(limit), limit.size(), "max_sculpture_run = 0\n" + std::string(schedule));
+    const std::string limit = "max_object_run = 2\n";
+    text.replace(text.find(limit), limit.size(), "max_object_run = 0\n" + std::string(schedule));
     const ReadText read(text, blocks);
     INFO(read.diagnostics.print());
     REQUIRE(read.protocol);
@@ -30,8 +30,8 @@ Protocol with_blocks(std::string_view blocks, std::string_view schedule = "") {
 
 std::vector<std::string> findings_of(std::string_view blocks, std::string_view schedule = "") {
     std::string text = text_of_file(source_path("protocols/overt_2019.toml"));
-    const std::string limit = "max_sculpture_run = 2\n";
-    text.replace(text.find(limit), limit.size(), "max_sculpture_run = 0\n" + std::string(schedule));
+    const std::string limit = "max_object_run = 2\n";
+    text.replace(text.find(limit), limit.size(), "max_object_run = 0\n" + std::string(schedule));
     std::vector<std::string> messages;
     for (const Finding& finding : ReadText(text, blocks).diagnostics.findings())
         if (finding.message.find("no block asks") == std::string::npos)
@@ -60,13 +60,13 @@ template <class Value> int least_distance(const std::vector<Trial>& trials, Valu
 }
 
 int task_of(const Trial& trial) { return trial.task; }
-int sculpture_of(const Trial& trial) { return trial.condition.sculpture; }
+int object_of(const Trial& trial) { return trial.condition.object; }
 Condition stimulus_of(const Trial& trial) { return trial.condition; }
 
 std::map<std::tuple<int, int, int>, int> counts_of(const std::vector<Trial>& trials) {
     std::map<std::tuple<int, int, int>, int> counts;
     for (const Trial& trial : trials)
-        ++counts[{trial.task, trial.condition.sculpture, trial.condition.material}];
+        ++counts[{trial.task, trial.condition.object, trial.condition.material}];
     return counts;
 }
 
@@ -104,7 +104,7 @@ std::vector<Trial> of_block(const std::vector<Trial>& trials, int block) {
 TEST_CASE("random blocks follow each other, each with its trials, in 1000 orders each", "[unit]") {
     const Protocol protocol =
         with_blocks("[[block]]\nid = \"first\"\ntasks = [\"free\", \"age\"]\n"
-                    "max_sculpture_run = 1\n"
+                    "max_object_run = 1\n"
                     "[[block]]\nid = \"second\"\ntasks = \"material\"\nrepetitions = 2\n");
     std::set<std::vector<int>> firsts;
     for (const std::vector<Trial>& trials : orders_of(protocol)) {
@@ -112,7 +112,7 @@ TEST_CASE("random blocks follow each other, each with its trials, in 1000 orders
         for (std::size_t i = 0; i < trials.size(); ++i)
             REQUIRE(trials[i].block == (i < 12 ? 0 : 1));
         const std::vector<Trial> first = of_block(trials, 0);
-        REQUIRE(longest_run(first, sculpture_of) == 1);
+        REQUIRE(longest_run(first, object_of) == 1);
         REQUIRE(counts_of(first).size() == 12);
         // One repetition is over before the next begins.
         const std::vector<Trial> second = of_block(trials, 1);
@@ -120,7 +120,7 @@ TEST_CASE("random blocks follow each other, each with its trials, in 1000 orders
         REQUIRE(counts_of({second.begin() + 9, second.end()}).size() == 9);
         std::vector<int> key;
         for (const Trial& trial : first)
-            key.push_back(9 * trial.task + 3 * trial.condition.sculpture + trial.condition.material);
+            key.push_back(9 * trial.task + 3 * trial.condition.object + trial.condition.material);
         firsts.insert(key);
     }
     CHECK(firsts.size() == seeds);
@@ -129,19 +129,19 @@ TEST_CASE("random blocks follow each other, each with its trials, in 1000 orders
 TEST_CASE("a sequential block comes as it is listed, whatever the seed", "[unit]") {
     const Protocol protocol =
         with_blocks("[[block]]\nid = \"all\"\norder = \"sequential\"\n"
-                    "tasks = [\"material\", \"free\"]\nsculptures = [\"scholar\", \"muse\"]\n",
+                    "tasks = [\"material\", \"free\"]\nobjects = [\"scholar\", \"muse\"]\n",
                     "max_material_run = 1\n");
     std::vector<std::tuple<int, int, int>> expected;
     for (const int task : {1, 0}) {
-        for (const int sculpture : {2, 0}) {
+        for (const int object : {2, 0}) {
             for (const int material : {0, 1, 2})
-                expected.emplace_back(task, sculpture, material);
+                expected.emplace_back(task, object, material);
         }
     }
     for (const std::vector<Trial>& trials : orders_of(protocol)) {
         REQUIRE(trials.size() == expected.size());
         for (std::size_t i = 0; i < trials.size(); ++i)
-            REQUIRE(std::tuple(trials[i].task, trials[i].condition.sculpture, trials[i].condition.material) ==
+            REQUIRE(std::tuple(trials[i].task, trials[i].condition.object, trials[i].condition.material) ==
                     expected[i]);
     }
 }
@@ -149,15 +149,15 @@ TEST_CASE("a sequential block comes as it is listed, whatever the seed", "[unit]
 TEST_CASE(
     "a blocked order has all trials of a level together, its levels and what is in them evenly shuffled",
     "[unit]") {
-    const Protocol protocol = with_blocks("[[block]]\nid = \"all\"\norder = \"blocked\"\nby = \"sculpture\"\n"
+    const Protocol protocol = with_blocks("[[block]]\nid = \"all\"\norder = \"blocked\"\nby = \"object\"\n"
                                           "tasks = [\"free\", \"age\"]\nmax_task_run = 3\n");
     std::map<std::vector<int>, int> level_orders;
     std::map<int, int> first_of_level;
     for (const std::vector<Trial>& trials : orders_of(protocol)) {
         std::vector<int> levels;
         for (const Trial& trial : trials) {
-            if (levels.empty() || levels.back() != trial.condition.sculpture)
-                levels.push_back(trial.condition.sculpture);
+            if (levels.empty() || levels.back() != trial.condition.object)
+                levels.push_back(trial.condition.object);
         }
         REQUIRE(levels.size() == 3);
         REQUIRE(longest_run(trials, task_of) <= 3);
@@ -238,27 +238,27 @@ TEST_CASE("levels that are drawn come in proportion to their weights, and their 
 TEST_CASE("mixed repetitions are one order, and distances hold across all of it", "[unit]") {
     const Protocol protocol = with_blocks(
         "[[block]]\nid = \"all\"\ntasks = \"free\"\nrepetitions = 3\nrepetition_order = \"mixed\"\n"
-        "min_stimulus_distance = 4\nmax_sculpture_run = 2\n");
+        "min_stimulus_distance = 4\nmax_object_run = 2\n");
     bool is_ever_mixed = false;
     for (const std::vector<Trial>& trials : orders_of(protocol)) {
         REQUIRE(counts_of(trials).size() == 9);
         for (const auto& [cell, count] : counts_of(trials))
             REQUIRE(count == 3);
         REQUIRE(least_distance(trials, stimulus_of) >= 4);
-        REQUIRE(longest_run(trials, sculpture_of) <= 2);
+        REQUIRE(longest_run(trials, object_of) <= 2);
         is_ever_mixed = is_ever_mixed || counts_of({trials.begin(), trials.begin() + 9}).size() < 9;
     }
     CHECK(is_ever_mixed);
 }
 
 TEST_CASE("limits hold from a block into the one that continues it, and not into others", "[unit]") {
-    const std::string first = "[[block]]\nid = \"one\"\ntasks = \"free\"\nmax_sculpture_run = 1\n"
-                              "[[block]]\nid = \"two\"\ntasks = \"material\"\nmax_sculpture_run = 1\n";
+    const std::string first = "[[block]]\nid = \"one\"\ntasks = \"free\"\nmax_object_run = 1\n"
+                              "[[block]]\nid = \"two\"\ntasks = \"material\"\nmax_object_run = 1\n";
     int across = 0;
     for (const std::vector<Trial>& trials : orders_of(with_blocks(first + "continues = true\n")))
-        REQUIRE(longest_run(trials, sculpture_of) == 1);
+        REQUIRE(longest_run(trials, object_of) == 1);
     for (const std::vector<Trial>& trials : orders_of(with_blocks(first)))
-        across += trials[8].condition.sculpture == trials[9].condition.sculpture;
+        across += trials[8].condition.object == trials[9].condition.object;
     CHECK(across > seeds / 5);
 }
 
@@ -266,7 +266,7 @@ TEST_CASE("changing one block reshuffles no other", "[unit]") {
     const std::string one = "[[block]]\nid = \"one\"\ntasks = \"free\"\n",
                       two = "[[block]]\nid = \"two\"\ntasks = \"material\"\n";
     const Protocol both = with_blocks(one + two), alone = with_blocks(two), turned = with_blocks(two + one),
-                   changed = with_blocks(one + "repetitions = 2\nmax_sculpture_run = 1\n" + two +
+                   changed = with_blocks(one + "repetitions = 2\nmax_object_run = 1\n" + two +
                                          "[[block]]\nid = \"three\"\ntasks = \"age\"\n");
     for (std::uint64_t seed = 0; seed < seeds; ++seed) {
         const auto conditions = [&](const Protocol& protocol, int block) {
@@ -283,27 +283,25 @@ TEST_CASE("changing one block reshuffles no other", "[unit]") {
 }
 
 TEST_CASE("a limit that a block cannot keep to is reported at its line, with what would do", "[unit]") {
-    const auto findings =
-        findings_of("[[block]]\nid = \"one\"\ntasks = \"free\"\nmin_sculpture_distance = 4\n");
+    const auto findings = findings_of("[[block]]\nid = \"one\"\ntasks = \"free\"\nmin_object_distance = 4\n");
     REQUIRE(findings.size() == 1);
     CHECK_THAT(findings[0],
-               Contains("no order keeps to a distance of 4 between trials with the same sculpture in "
-                        "block \"one\": one sculpture has 3 of the 9 trials") &&
+               Contains("no order keeps to a distance of 4 between trials with the same object in "
+                        "block \"one\": one object has 3 of the 9 trials") &&
                    Contains("a distance of 3 is the most"));
     const ReadText read(
         text_of_file(source_path("protocols/overt_2019.toml")),
-        "[[block]]\nid = \"one\"\ntasks = \"free\"\norder = \"sequential\"\nmax_sculpture_run = 2\n");
+        "[[block]]\nid = \"one\"\ntasks = \"free\"\norder = \"sequential\"\nmax_object_run = 2\n");
     REQUIRE(read.diagnostics.findings().size() >= 1);
     CHECK_THAT(read.diagnostics.print(),
-               Contains("max_sculpture_run = 2\n") && Contains("allow runs of 3 at least"));
+               Contains("max_object_run = 2\n") && Contains("allow runs of 3 at least"));
     // Two limits that hold one by one.
     const auto together = findings_of("[[block]]\nid = \"one\"\ntasks = [\"free\", \"material\"]\n"
-                                      "sculptures = [\"muse\", \"runner\"]\nmaterials = \"smooth\"\n"
-                                      "max_task_run = 1\nmax_sculpture_run = 1\n");
+                                      "objects = [\"muse\", \"runner\"]\nmaterials = \"smooth\"\n"
+                                      "max_task_run = 1\nmax_object_run = 1\n");
     REQUIRE_FALSE(together.empty());
-    CHECK_THAT(together[0],
-               Contains("runs of 1 with the same task and to runs of 1 with the same sculpture") &&
-                   Contains("loosen block[0].max_task_run or block[0].max_sculpture_run"));
+    CHECK_THAT(together[0], Contains("runs of 1 with the same task and to runs of 1 with the same object") &&
+                                Contains("loosen block[0].max_task_run or block[0].max_object_run"));
 }
 
 TEST_CASE("what a block says wrongly is said", "[unit]") {

@@ -80,7 +80,7 @@ TEST_CASE("groups see what they are to see, and an observer beyond the caps is r
             CHECK((trial.condition.material == 2) == !is_gold);
             if (!is_gold)
                 CHECK((trial.task == 0 || trial.task == 2));
-            ++cells[{trial.task, trial.condition.sculpture, trial.condition.material}];
+            ++cells[{trial.task, trial.condition.object, trial.condition.material}];
         }
     }
     // The rotation goes round within the group: six observers of two materials, three each.
@@ -95,15 +95,15 @@ TEST_CASE("whatever groups, blocks and orders leave of each other, observers hav
           "protocol is refused",
           "[unit]") {
     const std::vector<std::string> groups{"", "materials = [\"smooth\"]\n",
-                                          "materials = [\"coated\", \"rough\"]\n",
-                                          "sculptures = [\"runner\"]\n", "tasks = [\"age\", \"free\"]\n"},
-        scopes{"", "materials = [\"smooth\"]\n", "sculptures = [\"muse\", \"runner\"]\n",
-               "tasks = [\"age\"]\n", "stimuli = \"once-per-sculpture\"\n"},
+                                          "materials = [\"coated\", \"rough\"]\n", "objects = [\"runner\"]\n",
+                                          "tasks = [\"age\", \"free\"]\n"},
+        scopes{"", "materials = [\"smooth\"]\n", "objects = [\"muse\", \"runner\"]\n", "tasks = [\"age\"]\n",
+               "stimuli = \"once-per-object\"\n"},
         orders{"order = \"random\"\n",
                "order = \"sequential\"\n",
                "order = \"blocked\"\nby = \"material\"\nlevels = \"balanced\"\n",
                "order = \"blocked\"\nby = \"task\"\nlevels = \"random-square\"\n",
-               "order = \"weighted\"\nby = \"sculpture\"\nweights = [2, 1, 1]\n",
+               "order = \"weighted\"\nby = \"object\"\nweights = [2, 1, 1]\n",
                "order = \"weighted\"\nby = \"material\"\nweights = [2, 1, 1]\ndraws = 7\n"};
     const std::string paper = text_of_file(source_path("protocols/overt_2019.toml"));
     int refused = 0, ordered = 0;
@@ -140,9 +140,9 @@ TEST_CASE("practice with what a group does not see is warned of", "[unit]") {
     const std::string clay = "[[material]]\nid = \"clay\"\nkind = \"diffuse\"\n";
     const std::string groups = "[[group]]\nid = \"g\"\nmaterials = [\"gold\"]\n[[group]]\nid = \"c\"\n";
     const auto print = [&](const std::string& material) {
-        return ReadText(minimal_protocol,
-                        clay + groups + "[[practice]]\ntask = \"free\"\nsculpture = \"a\"\nmaterial = \"" +
-                            material + "\"\n")
+        return ReadText(minimal_protocol, clay + groups +
+                                              "[[practice]]\ntask = \"free\"\nobject = \"a\"\nmaterial = \"" +
+                                              material + "\"\n")
             .diagnostics.print();
     };
     CHECK_THAT(print("clay"), Catch::Contains("group \"g\" practises with the material \"clay\""));

@@ -183,12 +183,12 @@ TEST_CASE("what no shuffle finds is drawn by counting, or through the limits of 
     CHECK(different.size() == 50);
 
     // Six tasks for three sculptures, neither ever twice in a row: too many places to count.
-    std::vector<int> tasks, sculptures;
+    std::vector<int> tasks, objects;
     for (int i = 0; i < 30; ++i) {
         tasks.push_back(i < 9 ? 0 : i < 18 ? 1 : 2 + i % 4);
-        sculptures.push_back(i % 3);
+        objects.push_back(i % 3);
     }
-    const OrderProblem both = one_segment({tasks, sculptures}, {run(0, 1), run(1, 1)});
+    const OrderProblem both = one_segment({tasks, objects}, {run(0, 1), run(1, 1)});
     const auto order = OrderDraw(both).draw(random);
     REQUIRE(order);
     CHECK(order->evenness == OrderEvenness::exact);
@@ -210,13 +210,13 @@ TEST_CASE(
         CHECK(items[static_cast<std::size_t>(item)] == item);
 }
 
-/// So many sculptures, materials and tasks, each combination once.
-std::vector<std::vector<int>> crossed(int sculptures, int materials, int tasks) {
+/// So many objects, materials and tasks, each combination once.
+std::vector<std::vector<int>> crossed(int objects, int materials, int tasks) {
     std::vector<std::vector<int>> levels(3);
-    for (int item = 0; item < sculptures * materials * tasks; ++item) {
-        levels[0].push_back(item % sculptures);
-        levels[1].push_back(item / sculptures % materials);
-        levels[2].push_back(item / (sculptures * materials));
+    for (int item = 0; item < objects * materials * tasks; ++item) {
+        levels[0].push_back(item % objects);
+        levels[1].push_back(item / objects % materials);
+        levels[2].push_back(item / (objects * materials));
     }
     return levels;
 }

@@ -16,7 +16,7 @@ namespace {
 Protocol blocks_with_everything(RandomStream& random) {
     Protocol protocol = paper_protocol();
     protocol.schedule.max_task_run = 0;
-    protocol.schedule.max_sculpture_run = 0;
+    protocol.schedule.max_object_run = 0;
     for (const char* id : {"one", "two", "three"}) {
         protocol.blocks.emplace_back();
         protocol.blocks.back().id = id;

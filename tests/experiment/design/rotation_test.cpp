@@ -19,12 +19,12 @@ namespace {
 Protocol three_factors(int observers) {
     Protocol protocol;
     protocol.materials = {{"gold", {}, {}}, {"clay", {}, {}}};
-    protocol.sculptures.resize(1);
-    protocol.sculptures.front().id = "muse";
+    protocol.objects.resize(1);
+    protocol.objects.front().id = "muse";
     for (const char* const id : {"age", "mood", "look"})
-        protocol.tasks.push_back({id, "?", TaskCoverage::once_per_sculpture});
+        protocol.tasks.push_back({id, "?", TaskCoverage::once_per_object});
     protocol.schedule.observers = observers;
-    protocol.schedule.max_sculpture_run = 0;
+    protocol.schedule.max_object_run = 0;
     protocol.schedule.block_order = LevelOrder::balanced;
     protocol.blocks.resize(2);
     protocol.blocks[0].id = "questions";
@@ -58,13 +58,13 @@ Protocol random_design(RandomStream& random) {
     const SquareKind kinds[] = {SquareKind::cyclic, SquareKind::balanced, SquareKind::random_square};
     for (int i = some(4); i > 0; --i)
         protocol.materials.push_back({"m" + std::to_string(i), {}, {}});
-    protocol.sculptures.resize(static_cast<std::size_t>(some(2)));
-    for (std::size_t i = 0; i < protocol.sculptures.size(); ++i)
-        protocol.sculptures[i].id = "s" + std::to_string(i);
+    protocol.objects.resize(static_cast<std::size_t>(some(2)));
+    for (std::size_t i = 0; i < protocol.objects.size(); ++i)
+        protocol.objects[i].id = "s" + std::to_string(i);
     for (int i = some(3); i > 0; --i)
         protocol.tasks.push_back(
             {"t" + std::to_string(i), "?",
-             random.below(2) == 0 ? TaskCoverage::once_per_sculpture : TaskCoverage::every_stimulus});
+             random.below(2) == 0 ? TaskCoverage::once_per_object : TaskCoverage::every_stimulus});
     protocol.schedule.material_rotation = kinds[random.below(3)];
     protocol.schedule.block_order = squares[random.below(3)];
     for (int i = some(3); i > 0; --i) {

@@ -25,29 +25,29 @@ template <class Value> int longest_run(const Schedule& schedule, Value value) {
     return longest;
 }
 
-int sculpture_run(const Schedule& schedule) {
-    return longest_run(schedule, [](const Trial& trial) { return trial.condition.sculpture; });
+int object_run(const Schedule& schedule) {
+    return longest_run(schedule, [](const Trial& trial) { return trial.condition.object; });
 }
 int task_run(const Schedule& schedule) {
     return longest_run(schedule, [](const Trial& trial) { return trial.task; });
 }
 
-/// A protocol of so many sculptures and materials, with tasks of both kinds.
-Protocol design(int sculptures, int materials, int every_tasks, int once_tasks) {
+/// A protocol of so many objects and materials, with tasks of both kinds.
+Protocol design(int objects, int materials, int every_tasks, int once_tasks) {
     Protocol protocol;
-    protocol.sculptures.resize(static_cast<std::size_t>(sculptures));
+    protocol.objects.resize(static_cast<std::size_t>(objects));
     protocol.materials.resize(static_cast<std::size_t>(materials));
     protocol.tasks.resize(static_cast<std::size_t>(every_tasks + once_tasks));
     for (int task = every_tasks; task < every_tasks + once_tasks; ++task)
-        protocol.tasks[static_cast<std::size_t>(task)].stimuli = TaskCoverage::once_per_sculpture;
+        protocol.tasks[static_cast<std::size_t>(task)].stimuli = TaskCoverage::once_per_object;
     return protocol;
 }
 
-/// The materials that an observer has under tasks that are asked once per sculpture: by task and sculpture.
+/// The materials that an observer has under tasks that are asked once per object: by task and object.
 std::map<std::pair<int, int>, int> rotated_materials(const Protocol& protocol, int observer) {
     std::map<std::pair<int, int>, int> materials;
     for (const Trial& trial : trials_of(protocol, observer))
-        materials[{trial.task, trial.condition.sculpture}] = trial.condition.material;
+        materials[{trial.task, trial.condition.object}] = trial.condition.material;
     return materials;
 }
 
@@ -55,7 +55,7 @@ std::map<std::pair<int, int>, int> rotated_materials(const Protocol& protocol, i
 std::vector<int> key_of(const Schedule& schedule) {
     std::vector<int> key;
     for (const Trial& trial : schedule.trials)
-        key.push_back(100 * trial.task + 10 * trial.condition.sculpture + trial.condition.material);
+        key.push_back(100 * trial.task + 10 * trial.condition.object + trial.condition.material);
     return key;
 }
 
@@ -69,17 +69,17 @@ TEST_CASE("the schedule shows each stimulus once under the first two tasks, 18 o
         const Schedule schedule = make_schedule(protocol, {"P", number}, seed);
         REQUIRE(schedule.trials.size() == 30);
         std::map<int, std::set<Condition>> stimuli;
-        std::map<int, std::set<int>> sculptures;
+        std::map<int, std::set<int>> objects;
         for (std::size_t i = 0; i < schedule.trials.size(); ++i) {
             REQUIRE(schedule.trials[i].index == static_cast<int>(i));
             stimuli[schedule.trials[i].task].insert(schedule.trials[i].condition);
-            sculptures[schedule.trials[i].task].insert(schedule.trials[i].condition.sculpture);
+            objects[schedule.trials[i].task].insert(schedule.trials[i].condition.object);
         }
         for (int task = 0; task < 6; ++task) {
             REQUIRE(stimuli[task].size() == (task < 2 ? 9 : 3));
-            REQUIRE(sculptures[task].size() == 3);
+            REQUIRE(objects[task].size() == 3);
         }
-        REQUIRE(sculpture_run(schedule) <= 2);
+        REQUIRE(object_run(schedule) <= 2);
         orders.insert(key_of(schedule));
     }
     CHECK(orders.size() == 1000);
@@ -99,7 +99,7 @@ TEST_CASE("twelve observers fill every cell of the rotated tasks four times", "[
     std::map<std::tuple<int, int, int>, int> cells;
     for (int observer = 1; observer <= 12; ++observer) {
         for (const Trial& trial : make_schedule(protocol, {"P", observer}, 1).trials)
-            ++cells[{trial.task, trial.condition.sculpture, trial.condition.material}];
+            ++cells[{trial.task, trial.condition.object, trial.condition.material}];
     }
     CHECK(cells.size() == 54);
     for (const auto& [cell, count] : cells)
@@ -109,14 +109,14 @@ TEST_CASE("twelve observers fill every cell of the rotated tasks four times", "[
 TEST_CASE("any run of M observers fills each cell of a rotated task once, for any numbers of things",
           "[unit]") {
     constexpr int tasks = 7;
-    for (int sculptures = 1; sculptures <= 6; ++sculptures) {
+    for (int objects = 1; objects <= 6; ++objects) {
         for (int materials = 1; materials <= 6; ++materials) {
             std::map<std::pair<int, int>, std::set<int>> seen;
             for (int observer = 5; observer < 5 + materials; ++observer)
                 for (const auto& [cell, material] :
-                     rotated_materials(design(sculptures, materials, 0, tasks), observer))
+                     rotated_materials(design(objects, materials, 0, tasks), observer))
                     seen[cell].insert(material);
-            REQUIRE(static_cast<int>(seen.size()) == tasks * sculptures);
+            REQUIRE(static_cast<int>(seen.size()) == tasks * objects);
             for (const auto& [cell, of_cell] : seen)
                 REQUIRE(static_cast<int>(of_cell.size()) == materials);
         }
@@ -124,12 +124,12 @@ TEST_CASE("any run of M observers fills each cell of a rotated task once, for an
 }
 
 TEST_CASE("each observer sees all materials equally often, to one, under the rotated tasks", "[unit]") {
-    for (int sculptures = 1; sculptures <= 6; ++sculptures) {
+    for (int objects = 1; objects <= 6; ++objects) {
         for (int materials = 1; materials <= 6; ++materials) {
             for (int tasks = 1; tasks <= 7; ++tasks) {
                 std::vector<int> count(static_cast<std::size_t>(materials));
                 for (const auto& [cell, material] :
-                     rotated_materials(design(sculptures, materials, 0, tasks), 3))
+                     rotated_materials(design(objects, materials, 0, tasks), 3))
                     ++count[static_cast<std::size_t>(material)];
                 const auto [least, most] = std::minmax_element(count.begin(), count.end());
                 REQUIRE(*most - *least <= 1);
@@ -138,20 +138,20 @@ TEST_CASE("each observer sees all materials equally often, to one, under the rot
     }
 }
 
-TEST_CASE("a sculpture changes its material from one rotated task to the next", "[unit]") {
+TEST_CASE("an object changes its material from one rotated task to the next", "[unit]") {
     for (int observer = 1; observer <= 12; ++observer) {
         const auto materials = rotated_materials(design(3, 3, 0, 4), observer);
         for (int task = 0; task + 1 < 4; ++task) {
-            for (int sculpture = 0; sculpture < 3; ++sculpture)
-                CHECK(materials.at({task, sculpture}) != materials.at({task + 1, sculpture}));
+            for (int object = 0; object < 3; ++object)
+                CHECK(materials.at({task, object}) != materials.at({task + 1, object}));
         }
     }
 }
 
 TEST_CASE("all orders that keep to the limits are equally probable", "[unit]") {
-    // Two sculptures in two materials: 24 orders, of which 8 alternate between the sculptures.
+    // Two objects in two materials: 24 orders, of which 8 alternate between the objects.
     Protocol protocol = design(2, 2, 1, 0);
-    protocol.schedule.max_sculpture_run = 1;
+    protocol.schedule.max_object_run = 1;
     std::map<std::vector<int>, int> counts;
     for (std::uint64_t seed = 0; seed < 8000; ++seed)
         ++counts[key_of(make_schedule(protocol, {"P", 1}, seed))];
@@ -163,15 +163,15 @@ TEST_CASE("all orders that keep to the limits are equally probable", "[unit]") {
 }
 
 TEST_CASE("limits too tight for rejection are kept, and the orders are still many and even", "[unit]") {
-    // 15 trials of each of two sculptures in strict alternation: 2 orders of sculptures in 155 million.
+    // 15 trials of each of two objects in strict alternation: 2 orders of objects in 155 million.
     Protocol protocol = design(2, 5, 3, 0);
-    protocol.schedule.max_sculpture_run = 1;
+    protocol.schedule.max_object_run = 1;
     protocol.schedule.max_task_run = 2;
     std::set<std::vector<int>> orders;
     int begins_with_first = 0;
     for (std::uint64_t seed = 0; seed < 40; ++seed) {
         const Schedule schedule = make_schedule(protocol, {"P", 1}, seed);
-        REQUIRE(sculpture_run(schedule) == 1);
+        REQUIRE(object_run(schedule) == 1);
         REQUIRE(task_run(schedule) <= 2);
         orders.insert(key_of(schedule));
         begins_with_first += schedule.trials.front().task == 0 ? 1 : 0;
@@ -183,12 +183,12 @@ TEST_CASE("limits too tight for rejection are kept, and the orders are still man
 
 TEST_CASE("both limits hold together", "[unit]") {
     Protocol protocol = paper_protocol();
-    protocol.schedule.max_sculpture_run = 1;
+    protocol.schedule.max_object_run = 1;
     protocol.schedule.max_task_run = 1;
     ScheduleMaker maker(protocol);
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
         const Schedule schedule = maker.make({"P", 2}, seed);
-        CHECK(sculpture_run(schedule) == 1);
+        CHECK(object_run(schedule) == 1);
         CHECK(task_run(schedule) == 1);
     }
 }
@@ -206,17 +206,17 @@ TEST_CASE("a limit that no order can keep to is refused by its name", "[unit]") 
 
 TEST_CASE("limits that exclude each other only together are refused as well", "[unit]") {
     Protocol protocol = design(2, 1, 2, 0);
-    protocol.schedule.max_sculpture_run = 1;
+    protocol.schedule.max_object_run = 1;
     protocol.schedule.max_task_run = 1;
-    // Either limit alone can be kept. Both: after task 0 with sculpture 0 only task 1 with sculpture 1 may
+    // Either limit alone can be kept. Both: after task 0 with object 0 only task 1 with object 1 may
     // come, and after that nothing but the first again.
     CHECK_THROWS_AS(make_schedule(protocol, {"P", 1}, 1), InputError);
     CHECK(find_order_conflict(protocol));
 }
 
-TEST_CASE("a limit on the only sculpture or the only task has no effect", "[unit]") {
+TEST_CASE("a limit on the only object or the only task has no effect", "[unit]") {
     Protocol protocol = design(1, 4, 1, 0);
-    protocol.schedule.max_sculpture_run = 1;
+    protocol.schedule.max_object_run = 1;
     protocol.schedule.max_task_run = 1;
     CHECK(make_schedule(protocol, {"P", 1}, 1).trials.size() == 4);
     CHECK_FALSE(find_order_conflict(protocol));

@@ -18,7 +18,7 @@ constexpr RepeatWhen whens[] = {RepeatWhen::never, RepeatWhen::now, RepeatWhen::
 
 Protocol three_blocks() {
     Protocol protocol = paper_protocol();
-    protocol.schedule.max_sculpture_run = 0;
+    protocol.schedule.max_object_run = 0;
     for (const char* id : {"one", "two", "three"}) {
         protocol.blocks.emplace_back();
         protocol.blocks.back().id = id;
@@ -225,11 +225,10 @@ TEST_CASE("what practice, breaks and repetition say wrongly is said", "[unit]") 
         return ReadText(minimal_protocol, more).diagnostics.print();
     };
     using Catch::Contains;
-    CHECK_THAT(print("[[practice]]\ntask = \"fre\"\nsculpture = \"a\"\nmaterial = \"gold\"\n"),
+    CHECK_THAT(print("[[practice]]\ntask = \"fre\"\nobject = \"a\"\nmaterial = \"gold\"\n"),
                Contains("p.toml:13:8: error: there is no task \"fre\"") && Contains("did you mean"));
-    CHECK_THAT(
-        print("[[practice]]\ntask = \"free\"\nsculpture = \"a\"\nmaterial = \"gold\"\nblock = \"x\"\n"),
-        Contains("there is no block \"x\""));
+    CHECK_THAT(print("[[practice]]\ntask = \"free\"\nobject = \"a\"\nmaterial = \"gold\"\nblock = \"x\"\n"),
+               Contains("there is no block \"x\""));
     CHECK_THAT(print("[breaks]\npace = \"timed\"\nmin_s = 3\n"),
                Contains("\"min_s\" is for breaks that a key ends"));
     CHECK_THAT(print("[breaks]\nbetween_blocks = true\n"), Contains("no blocks to break between"));

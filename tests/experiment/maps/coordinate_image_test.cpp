@@ -39,7 +39,7 @@ CoordinateImage disc(glm::ivec2 size) {
 
 MapDescription full_description() {
     MapDescription description;
-    description.sculpture = "bust";
+    description.object = "bust";
     description.unit = "mm";
     description.bounds = box;
     description.scale = 65535;
@@ -51,7 +51,7 @@ MapDescription full_description() {
 }
 
 void check_same(const MapDescription& read, const MapDescription& given) {
-    CHECK(read.sculpture == given.sculpture);
+    CHECK(read.object == given.object);
     CHECK(read.unit == given.unit);
     CHECK(read.mesh_sha256 == given.mesh_sha256);
     CHECK(read.frame == given.frame);

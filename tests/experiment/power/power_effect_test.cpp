@@ -18,8 +18,8 @@ Protocol small_plan() {
     protocol.materials[0].id = "smooth";
     protocol.materials[1].id = "rough";
     protocol.materials[2].id = "coated";
-    protocol.sculptures.resize(1);
-    protocol.sculptures[0].id = "runner";
+    protocol.objects.resize(1);
+    protocol.objects[0].id = "runner";
     return protocol;
 }
 
@@ -52,8 +52,8 @@ TEST_CASE("an effect is read with its measure, its levels and its size", "[unit]
     CHECK(wss.sd == 0.1);
     CHECK(effect_of("cc:task=free:share=0").is_none());
     CHECK(effect_of("cc:task=free:share=0").against == "age");
-    // Where the sculpture stands first, the factor is the material all the same.
-    CHECK(effect_of("head:sculpture=runner:material=rough:odds=2").column == "material");
+    // Where the object stands first, the factor is the material all the same.
+    CHECK(effect_of("head:object=runner:material=rough:odds=2").column == "material");
     for (const std::string text : {"head:material=rough:odds=1.5", "wss:task=age:material=rough:ratio=0.7",
                                    "cc:material=coated:share=0.2:sd=0.05"})
         CHECK(effect_of(effect_of(text).text()).text() == effect_of(text).text());
@@ -80,7 +80,7 @@ TEST_CASE("what is wrong with an effect is said with what is known", "[unit]") {
     CHECK_THAT(fault_of("head:material=rough:ratio=2"), Contains("whose keys are"));
     CHECK_THAT(fault_of("head:material=rough"), Contains("how large the effect is: odds="));
     CHECK_THAT(fault_of("head:odds=2"), Contains("in which material or task"));
-    CHECK_THAT(fault_of("head:sculpture=runner:odds=2"), Contains("in which material or task"));
+    CHECK_THAT(fault_of("head:object=runner:odds=2"), Contains("in which material or task"));
     CHECK_THAT(fault_of("head:material=rough:odds=0"), Contains("a number from 0.01 to 100"));
     CHECK_THAT(fault_of("head:material=rough:odds=nan"), Contains("and not \"nan\""));
     CHECK_THAT(fault_of("head:material=rough:odds=2x"), Contains("and not \"2x\""));

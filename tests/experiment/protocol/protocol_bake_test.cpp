@@ -11,7 +11,7 @@ using Lines = std::vector<std::string>;
 namespace {
 
 constexpr std::string_view one_sequence = R"([[frames]]
-sculpture = "a"
+object = "a"
 material = "gold"
 files = "f/####.png"
 )";

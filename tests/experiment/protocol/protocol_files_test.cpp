@@ -28,7 +28,7 @@ TEST_CASE("files that are there are found, and those of a sequence that are not 
     for (const char* name : {"m.ply", "p.toml", "frames/g_09.exr", "frames/g_11.exr", "frames/g_12.exr"})
         std::ofstream(folder / name) << "\n";
     const std::string text = std::string(minimal_protocol) +
-                             "[[sculpture]]\nid = \"m\"\nmesh = \"m.ply\"\n[[frames]]\nsculpture = \"m\"\n"
+                             "[[object]]\nid = \"m\"\nmesh = \"m.ply\"\n[[frames]]\nobject = \"m\"\n"
                              "material = \"gold\"\nfiles = \"frames/g_##.exr\"\nfirst_number = 9\n"
                              "[animation]\nframe_count = 5\n";
     std::ofstream(folder / "p.toml") << text;
@@ -55,8 +55,8 @@ TEST_CASE("the protocols shown in docs/laser_scans.md are sound", "[unit]") {
     const ReadText read(whole);
     CHECK(read.diagnostics.print() == "");
     REQUIRE(read.protocol);
-    CHECK(read.protocol->sculptures.size() == 3);
-    CHECK(read.protocol->sculptures.at(1).head_planes.size() == 1);
+    CHECK(read.protocol->objects.size() == 3);
+    CHECK(read.protocol->objects.at(1).head_planes.size() == 1);
     const ReadText with_frames(whole, block_after(page.find("## Frames rendered elsewhere")));
     CHECK(with_frames.diagnostics.print() == "");
     REQUIRE(with_frames.protocol);
@@ -71,7 +71,7 @@ TEST_CASE("the protocols that overt brings are sound", "[unit]") {
     }
     const Protocol paper = paper_protocol();
     CHECK(paper.tasks.size() == 6);
-    CHECK(paper.sculptures.size() == 3);
+    CHECK(paper.objects.size() == 3);
     CHECK(paper.materials.size() == 3);
     CHECK(paper.schedule.observers == 12);
 }

@@ -18,7 +18,7 @@ inline constexpr std::string_view shipped_names[] = {"muse", "runner", "scholar"
 /// A sound protocol of eleven lines; what a test adds begins in line 12.
 inline constexpr std::string_view minimal_protocol = R"([protocol]
 name = "minimal"
-[[sculpture]]
+[[object]]
 id = "a"
 shipped = "muse"
 [[material]]

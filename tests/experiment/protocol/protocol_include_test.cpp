@@ -86,17 +86,17 @@ TEST_CASE("each finding names the file in which it is, with its line", "[unit]")
 TEST_CASE("paths count from the folder of the file that they stand in", "[unit]") {
     Files files;
     files.write("p.toml", std::string(experiment_text) + std::string(minimal_protocol) +
-                              "[[sculpture]]\nid = \"here\"\nmesh = \"m.ply\"\n");
+                              "[[object]]\nid = \"here\"\nmesh = \"m.ply\"\n");
     files.write("rig/lab.toml",
-                "[[sculpture]]\nid = \"there\"\nmesh = \"m.ply\"\n[light]\nprobe = \"../sky.exr\"\n");
+                "[[object]]\nid = \"there\"\nmesh = \"m.ply\"\n[light]\nprobe = \"../sky.exr\"\n");
     files.write("m.ply", "\n");
     files.write("rig/m.ply", "\n");
     files.write("sky.exr", "\n");
     const auto protocol = files.read();
     CHECK(files.print() == "");
     REQUIRE(protocol);
-    CHECK(protocol->sculptures[0].mesh == files.folder / "rig/m.ply");
-    CHECK(protocol->sculptures[2].mesh == files.folder / "m.ply");
+    CHECK(protocol->objects[0].mesh == files.folder / "rig/m.ply");
+    CHECK(protocol->objects[2].mesh == files.folder / "m.ply");
     CHECK(protocol->light.probe == (files.folder / "rig/../sky.exr").string());
 }
 

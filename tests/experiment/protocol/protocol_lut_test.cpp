@@ -11,7 +11,7 @@ using Lines = std::vector<std::string>;
 
 namespace {
 
-/// A protocol whose one sculpture is known by maps; what a test adds begins in line 17.
+/// A protocol whose one object is known by maps; what a test adds begins in line 17.
 constexpr std::string_view with_maps = R"([protocol]
 name = "maps"
 [[material]]
@@ -21,10 +21,10 @@ kind = "diffuse"
 id = "free"
 question = "Look."
 [[frames]]
-sculpture = "a"
+object = "a"
 material = "gold"
 files = "frames/####.png"
-[[sculpture]]
+[[object]]
 id = "a"
 lut = "maps/frame_####.png"
 lut_first_number = 1
@@ -37,11 +37,11 @@ TEST_CASE("maps stand instead of a mesh, numbered like frames", "[unit]") {
                                    "head = { spheres = [[0, 0, 2, 1]] }\n");
     CHECK(read.lines().empty());
     REQUIRE(read.protocol);
-    const SculptureSettings& sculpture = read.protocol->sculptures[0];
-    CHECK(lut_file(sculpture, {14}) == "maps/frame_0015.png");
-    CHECK(sculpture.lut_scale == 65536);
-    CHECK(sculpture.lut_min == glm::dvec3(-1, -2, -3));
-    CHECK(sculpture.lut_max == glm::dvec3(1, 2, 3));
+    const ObjectSettings& object = read.protocol->objects[0];
+    CHECK(lut_file(object, {14}) == "maps/frame_0015.png");
+    CHECK(object.lut_scale == 65536);
+    CHECK(object.lut_min == glm::dvec3(-1, -2, -3));
+    CHECK(object.lut_max == glm::dvec3(1, 2, 3));
 }
 
 TEST_CASE("what contradicts ready-made maps is found at its place", "[unit]") {
@@ -55,10 +55,9 @@ TEST_CASE("what contradicts ready-made maps is found at its place", "[unit]") {
     CHECK(ReadText(with_maps, "up = \"y\"\n").lines() ==
           Lines{"17:6: \"up\" has no effect without \"mesh\""});
     const ReadText second(with_maps, "[[material]]\nid = \"silver\"\nkind = \"diffuse\"\n");
-    CHECK(second.lines() == Lines{"15:7: sculpture \"a\" has maps, but not [[frames]] for every material"});
-    CHECK(
-        ReadText(test::minimal_protocol, "[[sculpture]]\nid = \"b\"\nshipped = \"muse\"\nlut_scale = 65535\n")
-            .lines() == Lines{"15:13: \"lut_scale\" has no effect without \"lut\""});
+    CHECK(second.lines() == Lines{"15:7: object \"a\" has maps, but not [[frames]] for every material"});
+    CHECK(ReadText(test::minimal_protocol, "[[object]]\nid = \"b\"\nshipped = \"muse\"\nlut_scale = 65535\n")
+              .lines() == Lines{"15:13: \"lut_scale\" has no effect without \"lut\""});
 }
 
 TEST_CASE("a path of maps without a group of # is an error", "[unit]") {

@@ -37,17 +37,17 @@ TEST_CASE("a protocol with many errors reports all of them with their places", "
         {{27, 8}, "seed: -1 is out of range, which is at least 0"},
         {{31, 18}, "the response screen ends after 2 s, before its least time of 5 s"},
         {{32, 13}, "text of grey 0.01 cannot be seen on a background of 0"},
-        {{36, 8}, "a sculpture is either \"shipped\" or a \"mesh\", not both"},
+        {{36, 8}, "an object is either \"shipped\" or a \"mesh\", not both"},
         {{36, 8}, "there is no file " + folder + "no_such_mesh.ply"},
         {{40, 6}, "id \"hermes\" is taken already"},
-        {{41, 11}, "overt has no sculpture \"mouse\""},
-        {{43, 1}, "sculpture \"penelope\" has neither \"shipped\" nor \"mesh\""},
+        {{41, 11}, "overt has no object \"mouse\""},
+        {{43, 1}, "object \"penelope\" has neither \"shipped\" nor \"mesh\""},
         {{49, 13}, "roughness: 1.3 is out of range, which is 0.001 … 1"},
         {{51, 1}, "[[material]] has no \"kind\""},
         {{53, 9}, "there is no metal \"Fe\""},
         {{55, 1}, "[[task]] has no \"id\""},
         {{56, 12}, "question: expected a text, found a whole number"},
-        {{59, 13}, "there is no [[sculpture]] \"hermse\""},
+        {{59, 13}, "there is no [[object]] \"hermse\""},
         {{61, 9}, "the path needs one group of # for the digits of the frame number"},
         {{66, 9}, "61 of 61 frames are missing"}};
     for (std::size_t i = 0; i < std::min(found.size(), expected.size()); ++i) {
@@ -71,7 +71,7 @@ TEST_CASE("hints name the nearest rates, names and lines", "[unit]") {
     CHECK(hints[11] == "did you mean \"tracker\"?");
     CHECK(hints[16] == "write 512, without the point");
     CHECK(hints[23] == "8 s are 240 frames");
-    CHECK(hints[40] == "by the [[sculpture]] in line 35");
+    CHECK(hints[40] == "by the [[object]] in line 35");
     CHECK(hints[41] == "did you mean \"muse\"?");
     CHECK(hints[59] == "did you mean \"hermes\"?");
 }
@@ -208,7 +208,7 @@ TEST_CASE("a finding between two keys points at the one that is written", "[unit
 
 TEST_CASE("keys without effect are warned of, and the protocol is taken", "[unit]") {
     const ReadText read(minimal_protocol, "[[material]]\nid = \"clay\"\nkind = \"diffuse\"\nroughness = 0.2\n"
-                                          "[[sculpture]]\nid = \"b\"\nshipped = \"runner\"\nup = \"y\"\n");
+                                          "[[object]]\nid = \"b\"\nshipped = \"runner\"\nup = \"y\"\n");
     CHECK(read.lines() == Lines{"15:13: \"roughness\" has no effect on a material of kind \"diffuse\"",
                                 "19:6: \"up\" has no effect without \"mesh\""});
     CHECK(read.protocol);
@@ -216,9 +216,8 @@ TEST_CASE("keys without effect are warned of, and the protocol is taken", "[unit
 }
 
 TEST_CASE("numbers of observers that leave cells unequal are warned of", "[unit]") {
-    const std::string more =
-        "[[material]]\nid = \"clay\"\nkind = \"diffuse\"\n[[task]]\nid = \"age\"\n"
-        "question = \"?\"\nstimuli = \"once-per-sculpture\"\n[schedule]\nobservers = 7\n";
+    const std::string more = "[[material]]\nid = \"clay\"\nkind = \"diffuse\"\n[[task]]\nid = \"age\"\n"
+                             "question = \"?\"\nstimuli = \"once-per-object\"\n[schedule]\nobservers = 7\n";
     const ReadText read(minimal_protocol, more);
     REQUIRE(read.protocol);
     REQUIRE(read.lines().size() == 1);
@@ -228,9 +227,9 @@ TEST_CASE("numbers of observers that leave cells unequal are warned of", "[unit]
 
 TEST_CASE("limits that no order keeps to are errors of the protocol", "[unit]") {
     const ReadText read(minimal_protocol,
-                        "[[sculpture]]\nid = \"b\"\nshipped = \"runner\"\n[[material]]\n"
+                        "[[object]]\nid = \"b\"\nshipped = \"runner\"\n[[material]]\n"
                         "id = \"x\"\nkind = \"diffuse\"\n[[task]]\nid = \"age\"\nquestion = \"?\"\n"
-                        "stimuli = \"once-per-sculpture\"\n[schedule]\nmax_task_run = 1\n");
+                        "stimuli = \"once-per-object\"\n[schedule]\nmax_task_run = 1\n");
     CHECK(read.lines() ==
           Lines{"23:16: no order keeps to runs of 1 with the same task: one task has 4 of the 6 trials"});
     CHECK(read.diagnostics.findings()[0].hint == "allow runs of 2 at least, or 0 for no limit");
@@ -238,16 +237,16 @@ TEST_CASE("limits that no order keeps to are errors of the protocol", "[unit]") 
 
 TEST_CASE("a limit of the schedule that a block's order drops is warned of, unless the block has its own",
           "[unit]") {
-    const std::string more = "[[sculpture]]\nid = \"b\"\nshipped = \"runner\"\n[schedule]\n"
-                             "max_sculpture_run = 1\n[[block]]\nid = \"one\"\norder = \"blocked\"\n"
+    const std::string more = "[[object]]\nid = \"b\"\nshipped = \"runner\"\n[schedule]\n"
+                             "max_object_run = 1\n[[block]]\nid = \"one\"\norder = \"blocked\"\n"
                              "by = \"stimulus\"\n";
     const ReadText read(minimal_protocol, more);
     REQUIRE(read.protocol);
     REQUIRE(read.lines() == Lines{"16:21: this limit does not hold in block \"one\" (blocked by stimulus), "
                                   "whose order says otherwise"});
-    CHECK(ReadText(minimal_protocol, more + "max_sculpture_run = 0\n").lines().empty());
+    CHECK(ReadText(minimal_protocol, more + "max_object_run = 0\n").lines().empty());
     // The default of 2 was never asked for.
-    CHECK(ReadText(minimal_protocol, "[[sculpture]]\nid = \"b\"\nshipped = \"runner\"\n[[block]]\n"
+    CHECK(ReadText(minimal_protocol, "[[object]]\nid = \"b\"\nshipped = \"runner\"\n[[block]]\n"
                                      "id = \"one\"\norder = \"sequential\"\n")
               .lines()
               .empty());

@@ -62,15 +62,15 @@ TEST_CASE("the protocols that overt brings fit the schema", "[unit]") {
     CHECK(faults_of(minimal_protocol) == std::vector<std::string>{});
 }
 
-TEST_CASE("the schema knows which depths, sculptures and numbered files there are", "[unit]") {
-    const std::string sculpture = "[[sculpture]]\nid = \"b\"\nshipped = ";
-    const std::string frames = "[[frames]]\nsculpture = \"a\"\nmaterial = \"gold\"\nfiles = ";
+TEST_CASE("the schema knows which depths, objects and numbered files there are", "[unit]") {
+    const std::string object = "[[object]]\nid = \"b\"\nshipped = ";
+    const std::string frames = "[[frames]]\nobject = \"a\"\nmaterial = \"gold\"\nfiles = ";
     for (const std::string& sound :
-         {std::string("[answers]\nbits = 24\n"), sculpture + "\"scholar\"\n", frames + "\"a/f_###.png\"\n",
+         {std::string("[answers]\nbits = 24\n"), object + "\"scholar\"\n", frames + "\"a/f_###.png\"\n",
           std::string("[schedule]\nrotation_seed = 2147483647\n")})
         CHECK(faults_of(minimal_protocol, sound) == std::vector<std::string>{});
     for (const std::string& faulty :
-         {std::string("[answers]\nbits = 20\n"), sculpture + "\"hermes\"\n", frames + "\"a/f.png\"\n",
+         {std::string("[answers]\nbits = 20\n"), object + "\"hermes\"\n", frames + "\"a/f.png\"\n",
           frames + "\"a_##/f_##.png\"\n", std::string("[schedule]\nrotation_seed = 2147483648\n")}) {
         CAPTURE(faulty);
         CHECK(faults_of(minimal_protocol, faulty).size() == 1);
@@ -150,7 +150,7 @@ TEST_CASE("a new protocol is sound, fits the schema, and explains every key", "[
     CHECK(read.diagnostics.print() == "");
     REQUIRE(read.protocol);
     CHECK(read.protocol->name == "my_study");
-    CHECK(read.protocol->sculptures.size() == 2);
+    CHECK(read.protocol->objects.size() == 2);
     CHECK(faults_of(text) == std::vector<std::string>{});
     for (const Section& section : protocol_keys()) {
         CHECK(text.find(fmt::format("[{}]", section.name)) != std::string::npos);

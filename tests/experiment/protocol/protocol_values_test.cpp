@@ -22,7 +22,7 @@ TEST_CASE("keys left out have their defaults, and keys written their values", "[
     CHECK_FALSE(read.protocol->view.vertical_fov_deg);
     CHECK(read.protocol->animation.frame_count == 61);
     CHECK(read.protocol->title == "minimal");
-    CHECK(read.protocol->sculptures.at(0).title == "a");
+    CHECK(read.protocol->objects.at(0).title == "a");
 }
 
 TEST_CASE("lists, points and head shapes arrive number by number", "[unit]") {
@@ -34,12 +34,12 @@ camera_position = [0, -4.5, 1]
 [animation]
 playback = "ping-pong"
 amplitude_deg = 12.5
-[[sculpture]]
+[[object]]
 id = "p"
 mesh = "scans/p.ply"
 up = "-y"
 scale = 2
-[sculpture.head]
+[object.head]
 spheres = [[0.015, 0.82, -0.05, 0.215], [1, 2, 3, 4]]
 planes = [[[0, 0.63, -0.05], [0, 1, 0]]]
 [[material]]
@@ -50,9 +50,9 @@ coat_absorbance = [0, 0.1, 0.75]
 [[task]]
 id = "age"
 question = "How old?"
-stimuli = "once-per-sculpture"
+stimuli = "once-per-object"
 [[frames]]
-sculpture = "p"
+object = "p"
 material = "coat"
 files = "f/x_####.exr"
 first_number = 1
@@ -65,16 +65,16 @@ observers = 5
     CHECK(read.protocol->view.camera_position == glm::dvec3(0.0, -4.5, 1.0));
     CHECK(read.protocol->animation.playback == Playback::ping_pong);
     CHECK(read.protocol->animation.amplitude.value == 12.5);
-    const SculptureSettings& sculpture = read.protocol->sculptures.at(0);
-    CHECK(sculpture.mesh == "scans/p.ply");
-    CHECK(sculpture.up == "-y");
-    CHECK(sculpture.scale == 2.0);
-    CHECK(sculpture.head_spheres.at(0) == std::array{0.015, 0.82, -0.05, 0.215});
-    CHECK(sculpture.head_spheres.at(1) == std::array{1.0, 2.0, 3.0, 4.0});
-    CHECK(sculpture.head_planes == std::vector{std::array{0.0, 0.63, -0.05, 0.0, 1.0, 0.0}});
+    const ObjectSettings& object = read.protocol->objects.at(0);
+    CHECK(object.mesh == "scans/p.ply");
+    CHECK(object.up == "-y");
+    CHECK(object.scale == 2.0);
+    CHECK(object.head_spheres.at(0) == std::array{0.015, 0.82, -0.05, 0.215});
+    CHECK(object.head_spheres.at(1) == std::array{1.0, 2.0, 3.0, 4.0});
+    CHECK(object.head_planes == std::vector{std::array{0.0, 0.63, -0.05, 0.0, 1.0, 0.0}});
     CHECK(read.protocol->materials.at(0).kind == MaterialKind::coated_conductor);
     CHECK(read.protocol->materials.at(0).coat_absorbance == std::array{0.0, 0.1, 0.75});
-    CHECK(read.protocol->tasks.at(0).stimuli == TaskCoverage::once_per_sculpture);
+    CHECK(read.protocol->tasks.at(0).stimuli == TaskCoverage::once_per_object);
     CHECK(read.protocol->frames.at(0).encoding == FrameEncoding::srgb);
     CHECK(frame_file(read.protocol->frames.at(0), {7}) == "f/x_0008.exr");
     CHECK(find_frames(*read.protocol, 0, 0) == &read.protocol->frames.at(0));
@@ -82,12 +82,12 @@ observers = 5
 
 TEST_CASE("paths count from the protocol's folder", "[unit]") {
     Diagnostics diagnostics;
-    const std::string text = std::string(minimal_protocol) + "[[sculpture]]\nid = \"m\"\nmesh = \"m.ply\"\n"
+    const std::string text = std::string(minimal_protocol) + "[[object]]\nid = \"m\"\nmesh = \"m.ply\"\n"
                                                              "[light]\nprobe = \"/lab/square.exr\"\n";
     const auto protocol = read_protocol_text(text, "/lab/study/p.toml", shipped_names, diagnostics);
     REQUIRE(protocol);
-    CHECK(protocol->sculptures.at(1).mesh == "/lab/study/m.ply");
-    CHECK(protocol->sculptures.at(0).mesh.empty());
+    CHECK(protocol->objects.at(1).mesh == "/lab/study/m.ply");
+    CHECK(protocol->objects.at(0).mesh.empty());
     CHECK(protocol->light.probe == "/lab/square.exr");
     CHECK(protocol->text == text);
     CHECK(protocol->file == "/lab/study/p.toml");
@@ -118,7 +118,7 @@ TEST_CASE("sections and lists are told apart", "[unit]") {
           Lines{"1:11: display: expected a section, found a whole number"});
     CHECK(ReadText("gamma = 2.2\n", minimal_protocol).lines() ==
           Lines{"1:1: key \"gamma\" stands outside all sections"});
-    CHECK(ReadText(minimal_protocol, "[frames]\nsculpture = \"a\"\n").lines() ==
+    CHECK(ReadText(minimal_protocol, "[frames]\nobject = \"a\"\n").lines() ==
           Lines{"12:1: frames: expected a list of sections"});
 }
 
@@ -130,11 +130,11 @@ TEST_CASE("a key in the wrong section is sent home", "[unit]") {
 
 TEST_CASE("an empty file is told what it needs", "[unit]") {
     CHECK(ReadText("").lines() == Lines{"1:1: [protocol] has no \"name\"", "1:1: there is no [[task]]",
-                                        "1:1: there is no [[sculpture]]", "1:1: there is no [[material]]"});
+                                        "1:1: there is no [[object]]", "1:1: there is no [[material]]"});
 }
 
 TEST_CASE("head shapes that cannot be are found where they stand", "[unit]") {
-    const std::string mesh = "[[sculpture]]\nid = \"m\"\nmesh = \"m.ply\"\n"; // lines 12 to 14
+    const std::string mesh = "[[object]]\nid = \"m\"\nmesh = \"m.ply\"\n"; // lines 12 to 14
     CHECK(ReadText(minimal_protocol, mesh + "head = { spheres = [[1, 2, 3, 0]] }\n").lines() ==
           Lines{"15:21: spheres: a sphere's radius of 0 is not above 0"});
     CHECK(ReadText(minimal_protocol, mesh + "head = { spheres = [[1, 2, 3]] }\n").lines() ==

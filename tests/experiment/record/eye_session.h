@@ -18,7 +18,7 @@ inline SessionHeader eye_session_header() {
     header.protocol.title = "Blick, 視線, نظرة";
     header.tasks = {{"free", "Schauen Sie sich um; ganz frei"}, {"age", "何歳？\tقل"}};
     header.tracker = {"simuliert – ü", 2000.0, Eye::left};
-    header.sculptures[0].title = "Büste";
+    header.objects[0].title = "Büste";
     header.stimuli = {{{0, 0}, "rendered", std::string(64, 'c')},
                       {{0, 1}, "rendered", std::string(64, 'c')},
                       {{1, 0}, "rendered", std::string(64, 'c')},

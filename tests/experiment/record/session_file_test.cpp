@@ -17,10 +17,10 @@ using Catch::Matchers::Contains;
 
 TEST_CASE("a record that names files outside of its folder is refused, whatever names them", "[unit]") {
     for (const char* const change :
-         {"UPDATE sculpture SET mesh_file = '../../secret.ply' WHERE sculpture = 0",
-          "UPDATE sculpture SET mesh_file = '/etc/passwd' WHERE sculpture = 1",
+         {"UPDATE object SET mesh_file = '../../secret.ply' WHERE object = 0",
+          "UPDATE object SET mesh_file = '/etc/passwd' WHERE object = 1",
           "UPDATE map SET file = 'maps/../../x.exr' WHERE pose = 0",
-          "UPDATE map SET file = '' WHERE pose = 0", "UPDATE sculpture SET id = '../x' WHERE sculpture = 0",
+          "UPDATE map SET file = '' WHERE pose = 0", "UPDATE object SET id = '../x' WHERE object = 0",
           "UPDATE task SET id = 'a/b' WHERE task = 0", "UPDATE material SET id = '..' WHERE material = 1",
           "UPDATE session SET protocol_name = '../..'", "UPDATE session SET observer_label = '../a'"}) {
         CAPTURE(change);
@@ -40,9 +40,8 @@ TEST_CASE("an answer's file outside of the session is refused", "[unit]") {
     {
         SQLite::Database database(file.string(), SQLite::OPEN_READWRITE);
         database.exec("INSERT INTO sitting (sitting, started_utc, closed) VALUES (9, '', 1)");
-        database.exec(
-            "INSERT INTO trial (trial_id, sitting, trial, attempt, task, sculpture, material, status, "
-            "started_ns) VALUES (1, 9, 0, 1, 0, 0, 0, 'completed', 0)");
+        database.exec("INSERT INTO trial (trial_id, sitting, trial, attempt, task, object, material, status, "
+                      "started_ns) VALUES (1, 9, 0, 1, 0, 0, 0, 'completed', 0)");
         database.exec(
             "INSERT INTO answer_recording VALUES (1, '../../secret.wav', '', '', 1, 1, 16, 0, 1, 0, 0, 0, "
             "0, 0, 0, 0, NULL, NULL, '')");

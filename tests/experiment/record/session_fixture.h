@@ -20,7 +20,7 @@ inline std::string text_of(const std::filesystem::path& file) {
     return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-/// Two sculptures, two materials, two tasks, four trials; every field has a value of its own.
+/// Two objects, two materials, two tasks, four trials; every field has a value of its own.
 inline SessionHeader example_header() {
     SessionHeader header;
     header.protocol = {"tiny", "A tiny protocol", "name = \"tiny\" # ü\n",
@@ -45,16 +45,16 @@ inline SessionHeader example_header() {
     header.poses = {{Degrees{-12.5}, Degrees{0.1}, Degrees{12.5}},
                     {PoseIndex{0}, PoseIndex{1}, PoseIndex{2}}};
     header.tasks = {{"free", "Look around"}, {"age", "How old?\tSay it."}};
-    RecordedSculpture bust{"bust",
-                           "A bust",
-                           std::string(64, 'a'),
-                           "meshes/bust.ply",
-                           {"body", "head"},
-                           {{1.0, -200.5, 3.0}, {0.25, 0.5, 0.75}, Degrees{11.5}},
-                           {1.5, 2.5, 3.5},
-                           {{-1.0, -2.0, -3.0}, {4.0, 5.0, 6.0}}};
-    RecordedSculpture vase{"vase", "A vase", std::string(64, 'b'), "meshes/vase.ply", {"body"}, {}, {}, {}};
-    header.sculptures = {bust, vase};
+    RecordedObject bust{"bust",
+                        "A bust",
+                        std::string(64, 'a'),
+                        "meshes/bust.ply",
+                        {"body", "head"},
+                        {{1.0, -200.5, 3.0}, {0.25, 0.5, 0.75}, Degrees{11.5}},
+                        {1.5, 2.5, 3.5},
+                        {{-1.0, -2.0, -3.0}, {4.0, 5.0, 6.0}}};
+    RecordedObject vase{"vase", "A vase", std::string(64, 'b'), "meshes/vase.ply", {"body"}, {}, {}, {}};
+    header.objects = {bust, vase};
     header.materials = {{"gold", "Gold"}, {"silver", "Silver"}};
     header.stimuli = {{{0, 0}, "rendered", std::string(64, 'c')}, {{1, 1}, "given: a/##.exr", ""}};
     header.maps = {{0,

@@ -60,8 +60,8 @@ TEST_CASE("a session's header comes back from the disk in every field", "[unit]"
     REQUIRE(out.materials.size() == 2);
     CHECK(out.materials[1].id == in.materials[1].id);
     CHECK(out.materials[1].title == in.materials[1].title);
-    REQUIRE(out.sculptures.size() == 2);
-    const RecordedSculpture &bust = out.sculptures[0], &given = in.sculptures[0];
+    REQUIRE(out.objects.size() == 2);
+    const RecordedObject &bust = out.objects[0], &given = in.objects[0];
     CHECK(bust.id == given.id);
     CHECK(bust.title == given.title);
     CHECK(bust.mesh_sha256 == given.mesh_sha256);
@@ -80,7 +80,7 @@ TEST_CASE("a session's header comes back from the disk in every field", "[unit]"
     CHECK(out.stimuli[0].frames_sha256 == in.stimuli[0].frames_sha256);
     REQUIRE(out.maps.size() == 2);
     for (std::size_t i = 0; i < 2; ++i) {
-        CHECK(out.maps[i].sculpture == in.maps[i].sculpture);
+        CHECK(out.maps[i].object == in.maps[i].object);
         CHECK(out.maps[i].pose == in.maps[i].pose);
         CHECK(out.maps[i].file == in.maps[i].file);
         CHECK(out.maps[i].sha256 == in.maps[i].sha256);
@@ -92,7 +92,7 @@ TEST_CASE("a session's header comes back from the disk in every field", "[unit]"
 TEST_CASE("docs/session_format.md has the columns of the header as their tables say", "[unit]") {
     const std::string page = text_of(std::filesystem::path(OVERT_SOURCE_DIR) / "docs/session_format.md");
     for (const std::string& rows :
-         {describe(session_table()), describe(characterisation_table()), describe(sculpture_table())}) {
+         {describe(session_table()), describe(characterisation_table()), describe(object_table())}) {
         INFO("The page must hold these lines:\n" << rows);
         CHECK(page.find("| --- | --- |\n" + rows + "\n") != std::string::npos);
     }

@@ -15,8 +15,8 @@ namespace overt::test {
 
 namespace made_up {
 
-inline StudySculpture sculpture(const std::string& id, double radius) {
-    StudySculpture made;
+inline StudyObject object(const std::string& id, double radius) {
+    StudyObject made;
     auto mesh = std::make_shared<Mesh>(icosphere(radius, 3));
     made.id = id;
     made.title = fmt::format("The {}", id);
@@ -35,9 +35,9 @@ inline StudySculpture sculpture(const std::string& id, double radius) {
 inline StudyMap map(const StudyResults& study, int group, int on, MapWeighting weighting, double height) {
     StudyMap made;
     made.group = group;
-    made.sculpture = on;
+    made.object = on;
     made.weighting = weighting;
-    const Mesh& mesh = *study.sculptures[static_cast<std::size_t>(on)].mesh;
+    const Mesh& mesh = *study.objects[static_cast<std::size_t>(on)].mesh;
     const double radius = glm::length(mesh.positions.front());
     for (const glm::vec3& position : mesh.positions) {
         const glm::dvec3 away =
@@ -59,7 +59,7 @@ inline StudyMap map(const StudyResults& study, int group, int on, MapWeighting w
 
 inline void add_trial(StudyResults& study, int number) {
     StudyTrial trial;
-    trial.sculpture = number % 2;
+    trial.object = number % 2;
     trial.label = fmt::format("observer 01, trial {}", number + 1);
     trial.number = number + 1;
     trial.keys = study.groups[static_cast<std::size_t>(number)].keys;
@@ -75,7 +75,7 @@ inline void add_trial(StudyResults& study, int number) {
     trial.fixations = 20;
     StudyTrace trace;
     trace.trial = number;
-    const Mesh& mesh = *study.sculptures[static_cast<std::size_t>(trial.sculpture)].mesh;
+    const Mesh& mesh = *study.objects[static_cast<std::size_t>(trial.object)].mesh;
     const auto place = [number](int at) {
         return ScreenPoint{960.0 + 100.0 * std::sin(at + number), 540.0 + 120.0 * std::cos(1.3 * at)};
     };
@@ -109,7 +109,7 @@ inline void add_trial(StudyResults& study, int number) {
 
 } // namespace made_up
 
-/// Two tasks, two sculptures, two materials. Its texts try to break out of the page.
+/// Two tasks, two objects, two materials. Its texts try to break out of the page.
 inline StudyResults made_up_study() {
     StudyResults study;
     study.glance = {"A </script><script>throw 1</script> study",
@@ -125,7 +125,7 @@ inline StudyResults made_up_study() {
                     14.0,
                     true};
     study.remarks = {"One session has <b>another</b> protocol.", "{{DATA}} </script> <!-- <script>"};
-    study.by = {"task", "sculpture", "material"};
+    study.by = {"task", "object", "material"};
     study.parameters = {{"sigma", "1", "deg", "The kernel's standard deviation is 1 degree."}};
     StudySession session;
     session.folder = "sub-01_ses-01";
@@ -135,20 +135,19 @@ inline StudyResults made_up_study() {
     session.events = "Fixations are those that the tracker told.";
     study.sessions.push_back(session);
     study.session_quality.push_back({});
-    study.sculptures = {made_up::sculpture("ball", 50.0), made_up::sculpture("globe", 80.0)};
+    study.objects = {made_up::object("ball", 50.0), made_up::object("globe", 80.0)};
     for (const std::string task : {"free", "age"}) {
         for (const int on : {0, 1}) {
             for (const std::string material : {"smooth", "rough"}) {
                 const auto group = static_cast<int>(study.groups.size());
-                const std::string& id = study.sculptures[static_cast<std::size_t>(on)].id;
-                study.groups.push_back(
-                    {{{"task", task}, {"sculpture", id}, {"material", material}}, {}, 3, 40});
+                const std::string& id = study.objects[static_cast<std::size_t>(on)].id;
+                study.groups.push_back({{{"task", task}, {"object", id}, {"material", material}}, {}, 3, 40});
                 const double height = task == "free" ? 0.3 : 0.9;
                 for (const MapWeighting weighting : {MapWeighting::duration, MapWeighting::count})
                     study.maps.push_back(made_up::map(study, group, on, weighting, height));
                 DistributionRow row;
                 row.group = group;
-                row.sculpture = on;
+                row.object = on;
                 row.wss_mm2 = Estimate::of(500.0 + 20.0 * group, Interval{400.0, 700.0});
                 row.wss_deg2 = Estimate::of(0.5);
                 row.variance_mm2 = {100.0, 200.0, 200.0 + 20.0 * group};

@@ -49,13 +49,13 @@ TEST_CASE("the report's data come back from the page, whatever a session's texts
 TEST_CASE("coloured meshes are written of all maps that there are, with an index", "[unit]") {
     const test::TemporaryFolder folder;
     const StudyResults study = test::made_up_study();
-    // Eight maps by duration, one difference, and of two sculptures the exposure and the time visible; the
+    // Eight maps by duration, one difference, and of two objects the exposure and the time visible; the
     // last map, which is by count, is absent.
     CHECK(write_surfaces(study, folder.path() / "surfaces") == 13);
     CHECK(std::filesystem::exists(folder.path() / "surfaces/exposure_ball.glb"));
     CHECK(std::filesystem::exists(folder.path() / "surfaces/visible_globe.ply"));
     CHECK(std::filesystem::exists(folder.path() /
-                                  "surfaces/map_ball_task_free__sculpture_ball__material_smooth.glb"));
+                                  "surfaces/map_ball_task_free__object_ball__material_smooth.glb"));
     const std::string index = read_whole_file(folder.path() / "surfaces/index.csv");
     CHECK(std::count(index.begin(), index.end(), '\n') == 1 + 2 * 13);
 }
@@ -145,7 +145,7 @@ TEST_CASE("the page's tables have a column for each factor, sort, filter, and sa
     const nlohmann::ordered_json seen = seen_of(test::made_up_study(), 1400);
     REQUIRE(seen.contains("csv"));
     const auto heads = seen["factors"].get<std::vector<std::string>>();
-    for (const std::string factor : {"task", "material", "sculpture"})
+    for (const std::string factor : {"task", "material", "object"})
         CHECK(std::ranges::count(heads, factor) == 1);
     CHECK(seen["stuck"] == "sticky");
     CHECK(seen["focusable"] == true);
@@ -168,7 +168,7 @@ TEST_CASE("the page's tables have a column for each factor, sort, filter, and sa
     CHECK(seen["file"] == "figure_5.csv");
     const auto csv = seen["csv"].get<std::string>();
     CHECK(std::ranges::count(csv, '\n') == 3);
-    CHECK(csv.starts_with("task,material,sculpture,mean WSS / "));
+    CHECK(csv.starts_with("task,material,object,mean WSS / "));
     CHECK(csv.find(" low,mean WSS / ") != std::string::npos);
     CHECK(csv.find("free,rough,The ball,") != std::string::npos);
 }
@@ -181,7 +181,7 @@ TEST_CASE("nothing of the page is cut or lies on something else, in windows of a
     StudyResults study = test::made_up_study();
     const auto rename = [](std::vector<StudyKey>& keys) {
         for (StudyKey& key : keys)
-            if (key.column != "sculpture")
+            if (key.column != "object")
                 key.value += " of those who look for a person that has been here before";
     };
     for (StudyGroup& group : study.groups)

@@ -16,8 +16,8 @@ TEST_CASE("volumes of maps hold the time of their fixations, where these are", "
     PaintedStudy study(2, 2, 5, [](int, int level, RandomStream& random) {
         return near(level == 0 ? front : top, 0.05, random);
     });
-    study.results.sculptures[0].title = "The \"ball\", turned";
-    *study.results.sculptures[0].mm_per_unit = 2.0;
+    study.results.objects[0].title = "The \"ball\", turned";
+    *study.results.objects[0].mm_per_unit = 2.0;
     for (int group = 0; group < 2; ++group) {
         for (const MapWeighting weighting : {MapWeighting::duration, MapWeighting::count}) {
             StudyMap& map = study.results.maps.emplace_back();
@@ -26,7 +26,7 @@ TEST_CASE("volumes of maps hold the time of their fixations, where these are", "
             map.trials = 2;
         }
     }
-    // A group whose fixations all lie beside the sculpture has no volume.
+    // A group whose fixations all lie beside the object has no volume.
     study.results.groups.push_back({{{"material", "none"}}, {}, 0, 0});
     study.results.maps.emplace_back().group = 2;
     const TemporaryFolder folder;

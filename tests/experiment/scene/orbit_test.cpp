@@ -1,4 +1,4 @@
-/// Looking at a sculpture that is turned by hand.
+/// Looking at an object that is turned by hand.
 #include <catch2/catch.hpp>
 
 #include "experiment/base/random.h"
@@ -18,7 +18,7 @@ SceneView a_scene() {
 
 } // namespace
 
-TEST_CASE("without a drag a sculpture is seen as its protocol shows it", "[unit]") {
+TEST_CASE("without a drag an object is seen as its protocol shows it", "[unit]") {
     const SceneView scene = a_scene(), seen = seen_from(scene, {});
     CHECK(glm::length(seen.view.camera.position - scene.view.camera.position) < 1e-12);
     CHECK(seen.view.camera.target == scene.view.camera.target);

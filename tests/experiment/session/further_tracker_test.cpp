@@ -143,7 +143,7 @@ TEST_CASE("a further tracker that the operator gives up is left out until it is 
 
 TEST_CASE("practice leaves no rows in a further tracker's record, and its calibrations stand there",
           "[unit]") {
-    SittingOfTwo plain, practised("[[practice]]\ntask = \"free\"\nsculpture = \"a\"\nmaterial = \"clay\"\n");
+    SittingOfTwo plain, practised("[[practice]]\ntask = \"free\"\nobject = \"a\"\nmaterial = \"clay\"\n");
     CHECK(plain.run().completed_trials == 2);
     bool was_pressed = false;
     practised.panel.tell = [&](ScriptedPanel& panel) -> std::optional<ResponsePress> {

@@ -253,7 +253,7 @@ TEST_CASE("a text stands until a key is pressed, however little time there is to
     Sitting sitting(short_protocol("[screens]\nresponse_min_s = 0\nresponse_max_s = 0.5\n"
                                    "[instructions]\npages = [\"Page.\"]\n"
                                    "[[block]]\nid = \"one\"\ninstructions = \"Block.\"\n"
-                                   "[[practice]]\ntask = \"free\"\nsculpture = \"a\"\n"
+                                   "[[practice]]\ntask = \"free\"\nobject = \"a\"\n"
                                    "material = \"clay\"\nfeedback = \"Good.\"\n"));
     using enum SessionPhase;
     constexpr int patience = 1000; // looks, 4 ms apart

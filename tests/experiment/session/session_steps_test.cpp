@@ -7,7 +7,7 @@ using namespace overt;
 using namespace overt::test;
 
 TEST_CASE("practice shows its stimulus and its feedback, and leaves no rows but events", "[unit]") {
-    Sitting sitting(short_protocol("[[practice]]\ntask = \"free\"\nsculpture = \"a\"\nmaterial = \"clay\"\n"
+    Sitting sitting(short_protocol("[[practice]]\ntask = \"free\"\nobject = \"a\"\nmaterial = \"clay\"\n"
                                    "feedback = \"That was right.\"\n"));
     const SessionResult result = sitting.run();
     CHECK_FALSE(result.aborted);
@@ -95,7 +95,7 @@ TEST_CASE("practice that the operator repeats comes again at once; skipped, it w
         for (const std::string rejected : {"end-of-block", "never"}) {
             CAPTURE(name_of(key), rejected);
             Sitting sitting(short_protocol("[repeat]\nrejected = \"" + rejected +
-                                           "\"\n[[practice]]\ntask = \"free\"\nsculpture = \"a\"\n"
+                                           "\"\n[[practice]]\ntask = \"free\"\nobject = \"a\"\n"
                                            "material = \"clay\"\nfeedback = \"Good.\"\n"));
             int presses = 0;
             sitting.panel.tell = [&](ScriptedPanel& panel) -> std::optional<ResponsePress> {

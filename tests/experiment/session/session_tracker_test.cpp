@@ -168,7 +168,7 @@ TEST_CASE("a tracker is told of trials, onsets, frames and results at the times 
         return std::count_if(begin, second,
                              [&](const std::string& text) { return text.starts_with(beginning); });
     };
-    for (const char* const name : {"task", "sculpture", "material", "missed_refreshes"})
+    for (const char* const name : {"task", "object", "material", "missed_refreshes"})
         CHECK(tells(std::string("!V TRIAL_VAR ") + name + " ") == 1);
     CHECK(std::count(begin, second, "TRIAL_RESULT 0") == 1);
     for (const std::string& text : texts)

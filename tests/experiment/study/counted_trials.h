@@ -14,7 +14,7 @@
 namespace overt::test {
 
 struct TrialOfDesign {
-    int observer = 0, task = 0, sculpture = 0, material = 0;
+    int observer = 0, task = 0, object = 0, material = 0;
 };
 
 /// Where a trial's fixations go: each to the head with this probability, normally about the middle along each
@@ -23,32 +23,32 @@ struct LooksOfTrial {
     double head_share = 0.5, spread_mm = 20.0;
 };
 
-/// Three sculptures in three materials. Tasks 0 and 1 are asked of all nine, tasks 2 to 5 once of each
-/// sculpture, whose material goes round over the observers: 30 trials each.
+/// Three objects in three materials. Tasks 0 and 1 are asked of all nine, tasks 2 to 5 once of each
+/// object, whose material goes round over the observers: 30 trials each.
 class CountedTrials {
   public:
     using Looks = std::function<LooksOfTrial(const TrialOfDesign&, RandomStream&)>;
 
     CountedTrials(int observers, const Looks& looks, std::uint64_t seed = 1, int fixations = 20) {
         for (int i = 0; i < 3; ++i) {
-            StudySculpture& sculpture = results.sculptures.emplace_back();
-            sculpture.id = fmt::format("sculpture {}", i);
-            sculpture.part_names = {"body", "head"};
-            sculpture.head = PartIndex{1};
-            sculpture.mm_per_unit = 1.0;
+            StudyObject& object = results.objects.emplace_back();
+            object.id = fmt::format("object {}", i);
+            object.part_names = {"body", "head"};
+            object.head = PartIndex{1};
+            object.mm_per_unit = 1.0;
         }
-        results.by = options.by = {"task", "sculpture", "material"};
+        results.by = options.by = {"task", "object", "material"};
         for (int observer = 0; observer < observers; ++observer) {
             results.sessions.emplace_back().observer = fmt::format("{:02}", observer + 1);
             int number = 0;
             for (int task = 0; task < 6; ++task) {
-                for (int sculpture = 0; sculpture < 3; ++sculpture) {
+                for (int object = 0; object < 3; ++object) {
                     for (int material = 0; material < 3; ++material) {
-                        if (task >= 2 && material != (observer + task + sculpture) % 3)
+                        if (task >= 2 && material != (observer + task + object) % 3)
                             continue;
                         RandomStream random(seed, "counted trials",
                                             static_cast<std::uint64_t>(100 * observer + number));
-                        const TrialOfDesign trial{observer, task, sculpture, material};
+                        const TrialOfDesign trial{observer, task, object, material};
                         add(trial, ++number, looks(trial, random), fixations, random);
                     }
                 }
@@ -64,11 +64,11 @@ class CountedTrials {
              RandomStream& random) {
         StudyTrial trial;
         trial.session = of.observer;
-        trial.sculpture = of.sculpture;
+        trial.object = of.object;
         trial.number = number;
         trial.keys = {{"observer", results.sessions.back().observer},
                       {"task", fmt::format("task {}", of.task)},
-                      {"sculpture", results.sculptures[static_cast<std::size_t>(of.sculpture)].id},
+                      {"object", results.objects[static_cast<std::size_t>(of.object)].id},
                       {"material", fmt::format("material {}", of.material)}};
         trial.presentation_s = 8.0;
         trial.first_fixation = results.fixations.size();

@@ -161,7 +161,7 @@ TEST_CASE("the error budget is what its parts say, in millimetres", "[unit]") {
     CHECK(!results.maps[0].error.together_mm);
     CHECK(results.maps[0].error.timing_mm);
 
-    // A sculpture that stands still needs no clock.
+    // An object that stands still needs no clock.
     results.trials[0].turns.resize(1);
-    CHECK(surface_speed_mm_s(results.fixations[0], results.trials[0], results.sculptures[0]) == 0.0);
+    CHECK(surface_speed_mm_s(results.fixations[0], results.trials[0], results.objects[0]) == 0.0);
 }

@@ -29,7 +29,7 @@ TEST_CASE("effects that are planted are found, and others are not", "[unit]") {
     // share, and spreads fixations.
     CountedTrials study(12, [](const TrialOfDesign& trial, RandomStream& random) {
         RandomStream own(5, "observer's own", static_cast<std::uint64_t>(10 * trial.observer + trial.task));
-        const double odds = -1.0 + 0.8 * (trial.task == 1) + 0.4 * own.normal() + 0.5 * trial.sculpture;
+        const double odds = -1.0 + 0.8 * (trial.task == 1) + 0.4 * own.normal() + 0.5 * trial.object;
         const double spread = std::exp(0.25 * trial.material + 0.1 * own.normal() + 0.1 * random.normal());
         return LooksOfTrial{1.0 / (1.0 + std::exp(-odds)), 20.0 * spread};
     });
@@ -60,11 +60,11 @@ TEST_CASE("an interaction is found that no factor alone shows", "[unit]") {
     CHECK(row_of(rows, "head fraction", "material").p > 0.05);
 }
 
-TEST_CASE("without an effect of a factor few studies find one, whatever sculptures and tasks do", "[unit]") {
-    // Tasks 3 to 6 are asked once for each sculpture, whose material goes round over the observers. Tasks
-    // move the head's share by sculpture, and each observer's tasks and materials their own way: none of
+TEST_CASE("without an effect of a factor few studies find one, whatever objects and tasks do", "[unit]") {
+    // Tasks 3 to 6 are asked once for each object, whose material goes round over the observers. Tasks
+    // move the head's share by object, and each observer's tasks and materials their own way: none of
     // this is an effect of material, nor, since these ways are about 0, one of both together. Four
-    // observers are no whole number of rounds, so that what sculptures do has to be taken off.
+    // observers are no whole number of rounds, so that what objects do has to be taken off.
     constexpr int studies = 200;
     int material = 0, both = 0, task = 0;
     for (int study = 0; study < studies; ++study) {
@@ -76,7 +76,7 @@ TEST_CASE("without an effect of a factor few studies find one, whatever sculptur
                 };
                 RandomStream of_task(9, "task", index(trial.task)),
                     of_material(9, "material", index(6 + trial.material));
-                const double effect = study % 2 == 0 ? 0.9 * trial.task * (trial.sculpture - 1) : 0.0;
+                const double effect = study % 2 == 0 ? 0.9 * trial.task * (trial.object - 1) : 0.0;
                 const double odds = -0.5 + effect + 0.5 * of_task.normal() + 0.5 * of_material.normal();
                 return LooksOfTrial{1.0 / (1.0 + std::exp(-odds)), 20.0};
             },
@@ -111,9 +111,9 @@ TEST_CASE("where an effect cannot be tested the row says why", "[unit]") {
     const auto others = factor_effects(study.results, {}, study.options);
     CHECK(row_of(others, "log WSS", "unknown").absent == "there is one level alone");
     CHECK(row_of(others, "log WSS", "task:unknown").absent == "one of both has one level alone");
-    // A sculpture without a head has no share of it.
-    for (StudySculpture& sculpture : study.results.sculptures)
-        sculpture.head.reset();
+    // An object without a head has no share of it.
+    for (StudyObject& object : study.results.objects)
+        object.head.reset();
     const auto headless = factor_effects(study.results, {}, study.options);
     CHECK(row_of(headless, "head fraction", "task").absent ==
           "no two levels were measured with all else alike");

@@ -61,7 +61,7 @@ TEST_CASE("what could never be seen is no part of what maps are told from", "[un
                          *row_of(rows, 0, MapPredictor::same_level).gain_over_area.value);
     };
     const auto [auc_whole, gain_whole] = auc();
-    StudySculpture& ball = study.results.sculptures[0];
+    StudyObject& ball = study.results.objects[0];
     for (std::size_t v = 0; v < ball.seconds_visible.size(); ++v) {
         if (ball.mesh->positions[v].y > 0.0f)
             ball.seconds_visible[v] = ball.exposure_density[v] = 0.0f;

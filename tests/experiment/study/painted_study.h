@@ -30,7 +30,7 @@ class PaintedStudy {
         mesh->part_names = {"body", "head"};
         for (std::size_t t = 0; t < mesh->triangles.size(); ++t)
             mesh->triangle_parts[t] = mesh->positions[mesh->triangles[t].x].z > 70.0f ? 1 : 0;
-        StudySculpture ball;
+        StudyObject ball;
         ball.id = "ball";
         ball.part_names = mesh->part_names;
         ball.head = PartIndex{1};
@@ -38,10 +38,10 @@ class PaintedStudy {
         ball.seconds_visible.assign(mesh->positions.size(), 8.0f);
         ball.exposure_density.assign(mesh->positions.size(), 1.0f);
         ball.mesh = mesh;
-        results.sculptures.push_back(std::move(ball));
+        results.objects.push_back(std::move(ball));
         results.by = options.by = {"material"};
         options.resamples = 200;
-        SculptureSurface& surface = surfaces.emplace_back();
+        ObjectSurface& surface = surfaces.emplace_back();
         surface.geometry = std::make_unique<SurfaceGeometry>(*mesh);
         surface.areas_mm2 = surface.geometry->vertex_areas_mm2();
         surface.scale = ObjectScale{1.0, 1000.0, 30.0};
@@ -68,7 +68,7 @@ class PaintedStudy {
     }
 
     StudyResults results;
-    std::vector<SculptureSurface> surfaces;
+    std::vector<ObjectSurface> surfaces;
     StudyOptions options;
 
   private:

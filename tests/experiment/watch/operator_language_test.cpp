@@ -18,7 +18,7 @@ SessionView some_view() {
     view.trial = 3;
     view.task = "age";
     view.question = "How <b>old</b>?\nSay it \"aloud\" – 好";
-    view.sculpture = "bust";
+    view.object = "bust";
     view.material = "matt";
     view.light_file = "stimuli/bust_matt.exr";
     view.done = 3;
@@ -86,7 +86,7 @@ TEST_CASE("a state comes out of its line as it went in", "[unit]") {
 TEST_CASE("no state makes a line that is longer than the language allows", "[unit]") {
     SessionView view = some_view();
     const std::string endless(100'000, '\x01');
-    view.task = view.question = view.sculpture = view.material = view.asks = view.answer = endless;
+    view.task = view.question = view.object = view.material = view.asks = view.answer = endless;
     const std::string line = line_of(view);
     CHECK(line.size() <= longest_view_line);
     REQUIRE(read_view_line(line).view);
@@ -227,7 +227,7 @@ TEST_CASE("a view is the sum of its news, and counts stay right where some were 
             some.apply(news[i]);
     CHECK(all.view().samples == 4000);
     CHECK(all.view().lost == 40);
-    CHECK(all.view().sculpture == "bust");
+    CHECK(all.view().object == "bust");
     CHECK(all.view().phase == "stimulus");
     CHECK(some.view().samples == all.view().samples);
     CHECK(some.view().lost == all.view().lost);

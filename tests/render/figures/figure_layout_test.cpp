@@ -78,7 +78,7 @@ StudyResults study_with(int factors, int levels, Naming name, double value) {
     const std::vector<std::string> columns{"task", "material", "the_hand_that_writes",
                                            "age",  "lamp",     "block"};
     study.by.assign(columns.begin(), columns.begin() + factors);
-    study.sculptures = {test::made_up::sculpture(name(0), 50.0)};
+    study.objects = {test::made_up::object(name(0), 50.0)};
     for (int level = 0; level < levels; ++level) {
         std::vector<StudyKey> keys;
         for (const std::string& column : study.by)
@@ -105,7 +105,7 @@ StudyResults study_with(int factors, int levels, Naming name, double value) {
         study.distributions.push_back(row);
         PairRow pair;
         pair.keys = keys;
-        pair.column = "sculpture";
+        pair.column = "object";
         pair.a = name(level);
         pair.b = name(level + 1);
         pair.wss_difference_deg2 = Estimate::of(-value, Interval{-2.0 * value, value});

@@ -17,7 +17,7 @@ constexpr glm::ivec2 page_px{24, 16};
 constexpr int pages_each = 9;
 constexpr std::size_t page_bytes = 24 * 16 * 4;
 
-/// Each page a grey of its own; pages of sculpture 9 cannot be read from the third on.
+/// Each page a grey of its own; pages of object 9 cannot be read from the third on.
 class GreyPages final : public FrameSource {
   public:
     std::vector<int> page_of_frame(const Condition&) const override {
@@ -28,14 +28,14 @@ class GreyPages final : public FrameSource {
     }
     LinearImage page(const Condition& condition, int page) const override {
         ++read;
-        if (condition.sculpture == 9 && page >= 3)
+        if (condition.object == 9 && page >= 3)
             throw InputError("page 3 is damaged");
         LinearImage image(page_px);
         for (glm::vec4& pixel : image.pixels)
             pixel = glm::vec4(glm::vec3(static_cast<float>(grey_of(condition, page)) / 255.0f), 1.0f);
         return image;
     }
-    static int grey_of(const Condition& condition, int page) { return 20 * condition.sculpture + page + 1; }
+    static int grey_of(const Condition& condition, int page) { return 20 * condition.object + page + 1; }
 
     mutable std::atomic<int> read{0};
 };

@@ -48,7 +48,7 @@ struct Script {
     const char *name, *text;
 };
 constexpr Script scripts[] = {
-    {"Latin", "Look at the sculpture as you like."},
+    {"Latin", "Look at the object as you like."},
     {"Norwegian", "Se på skulpturen slik du vil, i åtte sekunder – ærlig talt."},
     {"Greek", "Πόσων χρονών είναι αυτό το πρόσωπο;"},
     {"Russian", "Сколько лет этому человеку?"},
@@ -279,7 +279,7 @@ TEST_CASE("a title is larger than its text, and lines are no longer than some si
     CHECK(height("# Title") > 1.25 * height("Title"));
     std::string text;
     for (int word = 0; word < 200; ++word)
-        text += "sculpture ";
+        text += "object ";
     const ScreenTextFit fit = fit_screen(of_text(text), desk(), height_deg);
     const ScreenTextFit sixty = fit_screen(of_text(text.substr(0, 69)), desk(), height_deg);
     CHECK(fit.measure.widest_line_px <= sixty.measure.widest_line_px * 70 / 69);

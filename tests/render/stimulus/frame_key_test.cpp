@@ -17,25 +17,24 @@ namespace {
 
 /// All that a frame comes from, to be changed.
 struct Inputs {
-    Sculpture sculpture;
+    Object object;
     MaterialSettings material;
     LightSettings light;
     BakeSettings settings;
     StandardObserver observer = StandardObserver::cie1931;
 
     ContentHash key() const {
-        return traced_key(sculpture, material, hash_of_surroundings(light), light.exposure, settings,
-                          observer);
+        return traced_key(object, material, hash_of_surroundings(light), light.exposure, settings, observer);
     }
     ContentHash key_live() const {
-        return live_key(sculpture, material, hash_of_surroundings(light), light.exposure);
+        return live_key(object, material, hash_of_surroundings(light), light.exposure);
     }
 };
 
 Inputs some_inputs() {
     Inputs inputs;
-    inputs.sculpture.mesh = bust();
-    inputs.sculpture.mesh_hash = hash_of_mesh(inputs.sculpture.mesh);
+    inputs.object.mesh = bust();
+    inputs.object.mesh_hash = hash_of_mesh(inputs.object.mesh);
     return inputs;
 }
 
@@ -45,11 +44,11 @@ TEST_CASE("whatever makes a traced frame changes its key, and nothing else does"
     const TemporaryFolder folder;
     const std::filesystem::path probe = folder.file("probe.exr", "one"), metal = folder.file("m.csv", "one");
     const std::map<std::string, std::function<void(Inputs&)>> changes{
-        {"mesh", [](Inputs& i) { i.sculpture.mesh_hash = "other"; }},
-        {"camera", [](Inputs& i) { i.sculpture.scene.view.camera.position.x += 1e-9; }},
-        {"target", [](Inputs& i) { i.sculpture.scene.view.camera.target.z += 1e-9; }},
-        {"field of view", [](Inputs& i) { i.sculpture.scene.view.camera.vertical_fov.value += 1e-9; }},
-        {"size", [](Inputs& i) { i.sculpture.scene.view.image_px.y += 1; }},
+        {"mesh", [](Inputs& i) { i.object.mesh_hash = "other"; }},
+        {"camera", [](Inputs& i) { i.object.scene.view.camera.position.x += 1e-9; }},
+        {"target", [](Inputs& i) { i.object.scene.view.camera.target.z += 1e-9; }},
+        {"field of view", [](Inputs& i) { i.object.scene.view.camera.vertical_fov.value += 1e-9; }},
+        {"size", [](Inputs& i) { i.object.scene.view.image_px.y += 1; }},
         {"kind", [](Inputs& i) { i.material.kind = MaterialKind::diffuse; }},
         {"metal", [](Inputs& i) { i.material.metal = "Ag"; }},
         {"roughness", [](Inputs& i) { i.material.roughness *= 1.001; }},
@@ -93,7 +92,7 @@ TEST_CASE("whatever makes a traced frame changes its key, and nothing else does"
     same.light.exposure = 2.0;
     same.settings.most_threads = 1;
     same.material.id = same.material.title = "another name";
-    same.sculpture.id = "another name";
+    same.object.id = "another name";
     CHECK(same.key() == some_inputs().key());
     // Errors are judged in the light that is shown.
     Inputs judged = some_inputs();

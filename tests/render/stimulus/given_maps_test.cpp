@@ -19,11 +19,11 @@ struct GivenBust {
         protocol.view.width_px = 60;
         protocol.view.height_px = 80;
         protocol.animation.frame_count = 5;
-        SculptureSettings sculpture;
-        sculpture.id = "bust";
-        sculpture.lut = (folder.path() / "map_##.png").string();
-        sculpture.head_spheres = {{0.0, -10.0, 245.0, 55.0}};
-        protocol.sculptures.push_back(sculpture);
+        ObjectSettings object;
+        object.id = "bust";
+        object.lut = (folder.path() / "map_##.png").string();
+        object.head_spheres = {{0.0, -10.0, 245.0, 55.0}};
+        protocol.objects.push_back(object);
         scene.view.image_px = {60, 80};
         scene.bounds = mesh.bounds();
         scene.view.camera = fit_camera(mesh, {12.0}, scene.view.image_px, {25.0}, 0.05);
@@ -44,11 +44,11 @@ struct GivenBust {
             description.scale = 65535;
             description.camera = scene.view.camera;
             description.angle = angle;
-            write_coordinate_png(lut_file(protocol.sculptures[0], {frame}), image, description);
+            write_coordinate_png(lut_file(protocol.objects[0], {frame}), image, description);
         }
     }
-    SculptureSettings& settings() { return protocol.sculptures[0]; }
-    std::filesystem::path file(int frame) const { return lut_file(protocol.sculptures[0], {frame}); }
+    ObjectSettings& settings() { return protocol.objects[0]; }
+    std::filesystem::path file(int frame) const { return lut_file(protocol.objects[0], {frame}); }
 
     test::TemporaryFolder folder;
     Mesh mesh = test::bust();
@@ -62,7 +62,7 @@ TEST_CASE("ready-made maps are read with what stands beside them, and the head i
           "[unit]") {
     GivenBust given;
     const CoordinateImageFile map = read_given_map(given.protocol, 0, {1});
-    CHECK(map.description.sculpture == "bust");
+    CHECK(map.description.object == "bust");
     CHECK(map.description.frame == 1);
     CHECK(map.description.angle->value == Approx(25.0));
     CHECK(map.description.camera->position == given.scene.view.camera.position);

@@ -12,14 +12,14 @@ namespace {
 
 constexpr glm::ivec2 small_px{96, 96};
 
-std::vector<Sculpture> one_bust() {
-    Sculpture bust;
+std::vector<Object> one_bust() {
+    Object bust;
     bust.id = "bust";
     bust.mesh = test::bust();
     bust.scene = {{fit_camera(bust.mesh, {12.0}, small_px, {25.0}, 0.05), small_px}, bust.mesh.bounds()};
-    std::vector<Sculpture> sculptures;
-    sculptures.push_back(std::move(bust));
-    return sculptures;
+    std::vector<Object> objects;
+    objects.push_back(std::move(bust));
+    return objects;
 }
 
 /// As a session would: a presentation of all frames, twice over.
@@ -38,20 +38,20 @@ void present(LiveMaps& live, const Animation& animation, const PoseTable& poses)
 } // namespace
 
 TEST_CASE("maps drawn while frames are shown are those drawn before, each pose once", "[gl]") {
-    const std::vector<Sculpture> sculptures = one_bust();
+    const std::vector<Object> objects = one_bust();
     const Animation animation;
     const PoseTable poses = distinct_poses(animation);
     for (const ContextKind kind : test::headless_kinds) {
         const auto context = make_headless_context(kind);
-        LiveMaps live(*context, sculptures, poses, small_px);
+        LiveMaps live(*context, objects, poses, small_px);
         present(live, animation, poses);
         const std::vector<LiveMap> maps = live.take_finished();
         REQUIRE(maps.size() == poses.angles.size());
         CoordinatePass pass(*context, small_px);
-        const MeshBuffers buffers(*context, sculptures[0].mesh);
+        const MeshBuffers buffers(*context, objects[0].mesh);
         for (std::size_t i = 0; i < maps.size(); ++i) {
             CHECK(maps[i].pose.value == static_cast<int>(i));
-            CHECK(maps[i].map.codes == pass.draw(buffers, sculptures[0].scene, poses.angles[i]));
+            CHECK(maps[i].map.codes == pass.draw(buffers, objects[0].scene, poses.angles[i]));
         }
         present(live, animation, poses);
         CHECK(live.take_finished().empty());

@@ -206,7 +206,7 @@ TEST_CASE("an exported session holds its trials, aborted ones too, and nothing b
     CHECK(occurrences("\nEND\t") == 3);
     CHECK(occurrences("DISPLAY_COORDS 0 0 1919 1079\n") == 1);
     CHECK_THAT(text, Contains("simuliert \\u2013 \\u00fc"));
-    CHECK_THAT(text, Contains("CONDITION trial=1 task=age sculpture=bust material=silver attempt=1"));
+    CHECK_THAT(text, Contains("CONDITION trial=1 task=age object=bust material=silver attempt=1"));
     CHECK_THAT(text, Contains("!V TRIAL_VAR frames rendered\n"));
     CHECK(std::all_of(text.begin(), text.end(),
                       [](char c) { return c == '\n' || c == '\t' || (c >= ' ' && c < 127); }));

@@ -38,8 +38,8 @@ std::vector<Row> rows_of(const std::string& tsv) {
 /// How the frames of a row's stimulus were made, by the session's header.
 std::string frames_of(const SessionHeader& header, const Row& row) {
     for (const RecordedStimulus& stimulus : header.stimuli) {
-        const auto& [sculpture, material] = stimulus.condition;
-        if (header.sculptures[static_cast<std::size_t>(sculpture)].id == row.at("sculpture") &&
+        const auto& [object, material] = stimulus.condition;
+        if (header.objects[static_cast<std::size_t>(object)].id == row.at("object") &&
             header.materials[static_cast<std::size_t>(material)].id == row.at("material"))
             return stimulus.source;
     }

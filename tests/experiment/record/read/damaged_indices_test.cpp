@@ -34,8 +34,8 @@ TEST_CASE("an index that leads out of its table is a damage that is named", "[un
     std::filesystem::copy_file(session / session_file_name, sound);
     CHECK_NOTHROW(read_all(sound));
     for (const char* const column :
-         {"trial.task", "trial.sculpture", "trial.material", "schedule.task", "schedule.sculpture",
-          "schedule.material", "stimulus.sculpture", "stimulus.material", "map.sculpture", "map.pose",
+         {"trial.task", "trial.object", "trial.material", "schedule.task", "schedule.object",
+          "schedule.material", "stimulus.object", "stimulus.material", "map.object", "map.pose",
           "animation_frame.pose", "flip.shown", "flip.planned", "flip.pose"})
         for (const int index : {-2, 3, 1'000'000}) {
             CAPTURE(column, index);

@@ -28,24 +28,24 @@ TEST_CASE("lengths in tables are millimetres, and the dictionary says so", "[uni
     }
 }
 
-TEST_CASE("a sculpture whose unit is unknown is named in the dictionary", "[unit]") {
+TEST_CASE("an object whose unit is unknown is named in the dictionary", "[unit]") {
     SessionHeader header = example_header();
-    header.sculptures[1].unit = "own";
+    header.objects[1].unit = "own";
     const nlohmann::json some = samples_dictionary(header);
     CHECK(some["surface_x"]["Units"] == "mm, or as the description says");
     CHECK_THAT(some["depth"]["Description"].get<std::string>(), Contains("of vase in the unit of the mesh"));
-    header.sculptures[0].unit = "own";
+    header.objects[0].unit = "own";
     CHECK(samples_dictionary(header)["surface_x"]["Units"] == "as the description says");
 }
 
 TEST_CASE("a session of a program that did not write the unit down claims no millimetres", "[unit]") {
     const TemporaryFolder root;
     const std::filesystem::path session = make_session(root.path(), example_header());
-    CHECK(SessionRecord(session).header().sculptures[0].unit == "mm");
+    CHECK(SessionRecord(session).header().objects[0].unit == "mm");
     SQLite::Database(session / session_file_name, SQLite::OPEN_READWRITE)
-        .exec("ALTER TABLE sculpture DROP COLUMN unit");
+        .exec("ALTER TABLE object DROP COLUMN unit");
     const SessionRecord record(session);
-    CHECK(record.header().sculptures[0].unit.empty());
+    CHECK(record.header().objects[0].unit.empty());
     const nlohmann::json columns = samples_dictionary(record.header());
     CHECK(columns["surface_z"]["Units"] == "as the description says");
     CHECK_THAT(

@@ -72,7 +72,7 @@ TEST_CASE("a sample's row says when, on which frame and where on the surface it 
     const double x_px = 400.0 + 200.0 * std::cos(3.01);
     CHECK(row["trial"] == "1");
     CHECK(row["task"] == "age");
-    CHECK(row["sculpture"] == "bust");
+    CHECK(row["object"] == "bust");
     CHECK(row["material"] == "silver");
     CHECK(row["time_s"] == "1.150623000");
     CHECK(std::stod(row["time_uncertainty_s"]) > 0.0);

@@ -125,7 +125,7 @@ TEST_CASE("a fixation's part is that of most of its samples", "[unit]") {
     CHECK(trial.fixation(300, 310)->part == PartIndex{0});
 }
 
-TEST_CASE("samples beside the sculpture count within the reach alone, and lost ones not at all", "[unit]") {
+TEST_CASE("samples beside the object count within the reach alone, and lost ones not at all", "[unit]") {
     PlacedTrial trial;
     for (int i = 100; i < 120; ++i) {
         PlacedSample& sample = trial.samples[static_cast<std::size_t>(i)];

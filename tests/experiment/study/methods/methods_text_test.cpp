@@ -40,10 +40,10 @@ SessionSetup measured_setup() {
 struct MadeStudy {
     MadeStudy() {
         results.by = {"material"};
-        results.sculptures.push_back({});
-        results.sculptures[0].id = "vase";
-        results.sculptures[0].title = "A vase";
-        results.sculptures[0].mesh = std::make_shared<Mesh>();
+        results.objects.push_back({});
+        results.objects[0].id = "vase";
+        results.objects[0].title = "A vase";
+        results.objects[0].mesh = std::make_shared<Mesh>();
         for (const std::string observer : {"01", "02"}) {
             StudySession& session = results.sessions.emplace_back();
             session.observer = observer;
@@ -110,7 +110,7 @@ TEST_CASE("methods of measured gaze are told with every value", "[unit]") {
         "light, are not on record. Presentation and recording were by overt 0.9.1.");
     CHECK(
         study.text("Stimuli") ==
-        "1 sculpture (A vase) was shown, in 2 materials (Smooth gold and clay). Pictures had 1024 x 768 "
+        "1 object (A vase) was shown, in 2 materials (Smooth gold and clay). Pictures had 1024 x 768 "
         "pixels "
         "or 22.9 x 17.4 deg; in each presentation, planned for 8 s, the object turned to and fro about the "
         "vertical, as a sine of time, by 25 deg to each side, in 61 frames of one period at 30 Hz. "
@@ -156,7 +156,7 @@ TEST_CASE("methods say what is not known, of each thing that a session can lack"
         trial.quality = {};
         trial.presentation_s = 0.0;
     }
-    study.results.sculptures[0].mesh.reset();
+    study.results.objects[0].mesh.reset();
     study.results.glance.fixations = study.results.glance.counted = 0;
     study.results.glance.not_counted.clear();
     CHECK_THAT(

@@ -40,7 +40,7 @@ std::size_t row_of(const TsvFile& table, const std::string& model, const std::st
 TEST_CASE("the script of mixed models names its table and its factors", "[unit]") {
     const TemporaryFolder folder;
     StudyResults results;
-    results.by = {"task", "sculpture", "observer", "the \"light\""};
+    results.by = {"task", "object", "observer", "the \"light\""};
     write_mixed_models(results, folder.path(), TableFormat::tsv);
     const std::string script = read_whole_file(folder.path() / "mixed_models.R");
     CHECK(script.find("strsplit(\"task,the \\\"light\\\"\", \",\"") != script.npos);
@@ -63,7 +63,7 @@ TEST_CASE("mixed models find what was planted in the tables that are written", "
                 20.0 * std::exp(0.25 * trial.material + 0.1 * random.normal() + 0.1 * own.normal())};
         },
         4, 30);
-    study.results.by = {"sculpture", "material"};
+    study.results.by = {"object", "material"};
     study.results.session_quality.resize(study.results.sessions.size());
     const TemporaryFolder folder;
     write_study_tables(study.results, folder.path(), TableFormat::csv);

@@ -1,4 +1,4 @@
-#include "experiment/stimulus/sculpture.h"
+#include "experiment/stimulus/object.h"
 
 #include <algorithm>
 
@@ -15,7 +15,7 @@ namespace overt {
 
 namespace {
 
-/// Changes whenever a sculpture comes out differently, so that an older one in the cache is not taken.
+/// Changes whenever an object comes out differently, so that an older one in the cache is not taken.
 constexpr int sculpture_version = 1;
 
 } // namespace
@@ -28,13 +28,13 @@ double mm_of_unit(std::string_view unit) {
     return unit == "in" ? 25.4 : 1.0;
 }
 
-std::string_view unit_of_lengths(const SculptureSettings& settings) {
+std::string_view unit_of_lengths(const ObjectSettings& settings) {
     return settings.shipped.empty() && settings.unit == "own" ? "own" : "mm";
 }
 
 namespace {
 
-MeshImport import_of(const SculptureSettings& settings) {
+MeshImport import_of(const ObjectSettings& settings) {
     MeshImport import;
     import.up = up_axis_named(settings.up);
     import.scale = settings.scale * mm_of_unit(settings.unit);
@@ -74,7 +74,7 @@ Camera camera_of(const ViewSettings& settings, const Protocol& protocol, const M
 
 } // namespace
 
-std::optional<PartRegion> head_region(const SculptureSettings& settings) {
+std::optional<PartRegion> head_region(const ObjectSettings& settings) {
     if (settings.head_spheres.empty() && settings.head_planes.empty())
         return std::nullopt;
     PartRegion head{"head", {}, {}};
@@ -93,57 +93,57 @@ ContentHash hash_of_mesh(const Mesh& mesh) {
     return hasher.finish();
 }
 
-Sculpture load_sculpture(const SculptureSettings& settings, const Protocol& protocol,
-                         const std::filesystem::path& cache) {
-    Sculpture sculpture;
-    sculpture.id = settings.id;
+Object load_object(const ObjectSettings& settings, const Protocol& protocol,
+                   const std::filesystem::path& cache) {
+    Object object;
+    object.id = settings.id;
     if (!settings.shipped.empty()) {
-        sculpture.mesh = shipped_sculpture(settings.shipped, cache);
+        object.mesh = shipped_sculpture(settings.shipped, cache);
     } else if (!settings.mesh.empty()) {
         MeshCleaningReport report;
-        sculpture.mesh = import_mesh(settings.mesh, import_of(settings), report);
-        sculpture.remarks = describe(report);
-        sculpture.origin = report.origin;
-        order_for_drawing(sculpture.mesh);
+        object.mesh = import_mesh(settings.mesh, import_of(settings), report);
+        object.remarks = describe(report);
+        object.origin = report.origin;
+        order_for_drawing(object.mesh);
     } else {
         if (!settings.lut.empty()) {
-            sculpture.mesh.part_names = {"body"};
+            object.mesh.part_names = {"body"};
             if (head_region(settings))
-                sculpture.mesh.part_names.emplace_back("head");
+                object.mesh.part_names.emplace_back("head");
         }
-        return sculpture;
+        return object;
     }
-    sculpture.mesh_hash = hash_of_mesh(sculpture.mesh);
-    sculpture.scene.view.image_px = {protocol.view.width_px, protocol.view.height_px};
-    sculpture.scene.bounds = sculpture.mesh.bounds();
-    sculpture.scene.view.camera = camera_of(protocol.view, protocol, sculpture.mesh, sculpture.origin);
+    object.mesh_hash = hash_of_mesh(object.mesh);
+    object.scene.view.image_px = {protocol.view.width_px, protocol.view.height_px};
+    object.scene.bounds = object.mesh.bounds();
+    object.scene.view.camera = camera_of(protocol.view, protocol, object.mesh, object.origin);
     try {
-        depth_range(sculpture.scene.bounds, sculpture.scene.view);
+        depth_range(object.scene.bounds, object.scene.view);
     } catch (const InputError& error) {
-        throw InputError(fmt::format("sculpture \"{}\": {}", settings.id, error.what()));
+        throw InputError(fmt::format("object \"{}\": {}", settings.id, error.what()));
     }
-    return sculpture;
+    return object;
 }
 
-bool is_in_picture(const Sculpture& sculpture, Degrees angle) {
-    const View& view = sculpture.scene.view;
-    const TurntablePose pose = sculpture.scene.pose_at(angle);
+bool is_in_picture(const Object& object, Degrees angle) {
+    const View& view = object.scene.view;
+    const TurntablePose pose = object.scene.pose_at(angle);
     const glm::dmat4 world_from_object = pose.world_from_object();
     const glm::dvec2 size(view.image_px);
-    const bool has_vertex = std::any_of(sculpture.mesh.positions.begin(), sculpture.mesh.positions.end(),
-                                        [&](const glm::vec3& p) {
-                                            const glm::dvec3 world(world_from_object * glm::dvec4(p, 1.0));
-                                            if (view.depth_of(world) <= 0.0)
-                                                return false;
-                                            const glm::dvec2 place = view.project(world);
-                                            return glm::all(glm::greaterThanEqual(place, glm::dvec2(0.0))) &&
-                                                   glm::all(glm::lessThan(place, size));
-                                        });
+    const bool has_vertex =
+        std::any_of(object.mesh.positions.begin(), object.mesh.positions.end(), [&](const glm::vec3& p) {
+            const glm::dvec3 world(world_from_object * glm::dvec4(p, 1.0));
+            if (view.depth_of(world) <= 0.0)
+                return false;
+            const glm::dvec2 place = view.project(world);
+            return glm::all(glm::greaterThanEqual(place, glm::dvec2(0.0))) &&
+                   glm::all(glm::lessThan(place, size));
+        });
     if (has_vertex)
         return true;
     // Seen from very near, one triangle may fill the picture with its corners outside.
     constexpr int rays_each_way = 32;
-    const RayCaster caster(sculpture.mesh);
+    const RayCaster caster(object.mesh);
     for (int i = 0; i < rays_each_way * rays_each_way; ++i) {
         const glm::dvec2 place = (glm::dvec2(i % rays_each_way, i / rays_each_way) + 0.5) * size /
                                  static_cast<double>(rays_each_way);
@@ -153,11 +153,11 @@ bool is_in_picture(const Sculpture& sculpture, Degrees angle) {
     return false;
 }
 
-std::vector<Sculpture> load_sculptures(const Protocol& protocol, const std::filesystem::path& cache) {
-    std::vector<Sculpture> sculptures;
-    for (const SculptureSettings& settings : protocol.sculptures)
-        sculptures.push_back(load_sculpture(settings, protocol, cache));
-    return sculptures;
+std::vector<Object> load_objects(const Protocol& protocol, const std::filesystem::path& cache) {
+    std::vector<Object> objects;
+    for (const ObjectSettings& settings : protocol.objects)
+        objects.push_back(load_object(settings, protocol, cache));
+    return objects;
 }
 
 } // namespace overt

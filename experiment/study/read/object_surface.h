@@ -1,4 +1,4 @@
-/// What maps of a sculpture are made with, and how large it seems.
+/// What maps of an object are made with, and how large it seems.
 #pragma once
 
 #include <memory>
@@ -15,8 +15,8 @@
 
 namespace overt {
 
-/// What maps of a sculpture are made with.
-struct SculptureSurface {
+/// What maps of an object are made with.
+struct ObjectSurface {
     std::unique_ptr<SurfaceGeometry> geometry; ///< null without a mesh, or without a known camera
     std::vector<double> areas_mm2;             ///< by vertex
     std::optional<ObjectScale> scale;
@@ -28,9 +28,9 @@ struct SculptureSurface {
     std::vector<double> pixel_seconds; ///< see Exposure
 };
 
-/// Gives the sculpture its scale, mesh and parts, and a remark on what is missing, and makes what maps need.
+/// Gives the object its scale, mesh and parts, and a remark on what is missing, and makes what maps need.
 /// `lookup`: of a session that has it; null if none has, for a `fault` if that is not empty.
-void add_surface(const SurfaceLookup* lookup, const std::string& fault, StudySculpture& sculpture,
-                 SculptureSurface& surface);
+void add_surface(const SurfaceLookup* lookup, const std::string& fault, StudyObject& object,
+                 ObjectSurface& surface);
 
 } // namespace overt

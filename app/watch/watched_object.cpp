@@ -1,4 +1,4 @@
-#include "app/watch/watched_sculpture.h"
+#include "app/watch/watched_object.h"
 
 #include <algorithm>
 
@@ -14,18 +14,17 @@ namespace overt {
 namespace {
 
 struct Recorded {
-    RecordedSculpture sculpture;
+    RecordedObject object;
     ScreenGeometry screen;
     std::vector<Degrees> angles;
     Mesh mesh;
 };
 
-Recorded read_sculpture(const std::filesystem::path& session, const std::string& id) {
+Recorded read_object(const std::filesystem::path& session, const std::string& id) {
     const SessionRecord record(session);
     const SessionHeader& header = record.header();
-    const auto found = std::ranges::find(header.sculptures, id, &RecordedSculpture::id);
-    if (found == header.sculptures.end() || found->mesh_file.empty() ||
-        found->camera.vertical_fov.value <= 0.0)
+    const auto found = std::ranges::find(header.objects, id, &RecordedObject::id);
+    if (found == header.objects.end() || found->mesh_file.empty() || found->camera.vertical_fov.value <= 0.0)
         throw InputError(fmt::format("{}: has no mesh in {}", id, session.string()));
     MeshCleaningReport unused;
     return {*found, header.display.screen, header.poses.angles,
@@ -34,18 +33,18 @@ Recorded read_sculpture(const std::filesystem::path& session, const std::string&
 
 } // namespace
 
-WatchedSculpture::WatchedSculpture(const std::filesystem::path& session, const std::string& id)
+WatchedObject::WatchedObject(const std::filesystem::path& session, const std::string& id)
     : id_(id), rays_([&] {
-          Recorded recorded = read_sculpture(session, id);
-          unit_ = recorded.sculpture.unit;
+          Recorded recorded = read_object(session, id);
+          unit_ = recorded.object.unit;
           mesh_ = std::move(recorded.mesh);
           screen_ = recorded.screen;
-          scene_ = {{recorded.sculpture.camera, screen_.image_px}, mesh_.bounds()};
+          scene_ = {{recorded.object.camera, screen_.image_px}, mesh_.bounds()};
           angles_ = std::move(recorded.angles);
           return RayCaster(mesh_);
       }()) {}
 
-std::optional<RayHit> WatchedSculpture::met_at(ScreenPoint place, int pose) const {
+std::optional<RayHit> WatchedObject::met_at(ScreenPoint place, int pose) const {
     const glm::dvec2 point = screen_.image_from_screen(place);
     if (pose < 0 || static_cast<std::size_t>(pose) >= angles_.size() || !screen_.is_inside_image(point))
         return std::nullopt;
@@ -53,11 +52,11 @@ std::optional<RayHit> WatchedSculpture::met_at(ScreenPoint place, int pose) cons
         to_object(scene_.view.ray_through(point), scene_.pose_at(angles_[static_cast<std::size_t>(pose)])));
 }
 
-const std::string& WatchedSculpture::part_of(const RayHit& hit) const {
+const std::string& WatchedObject::part_of(const RayHit& hit) const {
     return mesh_.part_names[mesh_.triangle_parts[hit.triangle]];
 }
 
-double WatchedSculpture::degree_on_surface() const {
+double WatchedObject::degree_on_surface() const {
     const double depth = scene_.view.depth_of(scene_.bounds.centre());
     return screen_.px_per_deg_at_centre() * SightLines(scene_, Degrees{0.0}).pixel_width_at(depth);
 }

@@ -1,4 +1,4 @@
-#include "experiment/stimulus/sculpture_size.h"
+#include "experiment/stimulus/object_size.h"
 
 #include <algorithm>
 
@@ -19,15 +19,14 @@ std::string likely_unit(double height_mm) {
 
 } // namespace
 
-SculptureSize size_of(const Sculpture& sculpture, const SculptureSettings& settings,
-                      const Protocol& protocol) {
-    SculptureSize size;
-    size.object = sculpture.scene.bounds.extent();
+ObjectSize size_of(const Object& object, const ObjectSettings& settings, const Protocol& protocol) {
+    ObjectSize size;
+    size.object = object.scene.bounds.extent();
     size.unit = unit_of_lengths(settings);
-    const View& view = sculpture.scene.view;
-    const glm::dmat4 world_from_object = sculpture.scene.pose_at({0.0}).world_from_object();
+    const View& view = object.scene.view;
+    const glm::dmat4 world_from_object = object.scene.pose_at({0.0}).world_from_object();
     glm::dvec2 low(view.image_px), high(0.0);
-    for (const glm::vec3& position : sculpture.mesh.positions) {
+    for (const glm::vec3& position : object.mesh.positions) {
         const glm::dvec3 world(world_from_object * glm::dvec4(position, 1.0));
         if (view.depth_of(world) <= 0.0)
             continue;
@@ -47,19 +46,18 @@ SculptureSize size_of(const Sculpture& sculpture, const SculptureSettings& setti
     return size;
 }
 
-std::optional<SizeDoubt> doubt_of_size(const SculptureSize& size, bool unit_is_written) {
+std::optional<SizeDoubt> doubt_of_size(const ObjectSize& size, bool unit_is_written) {
     const double height = size.object.z;
     const double smallest = unit_is_written ? smallest_stated_mm : smallest_likely_mm,
                  largest = unit_is_written ? largest_stated_mm : largest_likely_mm;
     if (size.unit == "mm" && height < smallest)
         return SizeDoubt{
-            fmt::format("it is {:.3g} mm high, less than {} mm, which few sculptures are", height, smallest),
+            fmt::format("it is {:.3g} mm high, less than {} mm, which few objects are", height, smallest),
             fmt::format("{}unit says what the mesh file's numbers are, scale multiplies them",
                         unit_is_written ? "" : likely_unit(height))};
     if (size.unit == "mm" && height > largest)
         return SizeDoubt{
-            fmt::format("it is {:.6g} mm high, more than {:.0f} mm, which few sculptures are", height,
-                        largest),
+            fmt::format("it is {:.6g} mm high, more than {:.0f} mm, which few objects are", height, largest),
             fmt::format("scale = {:g} would make it {:.3g} mm; unit says what the mesh file's numbers are",
                         height > 1000.0 * largest_likely_mm ? 1e-6 : 1e-3,
                         height * (height > 1000.0 * largest_likely_mm ? 1e-6 : 1e-3))};

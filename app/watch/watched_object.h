@@ -1,4 +1,4 @@
-/// A sculpture of a session that is watched: what gaze on its picture meets.
+/// An object of a session that is watched: what gaze on its picture meets.
 #pragma once
 
 #include <filesystem>
@@ -15,11 +15,11 @@
 namespace overt {
 
 /// May be read from any thread once it is made.
-class WatchedSculpture {
+class WatchedObject {
   public:
-    /// From the session's folder, also while the session runs. Throws InputError for a sculpture without a
+    /// From the session's folder, also while the session runs. Throws InputError for an object without a
     /// mesh or of an unknown camera, and RecordError for what cannot be read.
-    WatchedSculpture(const std::filesystem::path& session, const std::string& id);
+    WatchedObject(const std::filesystem::path& session, const std::string& id);
 
     const std::string& id() const { return id_; }
     const Mesh& mesh() const { return mesh_; }
@@ -29,10 +29,10 @@ class WatchedSculpture {
     const std::string& unit() const { return unit_; }
 
     /// What the line of sight through a place of the screen meets in a pose: the same surface point as the
-    /// session's coordinate maps give. Nothing beside the sculpture.
+    /// session's coordinate maps give. Nothing beside the object.
     std::optional<RayHit> met_at(ScreenPoint place, int pose) const;
 
-    /// Of the sculpture where it was met.
+    /// Of the object where it was met.
     const std::string& part_of(const RayHit& hit) const;
 
     /// What a degree of visual angle is on a surface at the turntable's axis, in the mesh's unit.
