@@ -7,18 +7,22 @@
 
 namespace overt {
 
-/// An object in a material: what the observer looks at. Indices into the protocol's lists.
-struct Condition {
+/// What the observer looks at: an object in a material, under a light, in a motion, in a view. Indices into
+/// the protocol's lists.
+struct Stimulus {
     int object = 0;
     int material = 0;
-    friend constexpr auto operator<=>(const Condition&, const Condition&) = default;
+    int light = 0;
+    int motion = 0;
+    int view = 0;
+    friend constexpr auto operator<=>(const Stimulus&, const Stimulus&) = default;
 };
 
 /// One presentation under one task.
 struct Trial {
     int index = 0; ///< position in the observer's order, from 0
     int task = 0;  ///< index into the protocol's tasks
-    Condition condition;
+    Stimulus stimulus;
     int block = 0; ///< index into the protocol's blocks; 0 if it has none
     friend constexpr bool operator==(const Trial&, const Trial&) = default;
 };

@@ -46,13 +46,13 @@ class Plans {
         const std::optional<Known> known = known_of(trial);
         if (!known)
             return std::nullopt;
-        const Condition& condition = known->condition;
-        const GazePlan plan = gaze_plan(scene_, seed, known->task, condition);
+        const Stimulus& stimulus = known->stimulus;
+        const GazePlan plan = gaze_plan(scene_, seed, known->task, stimulus);
         double share = plan.head_share, elsewhere = 1.0, spots = 0.0;
         for (int i = 0; i < plan.spot_count; ++i) {
             const GazePlan::Spot& spot = plan.spots[static_cast<std::size_t>(i)];
             elsewhere -= spot.share;
-            if (spot_on_head_[static_cast<std::size_t>(condition.object)]
+            if (spot_on_head_[static_cast<std::size_t>(stimulus.object)]
                              [static_cast<std::size_t>(spot.effect)])
                 spots += spot.share;
         }
@@ -66,7 +66,7 @@ class Plans {
         std::vector<glm::dvec3> places;
         const std::optional<Known> known = known_of(trial);
         const GazeTargets* const targets =
-            known ? targets_[static_cast<std::size_t>(known->condition.object)].get() : nullptr;
+            known ? targets_[static_cast<std::size_t>(known->stimulus.object)].get() : nullptr;
         if (!targets)
             return places;
         GazeScript script(scene_, observer_);
@@ -74,7 +74,7 @@ class Plans {
         for (int repeat = 0; repeat < repeats; ++repeat) {
             script.compose(scene_, targets, turn_, observer_,
                            RandomStream(seed, "meant places", static_cast<std::uint64_t>(repeat)).next_bits(),
-                           trial.number, gaze_plan(scene_, seed, known->task, known->condition));
+                           trial.number, gaze_plan(scene_, seed, known->task, known->stimulus));
             // The first was under way at the onset.
             for (const ScriptedFixation& fixation : script.fixations())
                 if (fixation.target && fixation.begin > SessionDuration{} && fixation.begin < end)
@@ -86,13 +86,13 @@ class Plans {
   private:
     struct Known {
         int task = 0;
-        Condition condition;
+        Stimulus stimulus;
     };
     std::optional<Known> known_of(const StudyTrial& trial) const {
         const Known known{number_of(trial.key("task"), protocol_->tasks),
                           {number_of(trial.key("object"), protocol_->objects),
                            number_of(trial.key("material"), protocol_->materials)}};
-        if (known.task < 0 || known.condition.object < 0 || known.condition.material < 0)
+        if (known.task < 0 || known.stimulus.object < 0 || known.stimulus.material < 0)
             return std::nullopt;
         return known;
     }

@@ -87,17 +87,17 @@ class FilesOnDisk final : public FrameSource {
   public:
     FilesOnDisk(std::filesystem::path folder, const FileKind& kind)
         : folder_(std::move(folder)), kind_(kind) {}
-    std::vector<int> page_of_frame(const Condition&) const override {
+    std::vector<int> page_of_frame(const Stimulus&) const override {
         std::vector<int> pages(frame_files);
         std::iota(pages.begin(), pages.end(), 0);
         return pages;
     }
-    LinearImage page(const Condition& condition, int page) const override {
+    LinearImage page(const Stimulus& stimulus, int page) const override {
         LinearImage image;
-        read_page(condition, page, image);
+        read_page(stimulus, page, image);
         return image;
     }
-    const LinearImage& read_page(const Condition&, int page, LinearImage& room) const override {
+    const LinearImage& read_page(const Stimulus&, int page, LinearImage& room) const override {
         read_linear_image(file_of(folder_, kind_, page), kind_.encoding, FileColours::as_they_stand, room);
         return room;
     }

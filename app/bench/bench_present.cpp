@@ -35,13 +35,13 @@ class RandomPages final : public FrameSource {
             }
         }
     }
-    std::vector<int> page_of_frame(const Condition&) const override {
+    std::vector<int> page_of_frame(const Stimulus&) const override {
         std::vector<int> pages(page_count);
         std::iota(pages.begin(), pages.end(), 0);
         return pages;
     }
-    LinearImage page(const Condition&, int page) const override { return picture(page); }
-    const LinearImage& read_page(const Condition&, int page, LinearImage&) const override {
+    LinearImage page(const Stimulus&, int page) const override { return picture(page); }
+    const LinearImage& read_page(const Stimulus&, int page, LinearImage&) const override {
         return picture(page);
     }
 

@@ -29,13 +29,13 @@ class GreyPages final : public FrameSource {
         for (glm::vec4& pixel : picture_.pixels)
             pixel = glm::vec4(glm::vec3(0.3F), 1.0F);
     }
-    std::vector<int> page_of_frame(const Condition&) const override {
+    std::vector<int> page_of_frame(const Stimulus&) const override {
         std::vector<int> pages(shown_frames);
         std::iota(pages.begin(), pages.end(), 0);
         return pages;
     }
-    LinearImage page(const Condition&, int) const override { return picture_; }
-    const LinearImage& read_page(const Condition&, int, LinearImage&) const override { return picture_; }
+    LinearImage page(const Stimulus&, int) const override { return picture_; }
+    const LinearImage& read_page(const Stimulus&, int, LinearImage&) const override { return picture_; }
 
   private:
     LinearImage picture_;

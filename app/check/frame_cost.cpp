@@ -33,9 +33,9 @@ class NoisePages final : public FrameSource {
         for (glm::vec4& pixel : picture_.pixels)
             pixel = glm::vec4(glm::vec3(static_cast<float>(random.uniform())), 1.0f);
     }
-    std::vector<int> page_of_frame(const Condition&) const override { return {0, 1, 2, 3}; }
-    LinearImage page(const Condition&, int) const override { return picture_; }
-    const LinearImage& read_page(const Condition&, int, LinearImage&) const override { return picture_; }
+    std::vector<int> page_of_frame(const Stimulus&) const override { return {0, 1, 2, 3}; }
+    LinearImage page(const Stimulus&, int) const override { return picture_; }
+    const LinearImage& read_page(const Stimulus&, int, LinearImage&) const override { return picture_; }
 
   private:
     LinearImage picture_;

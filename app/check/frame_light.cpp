@@ -30,16 +30,16 @@ std::vector<StimulusLight> measure_light(const Experiment& experiment) {
     }
     for (int i = 0; i < count; ++i) {
         bar.update("light of stimuli", i, count);
-        const Condition condition{i / materials, i % materials};
+        const Stimulus stimulus{i / materials, i % materials};
         StimulusLight light;
-        light.stimulus = protocol.objects[static_cast<std::size_t>(condition.object)].id + "/" +
-                         protocol.materials[static_cast<std::size_t>(condition.material)].id;
-        const std::vector<int> pages = library.page_of_frame(condition);
+        light.stimulus = protocol.objects[static_cast<std::size_t>(stimulus.object)].id + "/" +
+                         protocol.materials[static_cast<std::size_t>(stimulus.material)].id;
+        const std::vector<int> pages = library.page_of_frame(stimulus);
         std::vector<ClippedPixels> counts(
             1 + static_cast<std::size_t>(*std::max_element(pages.begin(), pages.end())));
         parallel_for(static_cast<int>(counts.size()), [&](int page) {
             counts[static_cast<std::size_t>(page)] =
-                count_clipped(library.page(condition, page), protocol.display.background);
+                count_clipped(library.page(stimulus, page), protocol.display.background);
         });
         for (const ClippedPixels& page : counts) {
             light.clipped += page;

@@ -67,8 +67,8 @@ std::vector<TestPicture> test_pictures(glm::ivec2 screen) {
 class TestPages final : public FrameSource {
   public:
     TestPages(const TestPicture& picture, bool is_grey) : picture_(&picture), is_grey_(is_grey) {}
-    std::vector<int> page_of_frame(const Condition&) const override { return {0}; }
-    LinearImage page(const Condition&, int) const override {
+    std::vector<int> page_of_frame(const Stimulus&) const override { return {0}; }
+    LinearImage page(const Stimulus&, int) const override {
         LinearImage image(picture_->size_px);
         RandomStream random(1, picture_->name);
         const auto light = [](int code) { return static_cast<float>(code / 65535.0); };
@@ -209,7 +209,7 @@ void verify_stimuli(ContextKind kind, const Experiment& experiment, const Displa
     const OpenDisplay opened = open_display(kind, geometry.screen_px, protocol.display.output);
     StimulusLibrary library(opened.context(), protocol, experiment.objects, cache_folder());
     ProgressBar bar;
-    std::vector<Condition> stimuli;
+    std::vector<Stimulus> stimuli;
     if (!options.stimulus.empty()) {
         stimuli.push_back(stimulus_called(protocol, options.stimulus));
     } else {
@@ -220,7 +220,7 @@ void verify_stimuli(ContextKind kind, const Experiment& experiment, const Displa
     PagePresenter presenter(opened.context(), opened.surface(), library, geometry, protocol.display,
                             protocol.screens);
     int done = 0;
-    for (const Condition& stimulus : stimuli) {
+    for (const Stimulus& stimulus : stimuli) {
         library.prepare_frames(stimulus, std::ref(bar));
         bar.update("verifying", done++, static_cast<int>(stimuli.size()));
         SignalFindings all;

@@ -17,8 +17,8 @@ class PatchDisplay::Page final : public FrameSource {
   public:
     explicit Page(glm::ivec2 size_px) : size_px_(size_px) {}
     void set(const glm::dvec3& signal) { signal_ = glm::vec3(signal); }
-    std::vector<int> page_of_frame(const Condition&) const override { return {0}; }
-    LinearImage page(const Condition&, int) const override {
+    std::vector<int> page_of_frame(const Stimulus&) const override { return {0}; }
+    LinearImage page(const Stimulus&, int) const override {
         LinearImage image(size_px_);
         std::fill(image.pixels.begin(), image.pixels.end(), glm::vec4(signal_, 1.0f));
         return image;

@@ -37,8 +37,8 @@ constexpr double simulated_hz = 120.0;
 class SquareFrames final : public FrameSource {
   public:
     explicit SquareFrames(glm::ivec2 size_px) : size_px_(size_px) {}
-    std::vector<int> page_of_frame(const Condition&) const override { return {0, 1}; }
-    LinearImage page(const Condition&, int page) const override {
+    std::vector<int> page_of_frame(const Stimulus&) const override { return {0, 1}; }
+    LinearImage page(const Stimulus&, int page) const override {
         LinearImage image(size_px_);
         const auto light = static_cast<float>(page);
         std::ranges::fill(image.pixels, glm::vec4(light, light, light, 1.0F));

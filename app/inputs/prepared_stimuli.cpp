@@ -31,7 +31,7 @@ void make_maps(StimulusLibrary& library, MapsNow maps, const Progress& show) {
 
 /// Of all stimuli with a surface: the session keeps it for the analysis.
 void make_light(StimulusLibrary& library, const Progress& show) {
-    const std::vector<Condition> stimuli = library.cache().stimuli_with_surface();
+    const std::vector<Stimulus> stimuli = library.cache().stimuli_with_surface();
     const int count = static_cast<int>(stimuli.size());
     for (int done = 0; done < count; ++done) {
         show("light of the stimuli", done, count, static_cast<double>(done) / count);

@@ -54,7 +54,7 @@ Observer observer_labelled(const std::string& label) {
     return {label, *number};
 }
 
-Condition stimulus_called(const Protocol& protocol, const std::string& name) {
+Stimulus stimulus_called(const Protocol& protocol, const std::string& name) {
     std::vector<std::string> names;
     for (std::size_t object = 0; object < protocol.objects.size(); ++object) {
         for (std::size_t material = 0; material < protocol.materials.size(); ++material) {

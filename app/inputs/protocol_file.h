@@ -36,7 +36,7 @@ void print_findings(const Diagnostics& diagnostics);
 Observer observer_labelled(const std::string& label);
 
 /// The stimulus called OBJECT/MATERIAL. Throws InputError naming those there are.
-Condition stimulus_called(const Protocol& protocol, const std::string& name);
+Stimulus stimulus_called(const Protocol& protocol, const std::string& name);
 
 /// The object called OBJECT, or that of the stimulus OBJECT/MATERIAL. Throws InputError naming those
 /// there are.

@@ -153,17 +153,17 @@ StudyResults GazeStudies::study(std::uint64_t seed, int observers,
 void GazeStudies::add_trial(const Trial& trial, std::uint64_t seed, const ObservedScene& planned,
                             GazeScript& script, StudyResults& results) const {
     const Protocol& protocol = experiment_.protocol;
-    const auto object = static_cast<std::size_t>(trial.condition.object);
+    const auto object = static_cast<std::size_t>(trial.stimulus.object);
     const GazeTargets& targets = *targets_[object];
     StudyTrial shown;
     shown.session = static_cast<int>(results.sessions.size()) - 1;
-    shown.object = trial.condition.object;
+    shown.object = trial.stimulus.object;
     shown.number = trial.index + 1;
     shown.presentation_s = protocol.animation.duration_s;
     shown.keys = {{"observer", results.sessions.back().observer},
                   {"task", protocol.tasks[static_cast<std::size_t>(trial.task)].id},
                   {"object", protocol.objects[object].id},
-                  {"material", protocol.materials[static_cast<std::size_t>(trial.condition.material)].id}};
+                  {"material", protocol.materials[static_cast<std::size_t>(trial.stimulus.material)].id}};
     shown.first_fixation = results.fixations.size();
 
     RandomStream random(seed, "calibration offset", static_cast<std::uint64_t>(trial.index));
@@ -171,7 +171,7 @@ void GazeStudies::add_trial(const Trial& trial, std::uint64_t seed, const Observ
     const glm::dvec2 offset_px =
         settings_.accuracy_deg * glm::dvec2(x, y) * px_per_deg_at_centre(scene_.screen);
     script.compose(scene_, &targets, turn_, observer_, seed, trial.index,
-                   gaze_plan(planned, seed, trial.task, trial.condition));
+                   gaze_plan(planned, seed, trial.task, trial.stimulus));
     const SessionDuration end = from_seconds(shown.presentation_s);
     for (const ScriptedFixation& fixation : script.fixations()) {
         // The first was under way at the onset.

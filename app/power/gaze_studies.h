@@ -59,7 +59,7 @@ class GazeStudies {
     const std::vector<PowerEffect>& effects() const { return effects_; }
     /// Whether an effect is planted in a trial.
     bool holds_in(std::size_t effect, const Trial& trial) const {
-        return scene_.effects[effect].holds_in(trial.task, trial.condition);
+        return scene_.effects[effect].holds_in(trial.task, trial.stimulus);
     }
 
   private:

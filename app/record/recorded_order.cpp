@@ -16,8 +16,8 @@ namespace {
 std::array<std::string, 4> words_of(const Trial& trial, const SessionHeader& header) {
     const auto id = [](const auto& list, int index) { return list.at(static_cast<std::size_t>(index)).id; };
     return {header.blocks.empty() ? "" : header.blocks.at(static_cast<std::size_t>(trial.block)),
-            id(header.tasks, trial.task), id(header.objects, trial.condition.object),
-            id(header.materials, trial.condition.material)};
+            id(header.tasks, trial.task), id(header.objects, trial.stimulus.object),
+            id(header.materials, trial.stimulus.material)};
 }
 
 } // namespace

@@ -40,8 +40,8 @@ nlohmann::ordered_json session_json(const SessionRecord& record) {
     const SessionHeader& header = record.header();
     auto trials = nlohmann::ordered_json::array();
     for (const TrialRecord& trial : record.trials()) {
-        const auto object = static_cast<std::size_t>(trial.trial.condition.object);
-        const auto material = static_cast<std::size_t>(trial.trial.condition.material);
+        const auto object = static_cast<std::size_t>(trial.trial.stimulus.object);
+        const auto material = static_cast<std::size_t>(trial.trial.stimulus.material);
         trials.push_back({{"trial", trial.trial.index + 1},
                           {"task", header.tasks[static_cast<std::size_t>(trial.trial.task)].id},
                           {"object", header.objects[object].id},
@@ -192,7 +192,7 @@ double kernel_sigma(const SessionHeader& header, int object) {
 
 void write_picture(const SessionRecord& record, const TrialRecord& trial, const std::filesystem::path& file) {
     const SessionHeader& header = record.header();
-    const int object = trial.trial.condition.object;
+    const int object = trial.trial.stimulus.object;
     RecordedSurfaces surfaces(record);
     const SurfaceLookup* surface = surfaces.lookup_of(object);
     if (!surface)
@@ -205,17 +205,17 @@ void write_picture(const SessionRecord& record, const TrialRecord& trial, const 
         if (joined.sight.surface)
             gaze.push_back(joined.sight.surface->position);
     }
-    const Condition condition = trial.trial.condition;
+    const Stimulus stimulus = trial.trial.stimulus;
     TrialPictureContent content;
     content.surface = surface;
     content.bounds = header.objects[static_cast<std::size_t>(object)].bounds;
     content.pose = header.poses.pose_of({0});
     content.frame =
-        read_linear_image(record.directory() / preview_file(header, condition), FrameEncoding::srgb);
+        read_linear_image(record.directory() / preview_file(header, stimulus), FrameEncoding::srgb);
     content.gaze_on_surface = gaze;
     content.kernel_sigma = kernel_sigma(header, object);
     content.frame_caption = fmt::format("{}, {}", header.objects[static_cast<std::size_t>(object)].title,
-                                        header.materials[static_cast<std::size_t>(condition.material)].title);
+                                        header.materials[static_cast<std::size_t>(stimulus.material)].title);
     content.map_caption = "Hidden map: place on the surface as colour";
     content.gaze_caption =
         fmt::format("Gaze of trial {}: {} samples on the surface, by their density; 1 is the densest place",

@@ -53,15 +53,15 @@ class TrialPictures {
         const std::string why_not = stimuli_.prepare(record, experiment_.protocol);
         if (!why_not.empty())
             throw InputError(why_not);
-        const Condition& condition = trial_.trial.condition;
-        pages_ = stimuli_.library().page_of_frame(condition);
-        for (const RecordedStimulus& stimulus : record.header().stimuli)
-            if (stimulus.condition == condition &&
-                stimulus.frames_sha256 != stimuli_.library().frames_hash(condition))
+        const Stimulus& stimulus = trial_.trial.stimulus;
+        pages_ = stimuli_.library().page_of_frame(stimulus);
+        for (const RecordedStimulus& recorded : record.header().stimuli)
+            if (recorded.stimulus == stimulus &&
+                recorded.frames_sha256 != stimuli_.library().frames_hash(stimulus))
                 fmt::print(stderr,
                            "the frames that are there ({}) are not those that were shown ({}): the picture "
                            "has other light\n",
-                           stimuli_.library().source_of(condition), stimulus.source);
+                           stimuli_.library().source_of(stimulus), recorded.source);
     }
 
     const ShownFrames& frames() const { return frames_; }
@@ -71,7 +71,7 @@ class TrialPictures {
         const ScreenGeometry& screen = record_.header().display.screen;
         LinearImage frame(screen.image_px);
         if (shown.lit)
-            frame = stimuli_.library().page(trial_.trial.condition,
+            frame = stimuli_.library().page(trial_.trial.stimulus,
                                             pages_[static_cast<std::size_t>(shown.lit->frame.value)]);
         return with_gaze(frame, shown, record_.header().display.background);
     }
@@ -82,7 +82,7 @@ class TrialPictures {
         if (record.header().stimuli.empty())
             throw InputError(fmt::format("{}: this session was imported: the program has no frames of it",
                                          record.directory().string()));
-        return surfaces.lookup_of(trial.trial.condition.object);
+        return surfaces.lookup_of(trial.trial.stimulus.object);
     }
 
     const SessionRecord& record_;
@@ -101,13 +101,13 @@ void require_room_for(const fs::path& file, bool overwrite) {
 }
 
 std::string part_of(const SessionHeader& header, const TrialRecord& trial, const SurfacePoint& point) {
-    const auto& names = header.objects[static_cast<std::size_t>(trial.trial.condition.object)].part_names;
+    const auto& names = header.objects[static_cast<std::size_t>(trial.trial.stimulus.object)].part_names;
     return point.part < names.size() ? names[point.part] : "";
 }
 
 nlohmann::ordered_json json_of(const SessionRecord& record, const TrialRecord& trial,
                                const ShownFrame& shown) {
-    const auto& object = record.header().objects[static_cast<std::size_t>(trial.trial.condition.object)];
+    const auto& object = record.header().objects[static_cast<std::size_t>(trial.trial.stimulus.object)];
     nlohmann::ordered_json json{{"trial", trial.trial.index + 1},
                                 {"attempt", trial.attempt},
                                 {"frame", shown.number},
@@ -145,7 +145,7 @@ std::string sentence_on(const SessionRecord& record, const TrialRecord& trial, c
         return text + ", beside the object";
     const glm::dvec3& at = shown.surface->position;
     const std::string part = part_of(record.header(), trial, *shown.surface);
-    const auto& object = record.header().objects[static_cast<std::size_t>(trial.trial.condition.object)];
+    const auto& object = record.header().objects[static_cast<std::size_t>(trial.trial.stimulus.object)];
     return text + fmt::format(": surface point {:.2f}, {:.2f}, {:.2f} {}{}", at.x, at.y, at.z,
                               object.unit == "mm" ? "mm" : "in the unit of the mesh",
                               part.empty() ? "" : ", on the " + part);

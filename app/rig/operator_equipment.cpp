@@ -37,9 +37,9 @@ OperatorServer::Options operator_view_of(const SessionHeader& header, const Prot
     for (const Trial& trial : header.schedule.trials) {
         const Task& task = protocol.tasks[static_cast<std::size_t>(trial.task)];
         ViewedTrial viewed{task.id, task.question,
-                           protocol.objects[static_cast<std::size_t>(trial.condition.object)].id,
-                           protocol.materials[static_cast<std::size_t>(trial.condition.material)].id,
-                           light_file(header, trial.condition)};
+                           protocol.objects[static_cast<std::size_t>(trial.stimulus.object)].id,
+                           protocol.materials[static_cast<std::size_t>(trial.stimulus.material)].id,
+                           light_file(header, trial.stimulus)};
         if (!std::filesystem::exists(folder / viewed.light_file))
             viewed.light_file.clear();
         options.trials.push_back(std::move(viewed));

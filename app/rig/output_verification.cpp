@@ -11,11 +11,11 @@ namespace overt {
 
 namespace {
 
-std::vector<Condition> distinct_stimuli(const Schedule& schedule) {
-    std::vector<Condition> stimuli;
+std::vector<Stimulus> distinct_stimuli(const Schedule& schedule) {
+    std::vector<Stimulus> stimuli;
     for (const Trial& trial : schedule.trials) {
-        if (std::find(stimuli.begin(), stimuli.end(), trial.condition) == stimuli.end())
-            stimuli.push_back(trial.condition);
+        if (std::find(stimuli.begin(), stimuli.end(), trial.stimulus) == stimuli.end())
+            stimuli.push_back(trial.stimulus);
     }
     return stimuli;
 }
@@ -40,12 +40,12 @@ std::string sentence_on(const PageVerification& page, const std::string& stimulu
 } // namespace
 
 std::vector<PageVerification> verify_pages(PagePresenter& presenter, const FrameSource& pages,
-                                           const Condition& condition, const ScreenGeometry& geometry,
+                                           const Stimulus& stimulus, const ScreenGeometry& geometry,
                                            const DisplaySettings& display) {
-    presenter.load_frames(condition);
+    presenter.load_frames(stimulus);
     std::vector<PageVerification> verified;
     for (int page = 0; page < presenter.pages(); ++page) {
-        const LinearImage picture = pages.page(condition, page);
+        const LinearImage picture = pages.page(stimulus, page);
         const std::vector<std::byte> bytes = presenter.read_page(page);
         verified.push_back(
             {page, check_signal({geometry.screen_px, bytes}, display, {&picture, geometry.image_origin_px}),
@@ -57,11 +57,11 @@ std::vector<PageVerification> verify_pages(PagePresenter& presenter, const Frame
 void record_verification(PagePresenter& presenter, const FrameSource& pages, const Protocol& protocol,
                          const Schedule& schedule, const Clock& clock, SessionLog& log,
                          const StimulusProgress& progress) {
-    const std::vector<Condition> stimuli = distinct_stimuli(schedule);
+    const std::vector<Stimulus> stimuli = distinct_stimuli(schedule);
     const ScreenGeometry geometry = screen_geometry_of(protocol);
     std::string first_difference;
     int done = 0;
-    for (const Condition& stimulus : stimuli) {
+    for (const Stimulus& stimulus : stimuli) {
         if (progress)
             progress(done++, static_cast<int>(stimuli.size()));
         const std::string name = protocol.objects[static_cast<std::size_t>(stimulus.object)].id + "/" +

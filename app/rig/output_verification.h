@@ -26,7 +26,7 @@ struct PageVerification {
 /// Draws each page of a stimulus once, without showing it. `pages` and `presenter` belong together; `display`
 /// is what the presenter was made for.
 std::vector<PageVerification> verify_pages(PagePresenter& presenter, const FrameSource& pages,
-                                           const Condition& condition, const ScreenGeometry& geometry,
+                                           const Stimulus& stimulus, const ScreenGeometry& geometry,
                                            const DisplaySettings& display);
 
 /// Told before each stimulus.

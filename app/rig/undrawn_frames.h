@@ -13,10 +13,10 @@ class UndrawnFrames final : public FrameSource {
     /// `frames` must outlive this; it tells how many there are.
     UndrawnFrames(const FrameSource& frames, glm::ivec2 image_px) : frames_(&frames), picture_(image_px) {}
 
-    std::vector<int> page_of_frame(const Condition& condition) const override {
-        return std::vector<int>(frames_->page_of_frame(condition).size(), 0);
+    std::vector<int> page_of_frame(const Stimulus& stimulus) const override {
+        return std::vector<int>(frames_->page_of_frame(stimulus).size(), 0);
     }
-    LinearImage page(const Condition&, int) const override { return picture_; }
+    LinearImage page(const Stimulus&, int) const override { return picture_; }
 
   private:
     const FrameSource* frames_;

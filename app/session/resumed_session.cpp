@@ -263,12 +263,12 @@ void require_same_stimuli(const ResumedSession& session, const SessionHeader& no
     for (const RecordedStimulus& stimulus : then.stimuli) {
         const auto same =
             std::find_if(now.stimuli.begin(), now.stimuli.end(), [&](const RecordedStimulus& other) {
-                return other.condition == stimulus.condition && other.frames_sha256 == stimulus.frames_sha256;
+                return other.stimulus == stimulus.stimulus && other.frames_sha256 == stimulus.frames_sha256;
             });
         if (same == now.stimuli.end())
             changed.push_back(fmt::format(
-                "the frames of {}/{}", then.objects[static_cast<std::size_t>(stimulus.condition.object)].id,
-                then.materials[static_cast<std::size_t>(stimulus.condition.material)].id));
+                "the frames of {}/{}", then.objects[static_cast<std::size_t>(stimulus.stimulus.object)].id,
+                then.materials[static_cast<std::size_t>(stimulus.stimulus.material)].id));
     }
     const auto light_of = [](const SessionHeader& header) {
         return header.characterisation ? header.characterisation->sha256 : ContentHash();

@@ -29,7 +29,7 @@ void say_before(const Protocol& protocol, const Schedule& schedule, const GlDesc
 }
 
 void say_frames(const StimulusLibrary& library, bool to_people) {
-    const std::vector<Condition> rendered = library.cache().rendered_stimuli();
+    const std::vector<Stimulus> rendered = library.cache().rendered_stimuli();
     if (rendered.empty())
         return;
     fmt::print("frames: {}\n", library.source_of(rendered.front()));
@@ -101,8 +101,8 @@ void TrialProgress::operator()(const Trial& trial, const TrialOutcome& outcome, 
         return;
     bar_.make_room();
     fmt::print(stderr, "trial {} ({}, {}, {}): {}\n", trial.index + 1, name(protocol_->tasks, trial.task),
-               name(protocol_->objects, trial.condition.object),
-               name(protocol_->materials, trial.condition.material), fmt::join(remarks, ", "));
+               name(protocol_->objects, trial.stimulus.object),
+               name(protocol_->materials, trial.stimulus.material), fmt::join(remarks, ", "));
 }
 
 namespace {

@@ -130,9 +130,8 @@ SessionHeader make_session_header(const Protocol& protocol, const Schedule& sche
         header.materials.push_back({material.id, material.title});
     for (int object = 0; object < static_cast<int>(objects.size()); ++object) {
         for (int material = 0; material < static_cast<int>(protocol.materials.size()); ++material) {
-            const Condition condition{object, material};
-            header.stimuli.push_back(
-                {condition, library.source_of(condition), library.frames_hash(condition)});
+            const Stimulus stimulus{object, material};
+            header.stimuli.push_back({stimulus, library.source_of(stimulus), library.frames_hash(stimulus)});
         }
     }
     describe_objects(header, protocol, objects, library, with_prepared_maps);
@@ -153,16 +152,16 @@ void put_all_files(const SessionDirectory& directory, const SessionHeader& heade
     for (const RecordedMap& map : header.maps)
         copy_into(library.cache().map_file(map.object, map.pose), directory.path() / map.file);
     for (const RecordedStimulus& stimulus : header.stimuli) {
-        const auto& object = header.objects[static_cast<std::size_t>(stimulus.condition.object)];
+        const auto& object = header.objects[static_cast<std::size_t>(stimulus.stimulus.object)];
         // Without a surface there is nothing to ask of it.
         if (object.camera.vertical_fov.value > 0.0) {
-            if (const auto light = library.light_file(stimulus.condition, with_pictures))
-                copy_into(*light, directory.path() / light_file(header, stimulus.condition));
+            if (const auto light = library.light_file(stimulus.stimulus, with_pictures))
+                copy_into(*light, directory.path() / light_file(header, stimulus.stimulus));
         }
         if (!with_pictures)
             continue;
-        copy_into(library.first_frame_file(stimulus.condition),
-                  directory.path() / preview_file(header, stimulus.condition));
+        copy_into(library.first_frame_file(stimulus.stimulus),
+                  directory.path() / preview_file(header, stimulus.stimulus));
     }
     write_to(directory.path() / "protocol.toml", header.protocol.text);
     for (const RecordedProtocol::Included& included : header.protocol.included) {

@@ -27,7 +27,7 @@ namespace {
 /// What is asked for, made sense of.
 struct BakeJob {
     FrameQuality quality;
-    std::vector<Condition> stimuli;
+    std::vector<Stimulus> stimuli;
     FrameExportOptions output; ///< without a folder: frames go to the cache only
     std::vector<BakeUnit> units;
 
@@ -47,23 +47,23 @@ FrameQuality quality_asked_for(const BakeOptions& options, const BakingSettings&
     return quality;
 }
 
-std::vector<Condition> stimuli_asked_for(const BakeOptions& options, const Protocol& protocol,
-                                         const StimulusLibrary& library) {
-    std::vector<Condition> stimuli;
+std::vector<Stimulus> stimuli_asked_for(const BakeOptions& options, const Protocol& protocol,
+                                        const StimulusLibrary& library) {
+    std::vector<Stimulus> stimuli;
     for (const std::string& name : options.only) {
-        const Condition condition = stimulus_called(protocol, name);
-        if (library.cache().is_ready_made(condition))
+        const Stimulus stimulus = stimulus_called(protocol, name);
+        if (library.cache().is_ready_made(stimulus))
             throw InputError(fmt::format(
                 "--stimulus {}: the protocol gives its [[frames]]; there is nothing to bake", name));
-        if (std::find(stimuli.begin(), stimuli.end(), condition) == stimuli.end())
-            stimuli.push_back(condition);
+        if (std::find(stimuli.begin(), stimuli.end(), stimulus) == stimuli.end())
+            stimuli.push_back(stimulus);
     }
     if (stimuli.empty())
         stimuli = library.cache().rendered_stimuli();
     if (stimuli.empty())
         throw InputError(fmt::format("{}: all stimuli are ready-made [[frames]]; there is nothing to bake",
                                      protocol.file.string()));
-    for (const Condition& stimulus : stimuli)
+    for (const Stimulus& stimulus : stimuli)
         library.cache().require_mesh(stimulus);
     return stimuli;
 }
@@ -110,7 +110,7 @@ struct BakeOutcome {
 };
 
 bool is_cached(const StimulusLibrary& library, const BakeJob& job, const BakeUnit& unit) {
-    return std::filesystem::exists(library.cache().frame_file_of(unit.condition, job.quality, unit.pose));
+    return std::filesystem::exists(library.cache().frame_file_of(unit.stimulus, job.quality, unit.pose));
 }
 
 /// Renders what is missing. While one frame is written, the next is traced; each is on the disk, whole, or
@@ -132,7 +132,7 @@ void render(const std::vector<BakeUnit>& missing, const BakeJob& job, StimulusLi
         };
         SpectralFrame frame;
         if (go_on(0.0))
-            frame = library.frames().trace(unit.condition, unit.pose, job.quality, go_on);
+            frame = library.frames().trace(unit.stimulus, unit.pose, job.quality, go_on);
         if (writing.valid())
             writing.get();
         if (!frame.is_complete) {
@@ -144,7 +144,7 @@ void render(const std::vector<BakeUnit>& missing, const BakeJob& job, StimulusLi
         ++outcome.rendered;
         writing = std::async(std::launch::async, [&, unit, frame = std::move(frame)] {
             if (!is_cached(library, job, unit))
-                library.cache().store(unit.condition, unit.pose, job.quality, frame);
+                library.cache().store(unit.stimulus, unit.pose, job.quality, frame);
             if (job.output.as == ExportedLight::spectra)
                 output.write(unit, &frame);
         });
@@ -178,10 +178,10 @@ void export_cached(const BakeJob& job, const FrameExport& output, BakeOutcome& o
 void remove_remnants(const BakeJob& job, const StimulusLibrary& library, const FrameExport& output) {
     std::set<std::filesystem::path> folders;
     for (const BakeUnit& unit : job.units) {
-        folders.insert(library.cache().frame_file_of(unit.condition, job.quality, unit.pose).parent_path());
-        folders.insert(library.cache().map_file(unit.condition.object, unit.pose).parent_path());
+        folders.insert(library.cache().frame_file_of(unit.stimulus, job.quality, unit.pose).parent_path());
+        folders.insert(library.cache().map_file(unit.stimulus.object, unit.pose).parent_path());
         if (job.exports())
-            folders.insert(output.folder_of(unit.condition));
+            folders.insert(output.folder_of(unit.stimulus));
     }
     for (const std::filesystem::path& folder : folders)
         remove_abandoned_files(folder);
@@ -196,7 +196,7 @@ void say_plan(const BakeJob& job, const Experiment& experiment, const std::vecto
     const PathProbe probe(experiment.protocol, experiment.objects);
     double seconds = 0.0;
     for (const BakeUnit& unit : missing)
-        seconds += probe.seconds_of_frame(unit.condition, job.quality);
+        seconds += probe.seconds_of_frame(unit.stimulus, job.quality);
     fmt::print("{} to render, about {} on this machine\n", missing.size(), duration_text(seconds));
 }
 
@@ -247,7 +247,7 @@ void say_outcome(const BakeOptions& options, const BakeJob& job, const BakeOutco
 }
 
 /// The stimulus of a strip: the only one, or the one that is asked for.
-Condition stimulus_of_strip(const BakeJob& job) {
+Stimulus stimulus_of_strip(const BakeJob& job) {
     if (job.stimuli.size() != 1)
         throw InputError("--strip shows one stimulus: choose it with --stimulus");
     return job.stimuli.front();

@@ -73,12 +73,12 @@ PathProbe::PathProbe(const Protocol& protocol, std::span<const Object> objects)
     }
 }
 
-double PathProbe::seconds_of_frame(const Condition& condition, const FrameQuality& quality) const {
-    const auto material = static_cast<std::size_t>(condition.material);
+double PathProbe::seconds_of_frame(const Stimulus& stimulus, const FrameQuality& quality) const {
+    const auto material = static_cast<std::size_t>(stimulus.material);
     const BakeSettings settings =
         bake_settings(quality, protocol_->bake, protocol_->materials[material].kind);
     const double pixels = static_cast<double>(protocol_->view.width_px) * protocol_->view.height_px;
-    const double paths = pixels * traced_share_[static_cast<std::size_t>(condition.object)] *
+    const double paths = pixels * traced_share_[static_cast<std::size_t>(stimulus.object)] *
                          settings.samples / (settings.pixel_step * settings.pixel_step);
     return paths * seconds_per_path_[material] + pixels * writing_s_per_px;
 }
@@ -87,7 +87,7 @@ BakeEstimate bake_estimate(const Experiment& experiment, const StimulusLibrary& 
     BakeEstimate estimate;
     estimate.wanted = experiment.protocol.bake.least();
     estimate.wanted_by_simulated = experiment.protocol.bake.least(false);
-    const std::vector<Condition> stimuli = library.cache().rendered_stimuli();
+    const std::vector<Stimulus> stimuli = library.cache().rendered_stimuli();
     if (stimuli.empty() || estimate.wanted == BakeQuality::live)
         return estimate;
     estimate.for_session = library.quality_of_session(estimate.wanted);
@@ -96,7 +96,7 @@ BakeEstimate bake_estimate(const Experiment& experiment, const StimulusLibrary& 
     for (const BakeQuality quality :
          {BakeQuality::preview, BakeQuality::draft, BakeQuality::standard, BakeQuality::reference}) {
         QualityEstimate one{quality_of(quality, experiment.protocol.bake)};
-        for (const Condition& stimulus : stimuli) {
+        for (const Stimulus& stimulus : stimuli) {
             const auto missing =
                 static_cast<int>(library.cache().missing_frames(stimulus, one.quality).size());
             const int all = static_cast<int>(library.cache().poses().angles.size());

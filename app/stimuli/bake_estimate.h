@@ -33,7 +33,7 @@ class PathProbe {
     PathProbe(const Protocol& protocol, std::span<const Object> objects);
 
     /// For one frame of a stimulus, writing it included.
-    double seconds_of_frame(const Condition& condition, const FrameQuality& quality) const;
+    double seconds_of_frame(const Stimulus& stimulus, const FrameQuality& quality) const;
 
   private:
     const Protocol* protocol_;

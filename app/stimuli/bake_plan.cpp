@@ -23,19 +23,18 @@ FrameRange frame_range_called(const std::string& text, const Animation& animatio
     return {*from, *to};
 }
 
-std::vector<BakeUnit> bake_units(const std::vector<Condition>& stimuli, const FrameRange& frames,
+std::vector<BakeUnit> bake_units(const std::vector<Stimulus>& stimuli, const FrameRange& frames,
                                  const PoseTable& poses, const FrameQuality& quality,
                                  const Protocol& protocol) {
     std::vector<bool> is_shown(poses.angles.size());
     for (int frame = frames.first; frame <= frames.last; ++frame)
         is_shown[static_cast<std::size_t>(poses.pose_of({frame}).value)] = true;
     std::vector<BakeUnit> units;
-    for (const Condition& condition : stimuli) {
-        const MaterialKind kind = protocol.materials[static_cast<std::size_t>(condition.material)].kind;
+    for (const Stimulus& stimulus : stimuli) {
+        const MaterialKind kind = protocol.materials[static_cast<std::size_t>(stimulus.material)].kind;
         for (std::size_t pose = 0; pose < is_shown.size(); ++pose) {
             if (is_shown[pose])
-                units.push_back(
-                    {condition, {static_cast<int>(pose)}, expected_cost(quality, protocol, kind)});
+                units.push_back({stimulus, {static_cast<int>(pose)}, expected_cost(quality, protocol, kind)});
         }
     }
     return units;

@@ -11,7 +11,7 @@ namespace overt {
 
 /// One frame to render: of a stimulus, in one of its distinct poses.
 struct BakeUnit {
-    Condition condition;
+    Stimulus stimulus;
     PoseIndex pose;
     double cost = 0.0; ///< see expected_cost()
 };
@@ -26,7 +26,7 @@ FrameRange frame_range_called(const std::string& text, const Animation& animatio
 
 /// All frames of the stimuli, in their order and that of poses; a pose is among them if a frame of the range
 /// shows it.
-std::vector<BakeUnit> bake_units(const std::vector<Condition>& stimuli, const FrameRange& frames,
+std::vector<BakeUnit> bake_units(const std::vector<Stimulus>& stimuli, const FrameRange& frames,
                                  const PoseTable& poses, const FrameQuality& quality,
                                  const Protocol& protocol);
 

@@ -57,9 +57,9 @@ LinearImage contact_sheet(const Protocol& protocol, const StimulusLibrary& libra
               rows = static_cast<int>(protocol.objects.size());
     std::vector<LinearImage> cells(static_cast<std::size_t>(columns * rows));
     parallel_for(columns * rows, [&](int i) {
-        const Condition condition{i / columns, i % columns};
-        const int page = library.page_of_frame(condition)[static_cast<std::size_t>(frame)];
-        cells[static_cast<std::size_t>(i)] = reduced_to(library.page_on_screen(condition, page), cell_px);
+        const Stimulus stimulus{i / columns, i % columns};
+        const int page = library.page_of_frame(stimulus)[static_cast<std::size_t>(frame)];
+        cells[static_cast<std::size_t>(i)] = reduced_to(library.page_on_screen(stimulus, page), cell_px);
     });
     const glm::ivec2 cell = cells.front().size_px;
     const int line_px = std::clamp(cell.x / 12, 9, 28), label_px = 2 * line_px + gap_px;
@@ -76,18 +76,18 @@ LinearImage contact_sheet(const Protocol& protocol, const StimulusLibrary& libra
     return sheet;
 }
 
-LinearImage film_strip(const StimulusLibrary& library, const Condition& condition, const FrameRange& frames,
+LinearImage film_strip(const StimulusLibrary& library, const Stimulus& stimulus, const FrameRange& frames,
                        int count, int cell_px) {
     const int there = frames.last - frames.first + 1;
     count = std::min(count, there);
     std::vector<int> numbers;
     for (int i = 0; i < count; ++i)
         numbers.push_back(frames.first + (count > 1 ? i * (there - 1) / (count - 1) : 0));
-    const std::vector<int> pages = library.page_of_frame(condition);
+    const std::vector<int> pages = library.page_of_frame(stimulus);
     std::vector<LinearImage> cells(numbers.size());
     parallel_for(count, [&](int i) {
         const int page = pages[static_cast<std::size_t>(numbers[static_cast<std::size_t>(i)])];
-        cells[static_cast<std::size_t>(i)] = reduced_to(library.page_on_screen(condition, page), cell_px);
+        cells[static_cast<std::size_t>(i)] = reduced_to(library.page_on_screen(stimulus, page), cell_px);
     });
     const glm::ivec2 cell = cells.front().size_px;
     const int line_px = std::clamp(cell.x / 12, 9, 28), label_px = line_px + gap_px;

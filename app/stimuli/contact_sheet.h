@@ -10,7 +10,7 @@ namespace overt {
 LinearImage contact_sheet(const Protocol& protocol, const StimulusLibrary& library, int frame, int cell_px);
 
 /// Up to `count` frames of a stimulus side by side, spread evenly over the range, each with its number.
-LinearImage film_strip(const StimulusLibrary& library, const Condition& condition, const FrameRange& frames,
+LinearImage film_strip(const StimulusLibrary& library, const Stimulus& stimulus, const FrameRange& frames,
                        int count, int cell_px);
 
 } // namespace overt

@@ -80,14 +80,14 @@ FrameExport::FrameExport(const FrameExportOptions& options, const Protocol& prot
                          const FrameQuality& quality)
     : options_(&options), protocol_(&protocol), objects_(objects), library_(&library), quality_(&quality) {}
 
-std::filesystem::path FrameExport::folder_of(const Condition& condition) const {
+std::filesystem::path FrameExport::folder_of(const Stimulus& stimulus) const {
     return options_->folder /
-           fmt::format("{}_{}", objects_[static_cast<std::size_t>(condition.object)].id,
-                       protocol_->materials[static_cast<std::size_t>(condition.material)].id);
+           fmt::format("{}_{}", objects_[static_cast<std::size_t>(stimulus.object)].id,
+                       protocol_->materials[static_cast<std::size_t>(stimulus.material)].id);
 }
 
 std::vector<std::filesystem::path> FrameExport::files_of(const BakeUnit& unit) const {
-    const std::filesystem::path folder = folder_of(unit.condition);
+    const std::filesystem::path folder = folder_of(unit.stimulus);
     std::vector<std::filesystem::path> files;
     for (int frame = options_->frames.first; frame <= options_->frames.last; ++frame) {
         if (library_->cache().poses().pose_of({frame}) == unit.pose)
@@ -99,7 +99,7 @@ std::vector<std::filesystem::path> FrameExport::files_of(const BakeUnit& unit) c
 
 ContentHash FrameExport::key_of(const BakeUnit& unit) const {
     ContentHasher hasher;
-    hasher.add(export_version).add(std::string_view(library_->cache().frame_key(unit.condition, *quality_)));
+    hasher.add(export_version).add(std::string_view(library_->cache().frame_key(unit.stimulus, *quality_)));
     hasher.add(library_->cache().poses().angles[static_cast<std::size_t>(unit.pose.value)].value);
     hasher.add(static_cast<int>(options_->as)).add(static_cast<int>(options_->file));
     hasher.add(protocol_->light.exposure);
@@ -162,7 +162,7 @@ ChannelPicture FrameExport::picture_of(const BakeUnit& unit, const SpectralFrame
         return picture;
     }
     LinearImage image =
-        read_linear_image(library_->cache().frame_file_of(unit.condition, *quality_, unit.pose));
+        read_linear_image(library_->cache().frame_file_of(unit.stimulus, *quality_, unit.pose));
     transform(image, options_->as == ExportedLight::display
                          ? library_->cache().display_from_frame(*quality_)
                          : protocol_->light.exposure * xyz_from(rendered_colours(protocol_->bake.observer)));
@@ -173,11 +173,10 @@ ChannelPicture FrameExport::picture_of(const BakeUnit& unit, const SpectralFrame
 }
 
 ImageAttributes FrameExport::attributes_of(const BakeUnit& unit) const {
-    const MaterialSettings& material =
-        protocol_->materials[static_cast<std::size_t>(unit.condition.material)];
+    const MaterialSettings& material = protocol_->materials[static_cast<std::size_t>(unit.stimulus.material)];
     const Degrees angle = library_->cache().poses().angles[static_cast<std::size_t>(unit.pose.value)];
     ImageAttributes attributes = describe_stimulus(
-        *protocol_, objects_[static_cast<std::size_t>(unit.condition.object)], material, angle);
+        *protocol_, objects_[static_cast<std::size_t>(unit.stimulus.object)], material, angle);
     for (auto& attribute : describe_tracing(*quality_, *protocol_, material.kind))
         attributes.push_back(std::move(attribute));
     attributes.emplace_back("overt:exposure", fmt::format("{}", protocol_->light.exposure));

@@ -38,7 +38,7 @@ class FrameExport {
     bool has(const BakeUnit& unit) const;
 
     /// Where a stimulus's files go.
-    std::filesystem::path folder_of(const Condition& condition) const;
+    std::filesystem::path folder_of(const Stimulus& stimulus) const;
 
     /// Throws InputError, naming the first, if a file of these units is there and is something else.
     void refuse_to_replace(const std::vector<BakeUnit>& units) const;

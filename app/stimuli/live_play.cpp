@@ -25,7 +25,7 @@ int next_of(int index, int by, std::size_t count) {
 
 /// What the keys and the mouse have asked for.
 struct Wishes {
-    Condition stimulus;
+    Stimulus stimulus;
     Orbit orbit;
     bool is_turning = false;
     bool has_ended = false;
@@ -72,7 +72,7 @@ void take_keys(WindowContext& window, const Protocol& protocol, std::span<const 
 }
 
 void play_until_closed(OpenDisplay& opened, LiveView& view, const Protocol& protocol,
-                       std::span<const Object> objects, const Condition& first) {
+                       std::span<const Object> objects, const Stimulus& first) {
     opened.start();
     WindowContext& window = *opened.window();
     PictureWindow picture(opened);
@@ -102,7 +102,7 @@ void play_until_closed(OpenDisplay& opened, LiveView& view, const Protocol& prot
 
 } // namespace
 
-int play_live(const Protocol& protocol, std::span<const Object> objects, const Condition& stimulus,
+int play_live(const Protocol& protocol, std::span<const Object> objects, const Stimulus& stimulus,
               const PlayOptions& options) {
     if (options.picture.empty()) {
         if (!display_is_available())

@@ -11,7 +11,7 @@ namespace overt {
 
 /// Shows a stimulus as OpenGL draws it now, in a window until it is closed, or one frame as a picture. Gives
 /// the exit code. Throws InputError, GraphicsError, RecordError.
-int play_live(const Protocol& protocol, std::span<const Object> objects, const Condition& stimulus,
+int play_live(const Protocol& protocol, std::span<const Object> objects, const Stimulus& stimulus,
               const PlayOptions& options);
 
 } // namespace overt

@@ -18,7 +18,7 @@ namespace overt {
 
 namespace {
 
-void write_frame(const StimulusLibrary& library, const Condition& stimulus, const PlayOptions& options) {
+void write_frame(const StimulusLibrary& library, const Stimulus& stimulus, const PlayOptions& options) {
     const auto frame = static_cast<std::size_t>(options.frame.value_or(0));
     const int page = library.page_of_frame(stimulus)[frame];
     LinearImage picture = library.page_on_screen(stimulus, page);
@@ -35,7 +35,7 @@ void write_frame(const StimulusLibrary& library, const Condition& stimulus, cons
 }
 
 /// Plays in a window until the time is up, it is closed, or a key is pressed.
-void play_in_window(OpenDisplay& window, StimulusLibrary& library, const Condition& stimulus,
+void play_in_window(OpenDisplay& window, StimulusLibrary& library, const Stimulus& stimulus,
                     const Protocol& protocol, double duration_s) {
     window.start();
     DisplaySettings display = protocol.display;
@@ -63,7 +63,7 @@ int run_play(const PlayOptions& options) {
         read_experiment_or_report(options.protocol, cache_folder(), InputDepth::objects);
     const Protocol& protocol = experiment.protocol;
     const std::vector<Object>& objects = experiment.objects;
-    const Condition stimulus = stimulus_called(protocol, options.stimulus);
+    const Stimulus stimulus = stimulus_called(protocol, options.stimulus);
     if (options.frame.value_or(0) >= protocol.animation.frame_count) {
         throw InputError(fmt::format("--frame {}: the animation has frames 0 to {}", *options.frame,
                                      protocol.animation.frame_count - 1));

@@ -6,12 +6,12 @@
 
 namespace overt {
 
-GazePlan gaze_plan(const ObservedScene& scene, std::uint64_t seed, int task, Condition condition) noexcept {
+GazePlan gaze_plan(const ObservedScene& scene, std::uint64_t seed, int task, Stimulus stimulus) noexcept {
     GazePlan plan;
     double odds = 1.0;
     for (std::size_t i = 0; i < scene.effects.size(); ++i) {
         const ObservedEffect& effect = scene.effects[i];
-        if (!effect.holds_in(task, condition))
+        if (!effect.holds_in(task, stimulus))
             continue;
         odds *= effect.head_odds;
         plan.spread += effect.spread;

@@ -26,6 +26,6 @@ struct GazePlan {
 /// The plan of an observer, who is known by the seed: the task's head share, its odds times those of all
 /// effects that hold in the trial, and on the scale of logits the observer's own inclination, which is normal
 /// with the scene's standard deviation. Allocates nothing.
-GazePlan gaze_plan(const ObservedScene& scene, std::uint64_t seed, int task, Condition condition) noexcept;
+GazePlan gaze_plan(const ObservedScene& scene, std::uint64_t seed, int task, Stimulus stimulus) noexcept;
 
 } // namespace overt

@@ -32,9 +32,9 @@ struct ObservedEffect {
     double head_odds = 1.0, spot_share = 0.0;
     double spread = 0.0; ///< see GazePlan
 
-    bool holds_in(int of_task, Condition condition) const {
-        return (task < 0 || task == of_task) && (object < 0 || object == condition.object) &&
-               (material < 0 || material == condition.material);
+    bool holds_in(int of_task, Stimulus stimulus) const {
+        return (task < 0 || task == of_task) && (object < 0 || object == stimulus.object) &&
+               (material < 0 || material == stimulus.material);
     }
 };
 
@@ -43,7 +43,7 @@ struct ObservedScene {
     Animation animation;
     double refresh_hz = 120.0;
     SessionDuration display_latency{};   ///< from vertical blank to the first row's light
-    std::vector<ObservedObject> objects; ///< by Condition::object
+    std::vector<ObservedObject> objects; ///< by Stimulus::object
     std::vector<ObservedTask> tasks;     ///< by Trial::task
     std::vector<ObservedEffect> effects = {};
     double head_share_sd = 0.0; ///< of the logit, over observers

@@ -52,9 +52,9 @@ void SimulatedObserver::presentation_begins(const Trial& trial) noexcept {
     OVERT_EXPECTS(begun_ < presentations_.size());
     Presentation& presentation = *presentations_[begun_++];
     presentation.trial = trial.index;
-    presentation.targets = targets_[static_cast<std::size_t>(trial.condition.object)].get();
+    presentation.targets = targets_[static_cast<std::size_t>(trial.stimulus.object)].get();
     presentation.script.compose(scene_, presentation.targets, turn_, settings_, seed_, trial.index,
-                                gaze_plan(scene_, seed_, trial.task, trial.condition));
+                                gaze_plan(scene_, seed_, trial.task, trial.stimulus));
 }
 
 void SimulatedObserver::flipped(const FlipRecord& flip) noexcept {

@@ -20,11 +20,11 @@ bool is_drawn(const Protocol& protocol) {
     });
 }
 
-std::size_t cell_of(const Protocol& protocol, int task, const Condition& condition) {
+std::size_t cell_of(const Protocol& protocol, int task, const Stimulus& stimulus) {
     const std::size_t objects = protocol.objects.size(), materials = protocol.materials.size();
-    return (static_cast<std::size_t>(task) * objects + static_cast<std::size_t>(condition.object)) *
+    return (static_cast<std::size_t>(task) * objects + static_cast<std::size_t>(stimulus.object)) *
                materials +
-           static_cast<std::size_t>(condition.material);
+           static_cast<std::size_t>(stimulus.material);
 }
 
 /// Zeros for what a block shows to an observer.
@@ -82,7 +82,7 @@ Presentations count_presentations(const Protocol& protocol, ScheduleMaker& maker
             counted.parts.try_emplace({plan.block, group}, empty_part(protocol, plan.scope));
         for (const Trial& trial :
              is_drawn(protocol) ? maker.make(observer, seed).trials : trials_of(protocol, observer.number)) {
-            const std::size_t cell = cell_of(protocol, trial.task, trial.condition);
+            const std::size_t cell = cell_of(protocol, trial.task, trial.stimulus);
             ++counted.cells[cell].presentations;
             ++counted.parts.at({trial.block, group})[cell];
         }

@@ -67,7 +67,7 @@ struct MemoryNeed {
 /// How often a stimulus is shown under a task, summed over the planned observers.
 struct IncidenceCell {
     int task = 0;
-    Condition condition;
+    Stimulus stimulus;
     int presentations = 0;
 };
 

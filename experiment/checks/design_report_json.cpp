@@ -19,8 +19,8 @@ Json order_json(const DesignReport& report, std::size_t index) {
         if (!report.blocks.empty())
             item["block"] = report.blocks.at(static_cast<std::size_t>(trial.block));
         item["task"] = report.tasks.at(static_cast<std::size_t>(trial.task));
-        item["object"] = report.objects.at(static_cast<std::size_t>(trial.condition.object));
-        item["material"] = report.materials.at(static_cast<std::size_t>(trial.condition.material));
+        item["object"] = report.objects.at(static_cast<std::size_t>(trial.stimulus.object));
+        item["material"] = report.materials.at(static_cast<std::size_t>(trial.stimulus.material));
         trials.push_back(std::move(item));
     }
     Json order{{"observer", schedule.observer.label},
@@ -151,8 +151,8 @@ Json to_json(const DesignReport& report) {
     for (const IncidenceCell& cell : report.incidence) {
         json["incidence"].push_back(
             {{"task", report.tasks.at(static_cast<std::size_t>(cell.task))},
-             {"object", report.objects.at(static_cast<std::size_t>(cell.condition.object))},
-             {"material", report.materials.at(static_cast<std::size_t>(cell.condition.material))},
+             {"object", report.objects.at(static_cast<std::size_t>(cell.stimulus.object))},
+             {"material", report.materials.at(static_cast<std::size_t>(cell.stimulus.material))},
              {"presentations", cell.presentations}});
     }
     json["is_seed_fixed"] = report.is_seed_fixed;

@@ -227,8 +227,8 @@ void add_order_of_one(std::string& text, const DesignReport& report, const Sched
         if (begins_block)
             text += fmt::format("  block {}\n", at(report.blocks, trial.block));
         text += fmt::format("  {:>4}  {:<{}}  {:<{}}  {}\n", trial.index + 1, at(report.tasks, trial.task),
-                            task_width, at(report.objects, trial.condition.object), object_width,
-                            at(report.materials, trial.condition.material));
+                            task_width, at(report.objects, trial.stimulus.object), object_width,
+                            at(report.materials, trial.stimulus.material));
     }
 }
 
@@ -260,8 +260,8 @@ void add_orders_of_many(std::string& text, const DesignReport& report) {
                 line += " |";
             if (trial.index > 0 && trial.index % codes_per_line == 0)
                 line += "\n          ";
-            line += fmt::format(" {}{}{}", trial.task + 1, letter('A', trial.condition.object),
-                                letter('a', trial.condition.material));
+            line += fmt::format(" {}{}{}", trial.task + 1, letter('A', trial.stimulus.object),
+                                letter('a', trial.stimulus.material));
         }
         const auto index = static_cast<std::size_t>(&schedule - report.schedules.data());
         const std::string group =

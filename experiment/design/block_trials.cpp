@@ -117,13 +117,13 @@ int level_of(const Protocol& protocol, const Trial& trial, TrialFactor factor) {
     case TrialFactor::task:
         return trial.task;
     case TrialFactor::object:
-        return trial.condition.object;
+        return trial.stimulus.object;
     case TrialFactor::material:
-        return trial.condition.material;
+        return trial.stimulus.material;
     case TrialFactor::stimulus:
         break;
     }
-    return trial.condition.object * count_of(protocol.materials) + trial.condition.material;
+    return trial.stimulus.object * count_of(protocol.materials) + trial.stimulus.material;
 }
 
 std::vector<int> levels_in(const Protocol& protocol, const BlockScope& scope, TrialFactor factor) {

@@ -233,12 +233,12 @@ void TrialQueue::restart_block() {
     attempts_since_pause_ = 0;
 }
 
-std::optional<Condition> TrialQueue::expected() const {
+std::optional<Stimulus> TrialQueue::expected() const {
     for (const SessionStep& step : before_) {
         if (step.kind == SessionStep::Kind::practice)
-            return step.trial.condition;
+            return step.trial.stimulus;
     }
-    return waiting_.empty() ? std::nullopt : std::optional(waiting_.front().trial.condition);
+    return waiting_.empty() ? std::nullopt : std::optional(waiting_.front().trial.stimulus);
 }
 
 } // namespace overt

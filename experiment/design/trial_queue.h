@@ -107,7 +107,7 @@ class TrialQueue {
     bool is_done() const { return waiting_.empty() && !interrupted_; }
 
     /// The stimulus that will be shown next if nothing fails.
-    std::optional<Condition> expected() const;
+    std::optional<Stimulus> expected() const;
 
   private:
     struct Attempt {

@@ -73,10 +73,10 @@ class Presenter {
 
     /// Puts the frames of a stimulus into the frame store, replacing those loaded before. Throws
     /// GraphicsError or InputError.
-    virtual void load_frames(const Condition& condition) = 0;
+    virtual void load_frames(const Stimulus& stimulus) = 0;
 
     /// The stimulus that will be loaded next: a presenter may begin with it now, in the background.
-    virtual void expect_frames(const Condition& /*condition*/) noexcept {}
+    virtual void expect_frames(const Stimulus& /*stimulus*/) noexcept {}
     /// Called repeatedly while the screen stands still: a presenter may use a few milliseconds for work that
     /// it has put off.
     virtual void use_spare_time() noexcept {}

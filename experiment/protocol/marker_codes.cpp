@@ -111,8 +111,8 @@ int MarkerCodes::code_of(MarkedEvent event, const Trial& trial) const noexcept {
             code += codes[static_cast<std::size_t>(index)];
     };
     add(tasks_, trial.task);
-    add(objects_, trial.condition.object);
-    add(materials_, trial.condition.material);
+    add(objects_, trial.stimulus.object);
+    add(materials_, trial.stimulus.material);
     return code;
 }
 

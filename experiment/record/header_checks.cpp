@@ -53,8 +53,8 @@ template <class Items> bool is_index(int index, const Items& items) {
     return index >= 0 && static_cast<std::size_t>(index) < items.size();
 }
 
-bool is_condition(const Condition& condition, const SessionHeader& header) {
-    return is_index(condition.object, header.objects) && is_index(condition.material, header.materials);
+bool is_stimulus(const Stimulus& stimulus, const SessionHeader& header) {
+    return is_index(stimulus.object, header.objects) && is_index(stimulus.material, header.materials);
 }
 
 bool is_label(const std::string& label) {
@@ -92,9 +92,9 @@ void check_header(const SessionHeader& header, const std::filesystem::path& file
                fmt::format("the object or the pose of map \"{}\"", map.file));
     }
     for (const RecordedStimulus& stimulus : header.stimuli)
-        demand(is_condition(stimulus.condition, header), "the object or the material of a stimulus");
+        demand(is_stimulus(stimulus.stimulus, header), "the object or the material of a stimulus");
     for (const Trial& trial : header.schedule.trials)
-        demand(is_index(trial.task, header.tasks) && is_condition(trial.condition, header) &&
+        demand(is_index(trial.task, header.tasks) && is_stimulus(trial.stimulus, header) &&
                    (header.blocks.empty() || is_index(trial.block, header.blocks)),
                fmt::format("the task, object, material or block of planned trial {}", trial.index + 1));
     const auto have_plain_names = [](const auto& entries) {

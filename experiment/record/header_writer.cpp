@@ -19,8 +19,8 @@ void insert_characterisation(SQLite::Database& database, const RecordedCharacter
 
 void insert_design(SQLite::Database& database, const SessionHeader& header) {
     for (const Trial& trial : header.schedule.trials)
-        insert_values(database, "INTO schedule", trial.index, trial.task, trial.condition.object,
-                      trial.condition.material, trial.block);
+        insert_values(database, "INTO schedule", trial.index, trial.task, trial.stimulus.object,
+                      trial.stimulus.material, trial.block);
     int index = 0;
     for (const std::string& block : header.blocks)
         insert_values(database, "INTO block", index++, block);
@@ -54,7 +54,7 @@ void insert_objects(SQLite::Database& database, const SessionHeader& header) {
         ++index;
     }
     for (const RecordedStimulus& stimulus : header.stimuli)
-        insert_values(database, "INTO stimulus", stimulus.condition.object, stimulus.condition.material,
+        insert_values(database, "INTO stimulus", stimulus.stimulus.object, stimulus.stimulus.material,
                       stimulus.source, stimulus.frames_sha256);
     for (const RecordedMap& map : header.maps)
         insert_values(database, "INTO map", map.object, map.pose.value, map.file, map.sha256,

@@ -66,8 +66,8 @@ SessionManifest new_manifest(const fs::path& folder, const SessionHeader& header
     for (const RecordedStimulus& stimulus : header.stimuli)
         manifest.inputs.push_back(
             {fmt::format("frames {}/{}",
-                         header.objects.at(static_cast<std::size_t>(stimulus.condition.object)).id,
-                         header.materials.at(static_cast<std::size_t>(stimulus.condition.material)).id),
+                         header.objects.at(static_cast<std::size_t>(stimulus.stimulus.object)).id,
+                         header.materials.at(static_cast<std::size_t>(stimulus.stimulus.material)).id),
              stimulus.frames_sha256});
     if (header.characterisation)
         manifest.inputs.push_back({"characterisation of the display", header.characterisation->sha256});

@@ -8,25 +8,25 @@ namespace overt {
 
 namespace {
 
-std::string stimulus_file(const SessionHeader& header, const Condition& condition, std::string_view ending) {
-    return fmt::format("stimuli/{}_{}{}", header.objects[static_cast<std::size_t>(condition.object)].id,
-                       header.materials[static_cast<std::size_t>(condition.material)].id, ending);
+std::string stimulus_file(const SessionHeader& header, const Stimulus& stimulus, std::string_view ending) {
+    return fmt::format("stimuli/{}_{}{}", header.objects[static_cast<std::size_t>(stimulus.object)].id,
+                       header.materials[static_cast<std::size_t>(stimulus.material)].id, ending);
 }
 
 } // namespace
 
-std::string preview_file(const SessionHeader& header, const Condition& condition) {
-    return stimulus_file(header, condition, ".png");
+std::string preview_file(const SessionHeader& header, const Stimulus& stimulus) {
+    return stimulus_file(header, stimulus, ".png");
 }
 
-std::string light_file(const SessionHeader& header, const Condition& condition) {
-    return stimulus_file(header, condition, "_light.exr");
+std::string light_file(const SessionHeader& header, const Stimulus& stimulus) {
+    return stimulus_file(header, stimulus, "_light.exr");
 }
 
-const RecordedStimulus* stimulus_of(const SessionHeader& header, const Condition& condition) {
+const RecordedStimulus* stimulus_of(const SessionHeader& header, const Stimulus& stimulus) {
     const auto found =
         std::find_if(header.stimuli.begin(), header.stimuli.end(),
-                     [&](const RecordedStimulus& stimulus) { return stimulus.condition == condition; });
+                     [&](const RecordedStimulus& recorded) { return recorded.stimulus == stimulus; });
     return found == header.stimuli.end() ? nullptr : &*found;
 }
 

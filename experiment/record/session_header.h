@@ -116,7 +116,7 @@ struct RecordedMaterial {
 };
 
 struct RecordedStimulus {
-    Condition condition;
+    Stimulus stimulus;
     std::string source; ///< how its frames were made, in words
     ContentHash frames_sha256;
 };

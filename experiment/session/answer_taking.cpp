@@ -17,7 +17,7 @@ constexpr SessionDuration between_looks = std::chrono::milliseconds(4);
 
 } // namespace
 
-void AnswerTaking::take(const Trial& trial, const std::optional<Condition>& next, bool is_practice,
+void AnswerTaking::take(const Trial& trial, const std::optional<Stimulus>& next, bool is_practice,
                         TrialOutcome& outcome) {
     const ScreenSettings& screens = state_.protocol.screens;
     SessionPorts& ports = state_.ports;

@@ -44,7 +44,7 @@ PresentationCheck check_presentation(const Protocol& protocol, const Trial& tria
     std::vector<FlipReport> flips;
     flips.reserve(static_cast<std::size_t>(cycle.total_refreshes));
 
-    ports.presenter.load_frames(trial.condition);
+    ports.presenter.load_frames(trial.stimulus);
     ports.presenter.veil(true);
     ports.presenter.show({});
     ports.log.trial_started(trial, ports.clock.now());

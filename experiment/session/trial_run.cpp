@@ -34,14 +34,14 @@ TrialRun::TrialRun(SessionState& state, OperatorControl& control, const ScreenPo
         feeds_.push_back({used, TrackerFeed(used.tracker)});
 }
 
-TrialRun::Attempt TrialRun::run(const Trial& trial, const std::optional<Condition>& next, bool is_practice) {
+TrialRun::Attempt TrialRun::run(const Trial& trial, const std::optional<Stimulus>& next, bool is_practice) {
     Attempt attempt;
     attempt.outcome.status = TrialOutcome::Status::aborted;
     control_.begin_trial();
     state_.write_down();
     state_.markers.begin_trial(trial, is_practice);
     state_.enter(SessionPhase::trial, is_practice ? -1 : trial.index);
-    state_.ports.presenter.load_frames(trial.condition);
+    state_.ports.presenter.load_frames(trial.stimulus);
     state_.log().trial_started(trial, state_.now());
     // Practice has numbers of its own.
     mark(MarkedEvent::trial, state_.now(),
@@ -230,8 +230,8 @@ void TrialRun::mark_result(const Trial& trial, const Attempt& attempt) {
         state_.markers.tell(now, text);
     };
     variable("task", state_.protocol.tasks[static_cast<std::size_t>(trial.task)].id);
-    variable("object", state_.protocol.objects[static_cast<std::size_t>(trial.condition.object)].id);
-    variable("material", state_.protocol.materials[static_cast<std::size_t>(trial.condition.material)].id);
+    variable("object", state_.protocol.objects[static_cast<std::size_t>(trial.stimulus.object)].id);
+    variable("material", state_.protocol.materials[static_cast<std::size_t>(trial.stimulus.material)].id);
     variable("missed_refreshes", fmt::format("{}", attempt.outcome.missed_refreshes));
     mark(MarkedEvent::result, now, fmt::format("TRIAL_RESULT {}", goes_on(attempt) ? 0 : 1));
 }

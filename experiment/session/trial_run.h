@@ -26,7 +26,7 @@ class TrialRun {
     /// `next`: the stimulus that probably comes after it. `is_practice`: its events are noted outside of
     /// trials, and no answer is recorded. Throws GraphicsError or RecordError for what breaks between its
     /// presentations; what happens in one, or to the tracker, is in the outcome.
-    Attempt run(const Trial& trial, const std::optional<Condition>& next, bool is_practice);
+    Attempt run(const Trial& trial, const std::optional<Stimulus>& next, bool is_practice);
 
   private:
     void ask(const Trial& trial, Attempt& attempt);

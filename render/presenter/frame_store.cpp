@@ -28,8 +28,8 @@ FrameStore::~FrameStore() = default;
 
 std::size_t FrameStore::page_bytes() const { return bytes_in(patch_.size_px, encoder_->format()); }
 
-int FrameStore::pages_of(const Condition& condition) const {
-    const std::vector<int> page_of_frame = source_->page_of_frame(condition);
+int FrameStore::pages_of(const Stimulus& stimulus) const {
+    const std::vector<int> page_of_frame = source_->page_of_frame(stimulus);
     return 1 + *std::max_element(page_of_frame.begin(), page_of_frame.end());
 }
 
@@ -39,30 +39,30 @@ bool FrameStore::fits_beside_current(int pages) const {
     return page_bytes() * static_cast<std::size_t>(layers) <= budget_bytes_;
 }
 
-void FrameStore::begin(const Condition& condition, int threads) {
-    StoredStimulus& stimulus = spare();
-    stimulus.condition = condition;
-    stimulus.page_of_frame = source_->page_of_frame(condition);
-    stimulus.pages = pages_of(condition);
-    const std::size_t bytes = page_bytes() * static_cast<std::size_t>(stimulus.pages);
+void FrameStore::begin(const Stimulus& stimulus, int threads) {
+    StoredStimulus& stored = spare();
+    stored.stimulus = stimulus;
+    stored.page_of_frame = source_->page_of_frame(stimulus);
+    stored.pages = pages_of(stimulus);
+    const std::size_t bytes = page_bytes() * static_cast<std::size_t>(stored.pages);
     if (bytes > budget_bytes_) {
         throw InputError(
             fmt::format("a stimulus takes {:.0f} MB in the frame store, which may take {:.0f}: "
                         "allow more with display.frame_store_mb, or show fewer or smaller frames",
                         1e-6 * static_cast<double>(bytes), 1e-6 * static_cast<double>(budget_bytes_)));
     }
-    if (!stimulus.textures || stimulus.textures->layers() < stimulus.pages ||
-        !fits_beside_current(stimulus.textures->layers())) {
-        stimulus.textures.reset();
-        stimulus.textures.emplace(*context_, patch_.size_px, stimulus.pages, encoder_->format());
+    if (!stored.textures || stored.textures->layers() < stored.pages ||
+        !fits_beside_current(stored.textures->layers())) {
+        stored.textures.reset();
+        stored.textures.emplace(*context_, patch_.size_px, stored.pages, encoder_->format());
     }
     if (!staging_)
         staging_.emplace(*context_, staged_pages(), page_bytes());
-    expected_ = condition;
+    expected_ = stimulus;
     loader_.emplace(
-        *staging_, stimulus.pages,
-        [this, condition](int page, LinearImage& room, std::span<std::byte> into) {
-            const LinearImage& picture = source_->read_page(condition, page, room);
+        *staging_, stored.pages,
+        [this, stimulus](int page, LinearImage& room, std::span<std::byte> into) {
+            const LinearImage& picture = source_->read_page(stimulus, page, room);
             OVERT_EXPECTS(picture.size_px == image_px_);
             encoder_->encode(picture, origin_px_, into);
         },
@@ -75,23 +75,23 @@ void FrameStore::forget_expected() {
     failure_ = nullptr;
 }
 
-const StoredStimulus& FrameStore::load(const Condition& condition) {
-    if (is_loaded_ && stimuli_[current_].condition == condition)
+const StoredStimulus& FrameStore::load(const Stimulus& stimulus) {
+    if (is_loaded_ && stimuli_[current_].stimulus == stimulus)
         return stimuli_[current_];
-    if (failure_ && expected_ == condition) {
+    if (failure_ && expected_ == stimulus) {
         const std::exception_ptr failure = failure_;
         forget_expected();
         std::rethrow_exception(failure);
     }
-    if (expected_ != condition) {
+    if (expected_ != stimulus) {
         forget_expected();
-        if (!fits_beside_current(pages_of(condition))) {
+        if (!fits_beside_current(pages_of(stimulus))) {
             // It takes the place of the one that was shown.
             spare().textures.reset();
             current_ = 1 - current_;
             is_loaded_ = false;
         }
-        begin(condition, processors());
+        begin(stimulus, processors());
     }
     if (loader_) {
         try {
@@ -110,17 +110,17 @@ const StoredStimulus& FrameStore::load(const Condition& condition) {
     return stimuli_[current_];
 }
 
-void FrameStore::expect(const Condition& condition) noexcept {
-    if ((is_loaded_ && stimuli_[current_].condition == condition) || expected_ == condition)
+void FrameStore::expect(const Stimulus& stimulus) noexcept {
+    if ((is_loaded_ && stimuli_[current_].stimulus == stimulus) || expected_ == stimulus)
         return;
     forget_expected();
     try {
         // Somebody answers meanwhile, and time stamps are taken: one processor stays free where there are
         // more.
-        if (fits_beside_current(pages_of(condition)))
-            begin(condition, std::max(1, processors() - 1));
+        if (fits_beside_current(pages_of(stimulus)))
+            begin(stimulus, std::max(1, processors() - 1));
     } catch (...) {
-        expected_ = condition;
+        expected_ = stimulus;
         failure_ = std::current_exception();
     }
 }

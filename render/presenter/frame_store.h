@@ -20,19 +20,19 @@ class FrameSource {
     virtual ~FrameSource() = default;
     /// Which page of the frame store shows each animation frame; frames that look alike share one. Pages
     /// count from 0.
-    virtual std::vector<int> page_of_frame(const Condition& condition) const = 0;
+    virtual std::vector<int> page_of_frame(const Stimulus& stimulus) const = 0;
     /// The picture for one page. May be called from several threads at once. Throws InputError.
-    virtual LinearImage page(const Condition& condition, int page) const = 0;
+    virtual LinearImage page(const Stimulus& stimulus, int page) const = 0;
     /// The same for those who read many: put into `room`, whose memory is used again, or the source's own
     /// picture if it keeps one.
-    virtual const LinearImage& read_page(const Condition& condition, int page, LinearImage& room) const {
-        return room = this->page(condition, page);
+    virtual const LinearImage& read_page(const Stimulus& stimulus, int page, LinearImage& room) const {
+        return room = this->page(stimulus, page);
     }
 };
 
 /// A stimulus on the card.
 struct StoredStimulus {
-    Condition condition;
+    Stimulus stimulus;
     std::vector<int> page_of_frame;
     int pages = 0;
     std::optional<TextureArray> textures; ///< a layer for each page, maybe more
@@ -53,11 +53,11 @@ class FrameStore {
     /// The stimulus to be shown now: nothing to do if it was expected and has arrived, else waits for it. It
     /// stays until another is loaded. Throws GraphicsError, InputError, also what went wrong while it was
     /// expected.
-    const StoredStimulus& load(const Condition& condition);
+    const StoredStimulus& load(const Stimulus& stimulus);
 
     /// The stimulus to be loaded next: begins to read it in the background, unless it is there already or
     /// both do not fit into the budget. Failures are kept for load().
-    void expect(const Condition& condition) noexcept;
+    void expect(const Stimulus& stimulus) noexcept;
 
     /// Hands over to the card what has been read of the expected stimulus, one page at most. To be called
     /// again and again where a few milliseconds matter to nobody. Failures are kept for load().
@@ -65,10 +65,10 @@ class FrameStore {
 
   private:
     std::size_t page_bytes() const;
-    int pages_of(const Condition& condition) const;
+    int pages_of(const Stimulus& stimulus) const;
     bool fits_beside_current(int pages) const;
     StoredStimulus& spare() { return stimuli_[1 - current_]; }
-    void begin(const Condition& condition, int threads);
+    void begin(const Stimulus& stimulus, int threads);
     void forget_expected();
 
     const GlContext* context_;
@@ -82,7 +82,7 @@ class FrameStore {
     std::size_t current_ = 0;
     bool is_loaded_ = false; ///< stimuli_[current_] can be shown
     /// Which stimulus spare() holds or is about to hold.
-    std::optional<Condition> expected_;
+    std::optional<Stimulus> expected_;
     std::optional<PageLoader> loader_; ///< while pages of it are missing
     std::exception_ptr failure_;
 };

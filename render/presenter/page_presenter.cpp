@@ -103,11 +103,11 @@ void PagePresenter::check_depth() const {
     }
 }
 
-void PagePresenter::load_frames(const Condition& condition) {
-    if (loaded_ && loaded_->condition == condition)
+void PagePresenter::load_frames(const Stimulus& stimulus) {
+    if (loaded_ && loaded_->stimulus == stimulus)
         return;
     loaded_ = nullptr;
-    loaded_ = &store_.load(condition);
+    loaded_ = &store_.load(stimulus);
     clear_picture();
 }
 

@@ -29,8 +29,8 @@ class PagePresenter final : public Presenter {
                   const ScreenGeometry& geometry, const DisplaySettings& display, ScreenSettings screens);
 
     DisplayTiming timing() const override { return surface_->timing(); }
-    void load_frames(const Condition& condition) override;
-    void expect_frames(const Condition& condition) noexcept override { store_.expect(condition); }
+    void load_frames(const Stimulus& stimulus) override;
+    void expect_frames(const Stimulus& stimulus) noexcept override { store_.expect(stimulus); }
     void use_spare_time() noexcept override { store_.use_spare_time(); }
     FlipReport show(const Screen& screen) override;
     void show_level(const LevelBar& bar) override;

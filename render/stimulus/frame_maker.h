@@ -18,19 +18,19 @@ class FrameMaker {
 
     /// Makes the frames of these stimuli that the cache lacks, of all poses or of one, and puts them there.
     /// Throws InputError, GraphicsError, RecordError.
-    void make_frames(std::span<const Condition> conditions, const FrameQuality& quality,
-                     const Progress& progress, std::optional<PoseIndex> only = {});
+    void make_frames(std::span<const Stimulus> stimuli, const FrameQuality& quality, const Progress& progress,
+                     std::optional<PoseIndex> only = {});
 
     /// Traces one frame on all processors (see bake_frame()), drawing its map before if the cache lacks it;
     /// the cache does not get it. Not complete if `progress` stopped it. What a stimulus needs is built when
     /// it comes up and kept until another does. Throws InputError, GraphicsError.
-    SpectralFrame trace(const Condition& condition, PoseIndex pose, const FrameQuality& quality,
+    SpectralFrame trace(const Stimulus& stimulus, PoseIndex pose, const FrameQuality& quality,
                         const BakeProgress& progress);
 
   private:
-    std::vector<PoseIndex> missing_frames(const Condition& condition, const FrameQuality& quality,
+    std::vector<PoseIndex> missing_frames(const Stimulus& stimulus, const FrameQuality& quality,
                                           std::optional<PoseIndex> only) const;
-    void draw_live_frame(const Condition& condition, PoseIndex pose, const FrameQuality& quality,
+    void draw_live_frame(const Stimulus& stimulus, PoseIndex pose, const FrameQuality& quality,
                          std::future<void>& writing);
 
     const GlContext* context_;
@@ -39,7 +39,7 @@ class FrameMaker {
     // What is traced, and its light.
     std::optional<SpectralLight> light_;
     std::optional<BakeScene> scene_;
-    Condition scene_of_;
+    Stimulus scene_of_;
     std::optional<StimulusRenderer> renderer_;
     int live_material_ = -1; ///< that the renderer is prepared for
 };

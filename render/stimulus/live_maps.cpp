@@ -29,7 +29,7 @@ LiveMaps::LiveMaps(const GlContext& context, std::span<const Object> objects, co
 }
 
 void LiveMaps::presentation_begins(const Trial& trial) noexcept {
-    current_ = trial.condition.object;
+    current_ = trial.stimulus.object;
     Figure& figure = figures_[static_cast<std::size_t>(current_)];
     for (std::size_t pose = 0; pose < figure.states.size(); ++pose) {
         if (figure.states[pose] != State::missing)

@@ -32,7 +32,7 @@ LiveView::LiveView(const GlContext& context, const Protocol& protocol, std::span
       renderer_(context, protocol.light, image_px),
       label_grey_(protocol.display.background > 0.3 ? 0.0f : 0.6f) {}
 
-void LiveView::choose(const Condition& stimulus) {
+void LiveView::choose(const Stimulus& stimulus) {
     const Object& object = objects_[static_cast<std::size_t>(stimulus.object)];
     const MaterialSettings& material = protocol_->materials[static_cast<std::size_t>(stimulus.material)];
     if (!object.has_mesh())

@@ -18,8 +18,8 @@ class LiveView {
              glm::ivec2 image_px);
 
     /// Throws InputError for an object without a mesh.
-    void choose(const Condition& stimulus);
-    const Condition& chosen() const { return stimulus_; }
+    void choose(const Stimulus& stimulus);
+    const Stimulus& chosen() const { return stimulus_; }
 
     /// Display light over the protocol's background, opaque, with a line of text that says what it is.
     LinearImage draw(const Orbit& orbit);
@@ -30,7 +30,7 @@ class LiveView {
     std::span<const Object> objects_;
     glm::ivec2 image_px_;
     StimulusRenderer renderer_;
-    Condition stimulus_{-1, -1};
+    Stimulus stimulus_{-1, -1};
     std::optional<MeshBuffers> buffers_;
     float label_grey_;
     LinearImage label_;

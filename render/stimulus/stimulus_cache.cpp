@@ -20,8 +20,8 @@ StimulusCache::StimulusCache(const Protocol& protocol, std::span<const Object> o
     : protocol_(&protocol), objects_(objects), folder_(std::move(folder)),
       poses_(distinct_poses(protocol.animation)), surroundings_(hash_of_surroundings(protocol.light)) {}
 
-std::vector<Condition> StimulusCache::rendered_stimuli() const {
-    std::vector<Condition> stimuli;
+std::vector<Stimulus> StimulusCache::rendered_stimuli() const {
+    std::vector<Stimulus> stimuli;
     for (int object = 0; object < static_cast<int>(objects_.size()); ++object) {
         for (int material = 0; material < static_cast<int>(protocol_->materials.size()); ++material) {
             if (!is_ready_made({object, material}))
@@ -31,8 +31,8 @@ std::vector<Condition> StimulusCache::rendered_stimuli() const {
     return stimuli;
 }
 
-std::vector<Condition> StimulusCache::stimuli_with_surface() const {
-    std::vector<Condition> stimuli;
+std::vector<Stimulus> StimulusCache::stimuli_with_surface() const {
+    std::vector<Stimulus> stimuli;
     for (int object = 0; object < static_cast<int>(objects_.size()); ++object) {
         for (int material = 0; material < static_cast<int>(protocol_->materials.size()); ++material) {
             if (objects_[static_cast<std::size_t>(object)].has_mesh() || has_given_maps(object))
@@ -42,19 +42,19 @@ std::vector<Condition> StimulusCache::stimuli_with_surface() const {
     return stimuli;
 }
 
-void StimulusCache::require_mesh(const Condition& condition) const {
-    const Object& object = object_of(condition);
+void StimulusCache::require_mesh(const Stimulus& stimulus) const {
+    const Object& object = object_of(stimulus);
     if (!object.has_mesh()) {
         throw InputError(fmt::format("{}, {}: there is neither a mesh to render nor [[frames]] to show",
-                                     protocol_->objects[static_cast<std::size_t>(condition.object)].id,
-                                     material_of(condition).id));
+                                     protocol_->objects[static_cast<std::size_t>(stimulus.object)].id,
+                                     material_of(stimulus).id));
     }
 }
 
-std::vector<PoseIndex> StimulusCache::missing_frames(const Condition& condition,
+std::vector<PoseIndex> StimulusCache::missing_frames(const Stimulus& stimulus,
                                                      const FrameQuality& quality) const {
     std::vector<PoseIndex> missing;
-    const ContentHash key = frame_key(condition, quality);
+    const ContentHash key = frame_key(stimulus, quality);
     for (int pose = 0; pose < static_cast<int>(poses_.angles.size()); ++pose) {
         if (!std::filesystem::exists(file_of("frames", key, {pose})))
             missing.push_back({pose});
@@ -62,7 +62,7 @@ std::vector<PoseIndex> StimulusCache::missing_frames(const Condition& condition,
     return missing;
 }
 
-std::optional<FrameQuality> StimulusCache::best_quality(std::span<const Condition> conditions,
+std::optional<FrameQuality> StimulusCache::best_quality(std::span<const Stimulus> stimuli,
                                                         BakeQuality least) const {
     std::vector<BakeQuality> levels{BakeQuality::reference, BakeQuality::standard, BakeQuality::draft,
                                     BakeQuality::preview};
@@ -70,9 +70,8 @@ std::optional<FrameQuality> StimulusCache::best_quality(std::span<const Conditio
     if (least == BakeQuality::live)
         levels = {BakeQuality::live};
     const auto has_all = [&](const FrameQuality& quality) {
-        return std::ranges::all_of(conditions, [&](const Condition& condition) {
-            return missing_frames(condition, quality).empty();
-        });
+        return std::ranges::all_of(
+            stimuli, [&](const Stimulus& stimulus) { return missing_frames(stimulus, quality).empty(); });
     };
     for (const BakeQuality level : levels) {
         const FrameQuality quality = quality_of(level, protocol_->bake);
@@ -82,14 +81,14 @@ std::optional<FrameQuality> StimulusCache::best_quality(std::span<const Conditio
     return std::nullopt;
 }
 
-std::filesystem::path StimulusCache::frame_file_of(const Condition& condition, const FrameQuality& quality,
+std::filesystem::path StimulusCache::frame_file_of(const Stimulus& stimulus, const FrameQuality& quality,
                                                    PoseIndex pose) const {
-    return file_of("frames", frame_key(condition, quality), pose);
+    return file_of("frames", frame_key(stimulus, quality), pose);
 }
 
-ContentHash StimulusCache::frame_key(const Condition& condition, const FrameQuality& quality) const {
-    const Object& object = object_of(condition);
-    const MaterialSettings& material = material_of(condition);
+ContentHash StimulusCache::frame_key(const Stimulus& stimulus, const FrameQuality& quality) const {
+    const Object& object = object_of(stimulus);
+    const MaterialSettings& material = material_of(stimulus);
     if (quality.is_live())
         return live_key(object, material, surroundings_, protocol_->light.exposure);
     return traced_key(object, material, surroundings_, protocol_->light.exposure,
@@ -103,17 +102,17 @@ glm::dmat3 StimulusCache::display_from_frame(const FrameQuality& quality) const 
            display_from(rendered_colours(protocol_->bake.observer), protocol_->display);
 }
 
-void StimulusCache::store(const Condition& condition, PoseIndex pose, const FrameQuality& quality,
+void StimulusCache::store(const Stimulus& stimulus, PoseIndex pose, const FrameQuality& quality,
                           const SpectralFrame& frame) const {
     OVERT_EXPECTS(frame.is_complete);
-    const std::filesystem::path file = frame_file_of(condition, quality, pose);
+    const std::filesystem::path file = frame_file_of(stimulus, quality, pose);
     std::filesystem::create_directories(file.parent_path());
     const Degrees angle = angle_of(pose);
-    const MaterialSettings& material = material_of(condition);
-    ImageAttributes attributes = describe_stimulus(*protocol_, object_of(condition), material, angle);
+    const MaterialSettings& material = material_of(stimulus);
+    ImageAttributes attributes = describe_stimulus(*protocol_, object_of(stimulus), material, angle);
     for (auto& attribute : describe_tracing(quality, *protocol_, material.kind))
         attributes.push_back(std::move(attribute));
-    attributes.emplace_back("overt:key", frame_key(condition, quality));
+    attributes.emplace_back("overt:key", frame_key(stimulus, quality));
     write_linear_exr(file, seen_by(protocol_->bake.observer, frame), attributes);
 }
 

@@ -25,49 +25,49 @@ class StimulusCache {
 
     const Protocol& protocol() const { return *protocol_; }
     std::span<const Object> objects() const { return objects_; }
-    const Object& object_of(const Condition& condition) const {
-        return objects_[static_cast<std::size_t>(condition.object)];
+    const Object& object_of(const Stimulus& stimulus) const {
+        return objects_[static_cast<std::size_t>(stimulus.object)];
     }
-    const MaterialSettings& material_of(const Condition& condition) const {
-        return protocol_->materials[static_cast<std::size_t>(condition.material)];
+    const MaterialSettings& material_of(const Stimulus& stimulus) const {
+        return protocol_->materials[static_cast<std::size_t>(stimulus.material)];
     }
     const PoseTable& poses() const { return poses_; }
     Degrees angle_of(PoseIndex pose) const { return poses_.angles[static_cast<std::size_t>(pose.value)]; }
 
     /// The ready-made frames of a stimulus, or null if it is to be rendered.
-    const FrameSequenceSettings* sequence_of(const Condition& condition) const {
-        return find_frames(*protocol_, condition.object, condition.material);
+    const FrameSequenceSettings* sequence_of(const Stimulus& stimulus) const {
+        return find_frames(*protocol_, stimulus.object, stimulus.material);
     }
-    bool is_ready_made(const Condition& condition) const { return sequence_of(condition) != nullptr; }
+    bool is_ready_made(const Stimulus& stimulus) const { return sequence_of(stimulus) != nullptr; }
 
     /// All stimuli that are rendered.
-    std::vector<Condition> rendered_stimuli() const;
+    std::vector<Stimulus> rendered_stimuli() const;
 
     /// All stimuli whose object has a mesh or ready-made maps.
-    std::vector<Condition> stimuli_with_surface() const;
+    std::vector<Stimulus> stimuli_with_surface() const;
 
     /// Throws InputError if a stimulus has neither a mesh to render nor [[frames]].
-    void require_mesh(const Condition& condition) const;
+    void require_mesh(const Stimulus& stimulus) const;
 
     /// Poses of which there is no frame of that quality.
-    std::vector<PoseIndex> missing_frames(const Condition& condition, const FrameQuality& quality) const;
+    std::vector<PoseIndex> missing_frames(const Stimulus& stimulus, const FrameQuality& quality) const;
 
     /// The best quality of which every frame of these stimuli is there, if it is no less than `least`.
-    std::optional<FrameQuality> best_quality(std::span<const Condition> conditions, BakeQuality least) const;
+    std::optional<FrameQuality> best_quality(std::span<const Stimulus> stimuli, BakeQuality least) const;
 
     /// A frame's file: linear light without exposure, in rendered_colours(). Live ones are in Rec. 709 and
     /// have the exposure.
-    std::filesystem::path frame_file_of(const Condition& condition, const FrameQuality& quality,
+    std::filesystem::path frame_file_of(const Stimulus& stimulus, const FrameQuality& quality,
                                         PoseIndex pose) const;
 
     /// Everything that makes a stimulus's frames but the angle.
-    ContentHash frame_key(const Condition& condition, const FrameQuality& quality) const;
+    ContentHash frame_key(const Stimulus& stimulus, const FrameQuality& quality) const;
 
     /// What turns a frame's file into the display's light; the exposure is in it.
     glm::dmat3 display_from_frame(const FrameQuality& quality) const;
 
     /// Writes a traced frame, which must be complete. Throws RecordError.
-    void store(const Condition& condition, PoseIndex pose, const FrameQuality& quality,
+    void store(const Stimulus& stimulus, PoseIndex pose, const FrameQuality& quality,
                const SpectralFrame& frame) const;
 
     /// The object has no mesh, but ready-made maps.

@@ -22,8 +22,8 @@ void StimulusLibrary::prepare_frames(const Progress& progress, BakeQuality least
     for (const FrameSequenceSettings& sequence : protocol_->frames)
         check_frame_sizes(sequence, protocol_->animation.frame_count,
                           {protocol_->view.width_px, protocol_->view.height_px});
-    const std::vector<Condition> stimuli = cache_.rendered_stimuli();
-    for (const Condition& stimulus : stimuli)
+    const std::vector<Stimulus> stimuli = cache_.rendered_stimuli();
+    for (const Stimulus& stimulus : stimuli)
         cache_.require_mesh(stimulus);
     if (const std::optional<FrameQuality> best = cache_.best_quality(stimuli, least)) {
         take_frames(*best);
@@ -32,7 +32,7 @@ void StimulusLibrary::prepare_frames(const Progress& progress, BakeQuality least
     const FrameQuality quality = quality_of(least, protocol_->bake);
     if (least > BakeQuality::preview) {
         std::size_t missing = 0;
-        for (const Condition& stimulus : stimuli)
+        for (const Stimulus& stimulus : stimuli)
             missing += cache_.missing_frames(stimulus, quality).size();
         const std::string file = protocol_->file.string();
         throw InputError(
@@ -49,54 +49,54 @@ void StimulusLibrary::prepare_frames(const Progress& progress, BakeQuality least
     take_frames(quality);
 }
 
-void StimulusLibrary::prepare_frames(const Condition& condition, const Progress& progress,
+void StimulusLibrary::prepare_frames(const Stimulus& stimulus, const Progress& progress,
                                      std::optional<AnimationFrameIndex> only) {
-    if (const FrameSequenceSettings* sequence = cache_.sequence_of(condition)) {
+    if (const FrameSequenceSettings* sequence = cache_.sequence_of(stimulus)) {
         check_frame_sizes(*sequence, protocol_->animation.frame_count,
                           {protocol_->view.width_px, protocol_->view.height_px});
         return;
     }
-    cache_.require_mesh(condition);
-    const std::span<const Condition> one(&condition, 1);
+    cache_.require_mesh(stimulus);
+    const std::span<const Stimulus> one(&stimulus, 1);
     const BakeQuality least = std::min(protocol_->bake.least(), BakeQuality::preview);
     if (const std::optional<FrameQuality> best = cache_.best_quality(one, least)) {
-        qualities_[index_of(condition)] = *best;
+        qualities_[index_of(stimulus)] = *best;
         return;
     }
-    qualities_[index_of(condition)] = quality_of(least, protocol_->bake);
-    frames_.make_frames(one, qualities_[index_of(condition)], progress,
+    qualities_[index_of(stimulus)] = quality_of(least, protocol_->bake);
+    frames_.make_frames(one, qualities_[index_of(stimulus)], progress,
                         only ? std::optional(cache_.poses().pose_of(*only)) : std::nullopt);
 }
 
-const FrameQuality& StimulusLibrary::quality_of_frames(const Condition& condition) const {
-    return qualities_[index_of(condition)];
+const FrameQuality& StimulusLibrary::quality_of_frames(const Stimulus& stimulus) const {
+    return qualities_[index_of(stimulus)];
 }
 
-std::vector<int> StimulusLibrary::page_of_frame(const Condition& condition) const {
+std::vector<int> StimulusLibrary::page_of_frame(const Stimulus& stimulus) const {
     std::vector<int> pages;
     for (int frame = 0; frame < protocol_->animation.frame_count; ++frame) {
         // Each ready-made frame is shown itself, even where two share a pose.
-        pages.push_back(cache_.is_ready_made(condition) ? frame : cache_.poses().pose_of({frame}).value);
+        pages.push_back(cache_.is_ready_made(stimulus) ? frame : cache_.poses().pose_of({frame}).value);
     }
     return pages;
 }
 
-LinearImage StimulusLibrary::page(const Condition& condition, int page) const {
+LinearImage StimulusLibrary::page(const Stimulus& stimulus, int page) const {
     LinearImage image;
-    read_page(condition, page, image);
+    read_page(stimulus, page, image);
     return image;
 }
 
-LinearImage StimulusLibrary::page_on_screen(const Condition& condition, int page) const {
-    LinearImage image = this->page(condition, page);
+LinearImage StimulusLibrary::page_on_screen(const Stimulus& stimulus, int page) const {
+    LinearImage image = this->page(stimulus, page);
     const auto background = static_cast<float>(protocol_->display.background);
     for (glm::vec4& pixel : image.pixels)
         pixel = glm::vec4(glm::vec3(pixel) + (1.0f - pixel.w) * background, 1.0f);
     return image;
 }
 
-const LinearImage& StimulusLibrary::read_page(const Condition& condition, int page, LinearImage& room) const {
-    if (const FrameSequenceSettings* sequence = cache_.sequence_of(condition)) {
+const LinearImage& StimulusLibrary::read_page(const Stimulus& stimulus, int page, LinearImage& room) const {
+    if (const FrameSequenceSettings* sequence = cache_.sequence_of(stimulus)) {
         read_linear_image(frame_file(*sequence, {page}), sequence->encoding,
                           sequence->colour_space == FrameColours::rec709 ? FileColours::as_rec709
                                                                          : FileColours::as_they_stand,
@@ -104,28 +104,28 @@ const LinearImage& StimulusLibrary::read_page(const Condition& condition, int pa
         transform(room, sequence->exposure * display_from(colours_of(*sequence), protocol_->display));
         return room;
     }
-    const FrameQuality& quality = qualities_[index_of(condition)];
-    read_linear_image(cache_.frame_file_of(condition, quality, {page}), FrameEncoding::linear,
+    const FrameQuality& quality = qualities_[index_of(stimulus)];
+    read_linear_image(cache_.frame_file_of(stimulus, quality, {page}), FrameEncoding::linear,
                       FileColours::as_they_stand, room);
     transform(room, cache_.display_from_frame(quality));
     return room;
 }
 
-std::string StimulusLibrary::source_of(const Condition& condition) const {
-    if (const FrameSequenceSettings* sequence = cache_.sequence_of(condition))
+std::string StimulusLibrary::source_of(const Stimulus& stimulus) const {
+    if (const FrameSequenceSettings* sequence = cache_.sequence_of(stimulus))
         return "frames " + sequence->files;
-    const FrameQuality& quality = qualities_[index_of(condition)];
+    const FrameQuality& quality = qualities_[index_of(stimulus)];
     if (quality.is_live())
         return "OpenGL preview";
-    const BakeSettings settings = bake_settings(quality, protocol_->bake, cache_.material_of(condition).kind);
+    const BakeSettings settings = bake_settings(quality, protocol_->bake, cache_.material_of(stimulus).kind);
     return fmt::format("path traced, {}: {} samples, {}", name_of(quality.level), settings.samples,
                        protocol_->bake.observer == StandardObserver::cie2006 ? "CIE 2006" : "CIE 1931");
 }
 
-ContentHash StimulusLibrary::frames_hash(const Condition& condition) const {
+ContentHash StimulusLibrary::frames_hash(const Stimulus& stimulus) const {
     ContentHasher hasher;
     const auto& light = protocol_->display.characterisation;
-    if (const FrameSequenceSettings* sequence = cache_.sequence_of(condition)) {
+    if (const FrameSequenceSettings* sequence = cache_.sequence_of(stimulus)) {
         for (int frame = 0; frame < protocol_->animation.frame_count; ++frame) {
             hasher.add(std::string_view(hash_of_file(frame_file(*sequence, {frame}))));
         }
@@ -135,7 +135,7 @@ ContentHash StimulusLibrary::frames_hash(const Condition& condition) const {
             return hasher.finish();
         hasher.add(static_cast<int>(sequence->colour_space));
     } else {
-        hasher.add(std::string_view(cache_.frame_key(condition, qualities_[index_of(condition)])));
+        hasher.add(std::string_view(cache_.frame_key(stimulus, qualities_[index_of(stimulus)])));
         hasher.add(protocol_->light.exposure);
     }
     if (light)
@@ -143,7 +143,7 @@ ContentHash StimulusLibrary::frames_hash(const Condition& condition) const {
     return hasher.finish();
 }
 
-LightPictures StimulusLibrary::light_of(const Condition& condition) const {
+LightPictures StimulusLibrary::light_of(const Stimulus& stimulus) const {
     LightPictures light;
     light.image_px = {protocol_->view.width_px, protocol_->view.height_px};
     light.square_px = light_square_px(light.image_px);
@@ -152,10 +152,10 @@ LightPictures StimulusLibrary::light_of(const Condition& condition) const {
     light.coverage.resize(light.luminance.size());
     const auto& measured = protocol_->display.characterisation;
     const glm::dvec3 shares = measured ? measured->luminance_shares() : glm::dvec3(0.2126, 0.7152, 0.0722);
-    const std::vector<int> page_of = page_of_frame(condition);
+    const std::vector<int> page_of = page_of_frame(stimulus);
     parallel_for(light.poses, [&](int pose) {
         const int frame = first_frame_of(cache_.poses(), {pose}).value;
-        const LinearImage picture = page(condition, page_of[static_cast<std::size_t>(frame)]);
+        const LinearImage picture = page(stimulus, page_of[static_cast<std::size_t>(frame)]);
         const glm::ivec2 size = light.size();
         const std::size_t begin = light.squares() * static_cast<std::size_t>(pose);
         std::vector<double> luminance(light.squares()), coverage(light.squares());
@@ -180,40 +180,39 @@ LightPictures StimulusLibrary::light_of(const Condition& condition) const {
     return light;
 }
 
-std::optional<std::filesystem::path> StimulusLibrary::light_file(const Condition& condition,
-                                                                 bool make) const {
-    const FrameSequenceSettings* const sequence = cache_.sequence_of(condition);
+std::optional<std::filesystem::path> StimulusLibrary::light_file(const Stimulus& stimulus, bool make) const {
+    const FrameSequenceSettings* const sequence = cache_.sequence_of(stimulus);
     if (sequence && !has_alpha(frame_file(*sequence, {0})))
         return std::nullopt;
-    const std::filesystem::path file = cache_.light_file(frames_hash(condition));
+    const std::filesystem::path file = cache_.light_file(frames_hash(stimulus));
     if (!std::filesystem::exists(file)) {
         if (!make)
             return std::nullopt;
         std::filesystem::create_directories(file.parent_path());
-        write_light_pictures(file, light_of(condition));
+        write_light_pictures(file, light_of(stimulus));
     }
     return file;
 }
 
-std::filesystem::path StimulusLibrary::first_frame_file(const Condition& condition) const {
-    const int first = page_of_frame(condition).front();
+std::filesystem::path StimulusLibrary::first_frame_file(const Stimulus& stimulus) const {
+    const int first = page_of_frame(stimulus).front();
     ContentHasher hasher;
-    hasher.add(std::string_view(frames_hash(condition)));
-    if (!cache_.is_ready_made(condition))
+    hasher.add(std::string_view(frames_hash(stimulus)));
+    if (!cache_.is_ready_made(stimulus))
         hasher.add(cache_.angle_of({first}).value);
     if (protocol_->display.background != 0.0)
         hasher.add(protocol_->display.background);
     std::filesystem::path file = cache_.first_frame_file(hasher.finish());
     if (!std::filesystem::exists(file)) {
         std::filesystem::create_directories(file.parent_path());
-        write_srgb_png(file, page_on_screen(condition, first));
+        write_srgb_png(file, page_on_screen(stimulus, first));
     }
     return file;
 }
 
-std::size_t StimulusLibrary::index_of(const Condition& condition) const {
-    return static_cast<std::size_t>(condition.object) * protocol_->materials.size() +
-           static_cast<std::size_t>(condition.material);
+std::size_t StimulusLibrary::index_of(const Stimulus& stimulus) const {
+    return static_cast<std::size_t>(stimulus.object) * protocol_->materials.size() +
+           static_cast<std::size_t>(stimulus.material);
 }
 
 } // namespace overt

@@ -28,7 +28,7 @@ class StimulusLibrary final : public FrameSource {
 
     /// For a look at one stimulus, or at one of its animation frames: the best there is of the whole
     /// stimulus, or else a preview of what is looked at. Throws likewise.
-    void prepare_frames(const Condition& condition, const Progress& progress,
+    void prepare_frames(const Stimulus& stimulus, const Progress& progress,
                         std::optional<AnimationFrameIndex> only = {});
 
     /// Has page() give frames of this quality of all stimuli that are not ready-made. They have to be there.
@@ -40,33 +40,33 @@ class StimulusLibrary final : public FrameSource {
     }
 
     /// The frames that page() gives of a stimulus that is not ready-made.
-    const FrameQuality& quality_of_frames(const Condition& condition) const;
+    const FrameQuality& quality_of_frames(const Stimulus& stimulus) const;
 
-    std::vector<int> page_of_frame(const Condition& condition) const override;
-    LinearImage page(const Condition& condition, int page) const override;
-    const LinearImage& read_page(const Condition& condition, int page, LinearImage& room) const override;
+    std::vector<int> page_of_frame(const Stimulus& stimulus) const override;
+    LinearImage page(const Stimulus& stimulus, int page) const override;
+    const LinearImage& read_page(const Stimulus& stimulus, int page, LinearImage& room) const override;
     /// The page as a screen shows it: over the display's background, opaque.
-    LinearImage page_on_screen(const Condition& condition, int page) const;
+    LinearImage page_on_screen(const Stimulus& stimulus, int page) const;
 
     /// Where the pictures of a stimulus come from, in words.
-    std::string source_of(const Condition& condition) const;
+    std::string source_of(const Stimulus& stimulus) const;
     /// Of everything that made its frames, the display's characterisation included; for ready-made ones, of
     /// the files' bytes.
-    ContentHash frames_hash(const Condition& condition) const;
+    ContentHash frames_hash(const Stimulus& stimulus) const;
 
     /// The file with the luminance of a stimulus in small pictures (light_pictures.h), from the cache. What
     /// is not there is made if `make` says so, which reads all frames of the stimulus. Nothing for what is
     /// not there, and for ready-made frames without alpha: what they show of the object is not known. Throws
     /// InputError, RecordError.
-    std::optional<std::filesystem::path> light_file(const Condition& condition, bool make) const;
+    std::optional<std::filesystem::path> light_file(const Stimulus& stimulus, bool make) const;
 
     /// The first frame on the display's background, for looking at (write_srgb_png), from the cache; made if
     /// it is not there. Throws likewise.
-    std::filesystem::path first_frame_file(const Condition& condition) const;
+    std::filesystem::path first_frame_file(const Stimulus& stimulus) const;
 
   private:
-    LightPictures light_of(const Condition& condition) const;
-    std::size_t index_of(const Condition& condition) const;
+    LightPictures light_of(const Stimulus& stimulus) const;
+    std::size_t index_of(const Stimulus& stimulus) const;
 
     const Protocol* protocol_;
     StimulusCache cache_;

@@ -45,7 +45,7 @@ class BlankPresenter final : public Presenter {
   public:
     explicit BlankPresenter(Clock& clock) : refresh_(clock, 120.0) {}
     DisplayTiming timing() const override { return refresh_.timing(); }
-    void load_frames(const Condition&) override {}
+    void load_frames(const Stimulus&) override {}
     FlipReport show(const Screen&) override { return refresh_.next(); }
     FlipReport flip(AnimationFrameIndex) noexcept override { return refresh_.next(); }
     bool closed() const noexcept override { return false; }

@@ -30,7 +30,7 @@ class NotingPresenter final : public Presenter {
     int flips = 0;
 
     DisplayTiming timing() const override { return refresh_->timing(); }
-    void load_frames(const Condition&) override {}
+    void load_frames(const Stimulus&) override {}
     FlipReport show(const Screen&) override {
         if (in_presentation_)
             presentations.push_back(test::calls - at_first_flip_);

@@ -21,8 +21,8 @@ std::vector<std::pair<std::string_view, std::string>> variables_of(const Session
                                                                    const Trial& trial) {
     const auto id = [](const auto& list, int index) { return list[static_cast<std::size_t>(index)].id; };
     return {{"task", id(header.tasks, trial.task)},
-            {"object", id(header.objects, trial.condition.object)},
-            {"material", id(header.materials, trial.condition.material)}};
+            {"object", id(header.objects, trial.stimulus.object)},
+            {"material", id(header.materials, trial.stimulus.material)}};
 }
 
 std::vector<GazeEvent> events_of(const SessionRecord& record, const TrialRecord& trial) {
@@ -184,7 +184,7 @@ std::vector<std::string> condition_texts(const SessionHeader& header, const Tria
         texts.push_back(fmt::format("!V TRIAL_VAR {} {}", name, value));
     }
     texts.front() += fmt::format(" attempt={}", trial.attempt);
-    if (const RecordedStimulus* const stimulus = stimulus_of(header, trial.trial.condition))
+    if (const RecordedStimulus* const stimulus = stimulus_of(header, trial.trial.stimulus))
         texts.push_back(fmt::format("!V TRIAL_VAR frames {}", ascii_of(stimulus->source)));
     return texts;
 }

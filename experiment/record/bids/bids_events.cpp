@@ -115,7 +115,7 @@ RowLayout<BidsEvent> events_layout(const SessionHeader& header, SessionTime zero
              material_of(header)},
             {{"frames", "How the frames that were shown had been made"},
              [&header](const TrialRecord& attempt) {
-                 return of_maybe(stimulus_of(header, attempt.trial.condition), &RecordedStimulus::source);
+                 return of_maybe(stimulus_of(header, attempt.trial.stimulus), &RecordedStimulus::source);
              }},
             {timing_column(), timing_of(header)},
             {{"missed_refreshes",
@@ -167,7 +167,7 @@ void add_events(std::vector<BidsEvent>& to, const TrialRecord& trial, SessionTim
                       outcome.presentation_onset,
                       outcome.presentation_end,
                       {},
-                      stimulus_file(trial.trial.condition)});
+                      stimulus_file(trial.trial.stimulus)});
     if (was(outcome.response_screen_onset)) {
         std::optional<SessionDuration> response_time;
         if (was(outcome.responded_at))

@@ -11,7 +11,7 @@
 namespace overt {
 
 /// The path of a stimulus under the dataset's folder "stimuli"; empty if there is no such file.
-using StimulusFile = std::function<std::string(const Condition&)>;
+using StimulusFile = std::function<std::string(const Stimulus&)>;
 
 /// Writes STEM.tsv and STEM.json: per attempt at a trial a row for it, and for each screen that it got to.
 /// Onsets count from `zero` (see bids_zero), or from the session's begin. Throws InputError if the size or

@@ -30,14 +30,14 @@ class Stimuli {
         : record_(record), staged_(std::move(staged)), dataset_(std::move(dataset)), task_(names.task) {}
 
     /// Its path under "stimuli", or empty.
-    const std::string& file_of(const Condition& condition) {
-        const auto known = files_.find(condition);
-        return known != files_.end() ? known->second : files_[condition] = put(condition);
+    const std::string& file_of(const Stimulus& stimulus) {
+        const auto known = files_.find(stimulus);
+        return known != files_.end() ? known->second : files_[stimulus] = put(stimulus);
     }
 
   private:
-    std::string put(const Condition& condition) const {
-        const fs::path from = record_.directory() / preview_file(record_.header(), condition);
+    std::string put(const Stimulus& stimulus) const {
+        const fs::path from = record_.directory() / preview_file(record_.header(), stimulus);
         if (!fs::is_regular_file(from))
             return {};
         const std::string hash = hash_of_file(from);
@@ -61,7 +61,7 @@ class Stimuli {
     const SessionRecord& record_;
     const fs::path staged_, dataset_;
     const std::string task_;
-    std::map<Condition, std::string> files_;
+    std::map<Stimulus, std::string> files_;
 };
 
 } // namespace
@@ -89,12 +89,12 @@ BidsExportCounts export_bids(const SessionRecord& record, const LookupFor& looku
     for (const int run : runs) {
         const std::optional<SessionTime> zero = bids_zero(record, run);
         write_bids_events(
-            record, run, zero, [&](const Condition& condition) { return stimuli.file_of(condition); },
+            record, run, zero, [&](const Stimulus& stimulus) { return stimuli.file_of(stimulus); },
             raw / (names.run_stem(run) + "_events"));
         // The derivative is to be valid on its own: its gaze needs a screen, too. It has no stimuli.
         if (!record.header().stimuli.empty() && !record.eyes(run).none())
             write_bids_events(
-                record, run, zero, [](const Condition&) { return std::string(); },
+                record, run, zero, [](const Stimulus&) { return std::string(); },
                 derived / (names.surface_run_stem(run) + "_events"));
         const BidsGazeCounts gaze = write_bids_gaze(record, run, lookup_for, raw, derived);
         if (gaze.samples == 0)

@@ -155,7 +155,7 @@ BidsGazeCounts write_bids_gaze(const SessionRecord& record, int run, const Looku
     for (const TrialRecord& trial : record.trials()) {
         if (trial.sitting != run || files.empty())
             continue;
-        const int object = trial.trial.condition.object;
+        const int object = trial.trial.stimulus.object;
         const bool has_places = files.front()->has_places();
         const SampleJoin join(record, trial, has_places ? lookup_for(object) : nullptr);
         const std::vector<std::string> parts = part_cells_of(record.header(), object, TableFormat::tsv);

@@ -25,8 +25,8 @@ void check_indices(const SessionHeader& header, const std::vector<TrialRecord>& 
     for (const TrialRecord& record : trials) {
         const Trial& trial = record.trial;
         if (!within(trial.task, header.tasks.size()) ||
-            !within(trial.condition.object, header.objects.size()) ||
-            !within(trial.condition.material, header.materials.size()))
+            !within(trial.stimulus.object, header.objects.size()) ||
+            !within(trial.stimulus.material, header.materials.size()))
             throw RecordError(fmt::format("{}: table trial, trial_id {}: it names a task, object or material "
                                           "that the session does not have: the file is damaged.",
                                           file.string(), record.id));

@@ -30,8 +30,8 @@ TrialRecord read_trial(Query& row) {
     Trial& trial = record.trial;
     TrialOutcome& outcome = record.outcome;
     std::string status, afterwards;
-    row.read(record.id, record.sitting, trial.index, record.attempt, trial.task, trial.condition.object,
-             trial.condition.material, status, record.started, outcome.task_screen_onset,
+    row.read(record.id, record.sitting, trial.index, record.attempt, trial.task, trial.stimulus.object,
+             trial.stimulus.material, status, record.started, outcome.task_screen_onset,
              outcome.presentation_onset, outcome.presentation_end, outcome.response_screen_onset,
              outcome.responded_at, outcome.shown_refreshes, outcome.missed_refreshes, outcome.drift,
              outcome.answer, record.lost_flips, record.lost_samples, outcome.failure, afterwards,

@@ -40,12 +40,12 @@ inline auto question_of(const SessionHeader& header) {
 }
 inline auto object_of(const SessionHeader& header) {
     return [&header](const TrialRecord& attempt) -> std::string_view {
-        return item(header.objects, attempt.trial.condition.object).id;
+        return item(header.objects, attempt.trial.stimulus.object).id;
     };
 }
 inline auto material_of(const SessionHeader& header) {
     return [&header](const TrialRecord& attempt) -> std::string_view {
-        return item(header.materials, attempt.trial.condition.material).id;
+        return item(header.materials, attempt.trial.stimulus.material).id;
     };
 }
 /// Nothing where no vertical blanks prove which refreshes were missed.

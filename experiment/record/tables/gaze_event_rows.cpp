@@ -187,7 +187,7 @@ void write_gaze_events(TableWriter& writer, const RowLayout<GazeEventRow>& layou
     const std::optional<ClockMap> clock_map = record.clock_map(trial);
     const SessionRecord::EventOrigin::From origin = record.event_origin(trial.sitting).from;
     const std::vector<std::string> parts =
-        part_cells_of(record.header(), trial.trial.condition.object, writer.format());
+        part_cells_of(record.header(), trial.trial.stimulus.object, writer.format());
     for (std::size_t i = 0; i < events.size(); ++i)
         layout.write(writer, {{events[i]}, trial.trial.index + 1, clock_map, origin, fixations[i], parts});
 }

@@ -90,13 +90,13 @@ SampleCounts SampleRows::write_all(TableWriter& to, const TrialRecord& trial, co
                                    const SurfaceLookup* lookup, PassingFixations* fixations) const {
     constexpr std::size_t batch = 1024;
     const bool is_after = !fixations;
-    const Condition condition = trial.trial.condition;
+    const Stimulus stimulus = trial.trial.stimulus;
     const std::string task = text_cell(is_after ? "" : item(header_.tasks, trial.trial.task).id, format_);
-    const std::string object = text_cell(is_after ? "" : item(header_.objects, condition.object).id, format_);
+    const std::string object = text_cell(is_after ? "" : item(header_.objects, stimulus.object).id, format_);
     const std::string material =
-        text_cell(is_after ? "" : item(header_.materials, condition.material).id, format_);
-    const std::vector<std::string> parts = part_cells_of(header_, condition.object, format_);
-    const std::vector<std::string>& own_parts = item(header_.objects, condition.object).part_names;
+        text_cell(is_after ? "" : item(header_.materials, stimulus.material).id, format_);
+    const std::vector<std::string> parts = part_cells_of(header_, stimulus.object, format_);
+    const std::vector<std::string>& own_parts = item(header_.objects, stimulus.object).part_names;
     const auto number = is_after ? std::nullopt : std::optional(trial.trial.index + 1);
     SampleCounts counts;
     const auto take = [&](std::span<const GazeSample> samples) {

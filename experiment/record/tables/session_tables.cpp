@@ -12,14 +12,14 @@ constexpr int scale_decimals = 9;
 /// What the header has of a stimulus's object.
 auto of_object(const SessionHeader& header, std::string RecordedObject::*what) {
     return [&header, what](const RecordedStimulus& row) {
-        return of_maybe(item_of(header.objects, row.condition.object), what);
+        return of_maybe(item_of(header.objects, row.stimulus.object), what);
     };
 }
 
 /// How large the stimulus's object is, and is shown.
 auto of_scale(const SessionHeader& header, double ObjectScale::*what) {
     return [&header, what](const RecordedStimulus& row) {
-        const RecordedObject& of = item(header.objects, row.condition.object);
+        const RecordedObject& of = item(header.objects, row.stimulus.object);
         const auto scale = object_scale(of.camera, of.axis_point, header.display.screen, of.unit);
         return of_maybe(scale, [what](const ObjectScale& known) {
             return Fixed{known.*what, scale_decimals};
@@ -57,7 +57,7 @@ RowLayout<RecordedStimulus> stimuli_layout(const SharedColumns& shared, const Se
             {shared.object, of_object(header, &RecordedObject::id)},
             {shared.material,
              [&header](auto& row) {
-                 return of_maybe(item_of(header.materials, row.condition.material), &RecordedMaterial::id);
+                 return of_maybe(item_of(header.materials, row.stimulus.material), &RecordedMaterial::id);
              }},
             {{"source", "How the frames were made"}, &RecordedStimulus::source},
             {{"frames_sha256", "SHA-256 of the frames"}, &RecordedStimulus::frames_sha256},

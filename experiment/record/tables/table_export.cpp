@@ -227,11 +227,11 @@ TableExportCounts export_tables(const SessionRecord& record, const LookupFor& lo
     std::set<int> objects;
     for (const TrialRecord& trial : record.trials())
         if (trial.counts)
-            objects.insert(trial.trial.condition.object);
+            objects.insert(trial.trial.stimulus.object);
     for (const int object : objects) {
         tables.begin_object(object, lookup_for(object));
         for (const TrialRecord& trial : record.trials()) {
-            if (!trial.counts || trial.trial.condition.object != object)
+            if (!trial.counts || trial.trial.stimulus.object != object)
                 continue;
             tables.join_samples(trial);
             if (options.progress)

@@ -8,6 +8,7 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
 
+#include "experiment/record/old_names.h"
 #include "experiment/record/seal_chain.h"
 #include "experiment/record/session_schema.h"
 #include "experiment/record/sql.h"

@@ -329,7 +329,7 @@ void RowWriter::write(const TrialStart& start) {
     const std::int64_t attempt =
         1 + number(database_, "SELECT COUNT(*) FROM trial WHERE trial = ?1", trial.index);
     run_statement(insert_trial_, trial_counts_.trial_id, sitting_, trial.index, attempt, trial.task,
-                  trial.condition.object, trial.condition.material, start.at);
+                  trial.stimulus.object, trial.stimulus.material, start.at);
     gaze_rows_.begin_trial(trial_counts_.trial_id);
     if (events_)
         events_->begin_trial();

@@ -183,9 +183,8 @@ class StudyReader {
             const SessionRecord& record = open_[session].record();
             const SessionHeader& header = record.header();
             for (const RecordedStimulus& stimulus : header.stimuli) {
-                const auto own = static_cast<std::size_t>(stimulus.condition.object);
-                const std::filesystem::path file =
-                    record.directory() / light_file(header, stimulus.condition);
+                const auto own = static_cast<std::size_t>(stimulus.stimulus.object);
+                const std::filesystem::path file = record.directory() / light_file(header, stimulus.stimulus);
                 if (open_[session].objects[own] != index || light.contains(stimulus.frames_sha256) ||
                     !std::filesystem::exists(file))
                     continue;
@@ -204,7 +203,7 @@ class StudyReader {
 
     static const LightScores* light_of(const LightOfStimuli& light, const SessionHeader& header,
                                        const TrialRecord& trial) {
-        const RecordedStimulus* const stimulus = stimulus_of(header, trial.trial.condition);
+        const RecordedStimulus* const stimulus = stimulus_of(header, trial.trial.stimulus);
         const auto found = stimulus ? light.find(stimulus->frames_sha256) : light.end();
         return found == light.end() ? nullptr : &found->second;
     }
@@ -248,7 +247,7 @@ class StudyReader {
     }
 
     bool is_of(std::size_t session, const TrialRecord& trial, int object) const {
-        const auto own = static_cast<std::size_t>(trial.trial.condition.object);
+        const auto own = static_cast<std::size_t>(trial.trial.stimulus.object);
         return trial.counts && own < open_[session].objects.size() && open_[session].objects[own] == object;
     }
 
@@ -312,7 +311,7 @@ class StudyReader {
                     if (key.column == "observer")
                         key.value = results().sessions[session].observer;
                 read.trial.object =
-                    open_[session].objects[static_cast<std::size_t>(trials[t].trial.condition.object)];
+                    open_[session].objects[static_cast<std::size_t>(trials[t].trial.stimulus.object)];
                 read.trial.first_fixation = results().fixations.size();
                 read.trial.fixations = read.fixations.size();
                 for (StudyFixation& fixation : read.fixations) {

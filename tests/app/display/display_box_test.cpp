@@ -69,9 +69,9 @@ struct Rigged {
     std::filesystem::path said() const { return state.path() / "said"; }
 
     /// Until it holds, or a minute has passed.
-    template <class Condition> static bool comes_true(Condition condition) {
+    template <class Stimulus> static bool comes_true(Stimulus stimulus) {
         const auto give_up = std::chrono::steady_clock::now() + 60s;
-        while (!condition()) {
+        while (!stimulus()) {
             if (std::chrono::steady_clock::now() > give_up)
                 return false;
             std::this_thread::sleep_for(5ms);

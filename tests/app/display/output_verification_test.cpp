@@ -35,10 +35,10 @@ class EventList final : public SessionLog {
 class Pages final : public FrameSource {
   public:
     Pages(glm::ivec2 size, bool changes) : size_(size), changes_(changes) {}
-    std::vector<int> page_of_frame(const Condition&) const override { return {0, 1, 2, 1, 0}; }
-    LinearImage page(const Condition& condition, int page) const override {
+    std::vector<int> page_of_frame(const Stimulus&) const override { return {0, 1, 2, 1, 0}; }
+    LinearImage page(const Stimulus& stimulus, int page) const override {
         LinearImage image(size_);
-        RandomStream random(static_cast<std::uint64_t>(condition.material), "page",
+        RandomStream random(static_cast<std::uint64_t>(stimulus.material), "page",
                             static_cast<std::uint64_t>(page));
         for (glm::vec4& pixel : image.pixels)
             pixel = glm::vec4(glm::vec3(static_cast<float>(random.uniform())), 1.0f);
@@ -70,7 +70,7 @@ struct Plan {
         protocol.materials[1].id = "clay";
         for (const int material : {1, 0, 0, 1}) {
             Trial trial;
-            trial.condition = {0, material};
+            trial.stimulus = {0, material};
             schedule.trials.push_back(trial);
         }
     }

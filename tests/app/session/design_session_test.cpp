@@ -99,9 +99,9 @@ TEST_CASE(
         CHECK(order[i]["task"] == record.header().tasks[static_cast<std::size_t>(trial.task)].id);
         CHECK(order[i]["block"] == (i < 8 ? "asked" : "free"));
         CHECK(order[i]["object"] ==
-              record.header().objects[static_cast<std::size_t>(trial.condition.object)].id);
+              record.header().objects[static_cast<std::size_t>(trial.stimulus.object)].id);
         CHECK(order[i]["material"] ==
-              record.header().materials[static_cast<std::size_t>(trial.condition.material)].id);
+              record.header().materials[static_cast<std::size_t>(trial.stimulus.material)].id);
     }
     CHECK(json["design"]["session"]["breaks_s"] == 20.0);
     CHECK(json["design"]["practice_trials"] == 1);

@@ -174,7 +174,7 @@ TEST_CASE("a box answers and a cable is told, and both are in the record and in 
     std::vector<int> expected;
     for (const TrialRecord& trial : record.trials())
         expected.insert(expected.end(),
-                        {trial_code, onset_code + (trial.trial.condition.material == 1 ? matt_adds : 0),
+                        {trial_code, onset_code + (trial.trial.stimulus.material == 1 ? matt_adds : 0),
                          end_code, response_code, result_code});
     CHECK(cedrus.codes() == expected);
 

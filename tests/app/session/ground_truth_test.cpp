@@ -216,7 +216,7 @@ TEST_CASE("the share of gaze on the head comes back as the tasks had it", "[sess
             continue;
         const std::string& task = samples.text(i, "task");
         const auto trial = static_cast<std::size_t>(samples.integer(i, "trial") - 1);
-        const int object = sitting.schedule.trials.at(trial).condition.object;
+        const int object = sitting.schedule.trials.at(trial).stimulus.object;
         const Mesh& mesh = sitting.experiment.objects[static_cast<std::size_t>(object)].mesh;
         ++exported[task].all;
         exported[task].head += samples.text(i, "part") == "head";

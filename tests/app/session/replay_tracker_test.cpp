@@ -41,8 +41,8 @@ TEST_CASE("a session with the gaze of another has its samples, its validation an
     REQUIRE(experiment.run({"--trials", "3"}).exit_code == 0);
     const std::string source = experiment.session().string();
     // The digits of an observer's name are the number in the schedule: the same stimuli in the same order.
-    const ProgramRun run = experiment.run(
-        {"--trials", "3", "--observer", "Q01", "--tracker", "replay", "--address", source});
+    const ProgramRun run =
+        experiment.run({"--trials", "3", "--observer", "Q01", "--tracker", "replay", "--address", source});
     INFO(run.err);
     REQUIRE(run.exit_code == 0);
     CHECK(experiment.overt({"verify", experiment.session(1, "Q01").string()}).exit_code == 0);
@@ -98,7 +98,7 @@ TEST_CASE("a recording without the trial, or with another stimulus, is said at t
         experiment.run({"--trials", "1", "--no-pictures", "--observer", "P04", "--seed", "8", "--tracker",
                         "replay", "--address", experiment.session().string()});
     const SessionRecord seven(experiment.session()), eight(experiment.session(1, "P04"));
-    REQUIRE(seven.header().schedule.trials[0].condition != eight.header().schedule.trials[0].condition);
+    REQUIRE(seven.header().schedule.trials[0].stimulus != eight.header().schedule.trials[0].stimulus);
     CHECK_THAT(unlike.out, Contains("1 trial showed another stimulus than the recording's: 1."));
 }
 

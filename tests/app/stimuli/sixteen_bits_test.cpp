@@ -21,7 +21,7 @@ using namespace overt::test;
 namespace {
 
 constexpr glm::ivec2 image_px{400, 328}; ///< at least twice 65,536 pixels: Color++ takes two for a level
-constexpr Condition matt_bust{0, 1};
+constexpr Stimulus matt_bust{0, 1};
 
 std::string ramp_protocol() {
     std::string text =

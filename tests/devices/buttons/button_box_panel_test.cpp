@@ -141,12 +141,12 @@ struct AnsweringDevices {
         std::this_thread::sleep_for(5ms);
         return !panel.poll();
     }
-    template <class Condition> void wait_for(Condition condition) {
-        for (int i = 0; i < 2000 && !condition(); ++i) {
+    template <class Stimulus> void wait_for(Stimulus stimulus) {
+        for (int i = 0; i < 2000 && !stimulus(); ++i) {
             panel.write_down(log);
             std::this_thread::sleep_for(1ms);
         }
-        CHECK(condition());
+        CHECK(stimulus());
     }
 };
 

@@ -50,8 +50,8 @@ double logit(double share) { return std::log(share / (1.0 - share)); }
 TEST_CASE("effects multiply the odds of the head in their trials, and in no others", "[unit]") {
     const ObservedScene scene =
         scene_with({{.task = 0, .material = 1, .head_odds = 2.0}, {.object = 2, .head_odds = 3.0}});
-    const auto share = [&](int task, Condition condition) {
-        return gaze_plan(scene, 7, task, condition).head_share;
+    const auto share = [&](int task, Stimulus stimulus) {
+        return gaze_plan(scene, 7, task, stimulus).head_share;
     };
     CHECK(share(0, {0, 0}) == 0.4);
     // Odds of 0.4 are 2 / 3.
@@ -69,8 +69,8 @@ TEST_CASE("simulated observers differ by the standard deviation that is stated, 
     double sum = 0.0, squares = 0.0;
     constexpr int observers = 4000;
     for (int seed = 0; seed < observers; ++seed) {
-        const auto off = [&](Condition condition) {
-            return logit(gaze_plan(scene, static_cast<std::uint64_t>(seed), 0, condition).head_share) -
+        const auto off = [&](Stimulus stimulus) {
+            return logit(gaze_plan(scene, static_cast<std::uint64_t>(seed), 0, stimulus).head_share) -
                    logit(0.4);
         };
         const double inclination = off({0, 0});

@@ -60,13 +60,13 @@ template <class Value> int least_distance(const std::vector<Trial>& trials, Valu
 }
 
 int task_of(const Trial& trial) { return trial.task; }
-int object_of(const Trial& trial) { return trial.condition.object; }
-Condition stimulus_of(const Trial& trial) { return trial.condition; }
+int object_of(const Trial& trial) { return trial.stimulus.object; }
+Stimulus stimulus_of(const Trial& trial) { return trial.stimulus; }
 
 std::map<std::tuple<int, int, int>, int> counts_of(const std::vector<Trial>& trials) {
     std::map<std::tuple<int, int, int>, int> counts;
     for (const Trial& trial : trials)
-        ++counts[{trial.task, trial.condition.object, trial.condition.material}];
+        ++counts[{trial.task, trial.stimulus.object, trial.stimulus.material}];
     return counts;
 }
 
@@ -120,7 +120,7 @@ TEST_CASE("random blocks follow each other, each with its trials, in 1000 orders
         REQUIRE(counts_of({second.begin() + 9, second.end()}).size() == 9);
         std::vector<int> key;
         for (const Trial& trial : first)
-            key.push_back(9 * trial.task + 3 * trial.condition.object + trial.condition.material);
+            key.push_back(9 * trial.task + 3 * trial.stimulus.object + trial.stimulus.material);
         firsts.insert(key);
     }
     CHECK(firsts.size() == seeds);
@@ -141,7 +141,7 @@ TEST_CASE("a sequential block comes as it is listed, whatever the seed", "[unit]
     for (const std::vector<Trial>& trials : orders_of(protocol)) {
         REQUIRE(trials.size() == expected.size());
         for (std::size_t i = 0; i < trials.size(); ++i)
-            REQUIRE(std::tuple(trials[i].task, trials[i].condition.object, trials[i].condition.material) ==
+            REQUIRE(std::tuple(trials[i].task, trials[i].stimulus.object, trials[i].stimulus.material) ==
                     expected[i]);
     }
 }
@@ -156,8 +156,8 @@ TEST_CASE(
     for (const std::vector<Trial>& trials : orders_of(protocol)) {
         std::vector<int> levels;
         for (const Trial& trial : trials) {
-            if (levels.empty() || levels.back() != trial.condition.object)
-                levels.push_back(trial.condition.object);
+            if (levels.empty() || levels.back() != trial.stimulus.object)
+                levels.push_back(trial.stimulus.object);
         }
         REQUIRE(levels.size() == 3);
         REQUIRE(longest_run(trials, task_of) <= 3);
@@ -188,7 +188,7 @@ TEST_CASE("levels of a blocked order, and blocks, follow the rows of a square ov
             ++first_blocks[trials.front().block];
             const std::vector<Trial> one = of_block(trials, 0);
             for (int place = 0; place < 3; ++place)
-                ++places[{place, one[static_cast<std::size_t>(3 * place)].condition.material}];
+                ++places[{place, one[static_cast<std::size_t>(3 * place)].stimulus.material}];
         }
         if (kind == "fixed") {
             CHECK(places.size() == 3);
@@ -258,7 +258,7 @@ TEST_CASE("limits hold from a block into the one that continues it, and not into
     for (const std::vector<Trial>& trials : orders_of(with_blocks(first + "continues = true\n")))
         REQUIRE(longest_run(trials, object_of) == 1);
     for (const std::vector<Trial>& trials : orders_of(with_blocks(first)))
-        across += trials[8].condition.object == trials[9].condition.object;
+        across += trials[8].stimulus.object == trials[9].stimulus.object;
     CHECK(across > seeds / 5);
 }
 
@@ -269,16 +269,16 @@ TEST_CASE("changing one block reshuffles no other", "[unit]") {
                    changed = with_blocks(one + "repetitions = 2\nmax_object_run = 1\n" + two +
                                          "[[block]]\nid = \"three\"\ntasks = \"age\"\n");
     for (std::uint64_t seed = 0; seed < seeds; ++seed) {
-        const auto conditions = [&](const Protocol& protocol, int block) {
-            std::vector<Condition> list;
+        const auto stimuli = [&](const Protocol& protocol, int block) {
+            std::vector<Stimulus> list;
             for (const Trial& trial : of_block(make_schedule(protocol, {"P", 3}, seed).trials, block))
-                list.push_back(trial.condition);
+                list.push_back(trial.stimulus);
             return list;
         };
-        const std::vector<Condition> expected = conditions(both, 1);
-        REQUIRE(conditions(alone, 0) == expected);
-        REQUIRE(conditions(turned, 0) == expected);
-        REQUIRE(conditions(changed, 1) == expected);
+        const std::vector<Stimulus> expected = stimuli(both, 1);
+        REQUIRE(stimuli(alone, 0) == expected);
+        REQUIRE(stimuli(turned, 0) == expected);
+        REQUIRE(stimuli(changed, 1) == expected);
     }
 }
 

@@ -77,10 +77,10 @@ TEST_CASE("groups see what they are to see, and an observer beyond the caps is r
         const Schedule schedule = make_schedule(*read.protocol, {"P", number}, 3);
         CHECK(schedule.trials.size() == (is_gold ? 2 * 6 + 4 * 3 : 3 + 3));
         for (const Trial& trial : schedule.trials) {
-            CHECK((trial.condition.material == 2) == !is_gold);
+            CHECK((trial.stimulus.material == 2) == !is_gold);
             if (!is_gold)
                 CHECK((trial.task == 0 || trial.task == 2));
-            ++cells[{trial.task, trial.condition.object, trial.condition.material}];
+            ++cells[{trial.task, trial.stimulus.object, trial.stimulus.material}];
         }
     }
     // The rotation goes round within the group: six observers of two materials, three each.
@@ -126,9 +126,9 @@ TEST_CASE("whatever groups, blocks and orders leave of each other, observers hav
                     for (const Trial& trial : trials) {
                         if (scope.starts_with("materials") ||
                             (number % 2 == 0 && group.find("smooth") != std::string::npos))
-                            REQUIRE(trial.condition.material == 0);
+                            REQUIRE(trial.stimulus.material == 0);
                         if (number % 2 == 0 && group.find("coated") != std::string::npos)
-                            REQUIRE(trial.condition.material != 0);
+                            REQUIRE(trial.stimulus.material != 0);
                     }
                 }
             }

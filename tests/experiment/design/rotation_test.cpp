@@ -42,7 +42,7 @@ std::vector<int> seen(const Schedule& schedule) {
     std::vector<int> bits{-1, schedule.trials.front().block, -1};
     for (const Trial& trial : schedule.trials) {
         if (trial.task == 0)
-            bits[0] = trial.condition.material;
+            bits[0] = trial.stimulus.material;
         if (trial.block == 0 && bits[2] < 0)
             bits[2] = trial.task;
     }

@@ -26,7 +26,7 @@ template <class Value> int longest_run(const Schedule& schedule, Value value) {
 }
 
 int object_run(const Schedule& schedule) {
-    return longest_run(schedule, [](const Trial& trial) { return trial.condition.object; });
+    return longest_run(schedule, [](const Trial& trial) { return trial.stimulus.object; });
 }
 int task_run(const Schedule& schedule) {
     return longest_run(schedule, [](const Trial& trial) { return trial.task; });
@@ -47,7 +47,7 @@ Protocol design(int objects, int materials, int every_tasks, int once_tasks) {
 std::map<std::pair<int, int>, int> rotated_materials(const Protocol& protocol, int observer) {
     std::map<std::pair<int, int>, int> materials;
     for (const Trial& trial : trials_of(protocol, observer))
-        materials[{trial.task, trial.condition.object}] = trial.condition.material;
+        materials[{trial.task, trial.stimulus.object}] = trial.stimulus.material;
     return materials;
 }
 
@@ -55,7 +55,7 @@ std::map<std::pair<int, int>, int> rotated_materials(const Protocol& protocol, i
 std::vector<int> key_of(const Schedule& schedule) {
     std::vector<int> key;
     for (const Trial& trial : schedule.trials)
-        key.push_back(100 * trial.task + 10 * trial.condition.object + trial.condition.material);
+        key.push_back(100 * trial.task + 10 * trial.stimulus.object + trial.stimulus.material);
     return key;
 }
 
@@ -68,12 +68,12 @@ TEST_CASE("the schedule shows each stimulus once under the first two tasks, 18 o
         const int number = static_cast<int>(seed % 12) + 1;
         const Schedule schedule = make_schedule(protocol, {"P", number}, seed);
         REQUIRE(schedule.trials.size() == 30);
-        std::map<int, std::set<Condition>> stimuli;
+        std::map<int, std::set<Stimulus>> stimuli;
         std::map<int, std::set<int>> objects;
         for (std::size_t i = 0; i < schedule.trials.size(); ++i) {
             REQUIRE(schedule.trials[i].index == static_cast<int>(i));
-            stimuli[schedule.trials[i].task].insert(schedule.trials[i].condition);
-            objects[schedule.trials[i].task].insert(schedule.trials[i].condition.object);
+            stimuli[schedule.trials[i].task].insert(schedule.trials[i].stimulus);
+            objects[schedule.trials[i].task].insert(schedule.trials[i].stimulus.object);
         }
         for (int task = 0; task < 6; ++task) {
             REQUIRE(stimuli[task].size() == (task < 2 ? 9 : 3));
@@ -99,7 +99,7 @@ TEST_CASE("twelve observers fill every cell of the rotated tasks four times", "[
     std::map<std::tuple<int, int, int>, int> cells;
     for (int observer = 1; observer <= 12; ++observer) {
         for (const Trial& trial : make_schedule(protocol, {"P", observer}, 1).trials)
-            ++cells[{trial.task, trial.condition.object, trial.condition.material}];
+            ++cells[{trial.task, trial.stimulus.object, trial.stimulus.material}];
     }
     CHECK(cells.size() == 54);
     for (const auto& [cell, count] : cells)

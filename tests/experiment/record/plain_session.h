@@ -29,7 +29,7 @@ class PlainPresenter final : public Presenter {
   public:
     explicit PlainPresenter(StandingClock& clock) : clock_(clock) {}
     DisplayTiming timing() const override { return {120.0, VblankSource::virtual_display}; }
-    void load_frames(const Condition& condition) override { loaded.push_back(condition); }
+    void load_frames(const Stimulus& stimulus) override { loaded.push_back(stimulus); }
     FlipReport show(const Screen& screen) override {
         if (screen.kind != Screen::Kind::blank && screen.kind != Screen::Kind::target) {
             texts.push_back(screen.text);
@@ -45,7 +45,7 @@ class PlainPresenter final : public Presenter {
     void veil(bool is_on) override { is_veiled = is_on; }
     bool closed() const noexcept override { return false; }
 
-    std::vector<Condition> loaded;
+    std::vector<Stimulus> loaded;
     std::vector<std::string> texts;
     std::vector<Screen> screens; ///< of the texts
     std::vector<LevelBar> bars;

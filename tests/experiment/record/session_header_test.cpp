@@ -75,7 +75,7 @@ TEST_CASE("a session's header comes back from the disk in every field", "[unit]"
     CHECK(bust.bounds.max == given.bounds.max);
     CHECK(bust.unit == given.unit);
     REQUIRE(out.stimuli.size() == 2);
-    CHECK(out.stimuli[1].condition == in.stimuli[1].condition);
+    CHECK(out.stimuli[1].stimulus == in.stimuli[1].stimulus);
     CHECK(out.stimuli[1].source == in.stimuli[1].source);
     CHECK(out.stimuli[0].frames_sha256 == in.stimuli[0].frames_sha256);
     REQUIRE(out.maps.size() == 2);

@@ -54,7 +54,7 @@ class MarkerLog final : public SessionLog {
 class RaisingPresenter final : public Presenter {
   public:
     DisplayTiming timing() const override { return {}; }
-    void load_frames(const Condition&) override {}
+    void load_frames(const Stimulus&) override {}
     FlipReport show(const Screen&) override { return {}; }
     FlipReport flip(AnimationFrameIndex) noexcept override { return {}; }
     bool closed() const noexcept override { return false; }
@@ -78,7 +78,7 @@ FlipRecord flip_at(int refresh, int frame) {
 
 } // namespace
 
-TEST_CASE("a trial's events go to every output with its own codes, and conditions add to the onset's",
+TEST_CASE("a trial's events go to every output with its own codes, and stimuli add to the onset's",
           "[unit]") {
     const Protocol protocol = marked_protocol(
         "[[marker_output]]\nid = \"eeg\"\naddress = \"/dev/ttyS0\"\ncodes = [\"trial 1\", \"onset 10\", "
@@ -103,7 +103,7 @@ TEST_CASE("a trial's events go to every output with its own codes, and condition
     // Each trial, in the order of the schedule.
     std::vector<int> expected;
     for (const Trial& trial : schedule.trials)
-        expected.insert(expected.end(), {1, trial.condition.material == clay ? 30 : 10, 3, 4});
+        expected.insert(expected.end(), {1, trial.stimulus.material == clay ? 30 : 10, 3, 4});
     std::vector<int> coded;
     for (const int code : eeg.codes)
         if (code != 0)

@@ -13,7 +13,7 @@ TEST_CASE("practice shows its stimulus and its feedback, and leaves no rows but 
     CHECK_FALSE(result.aborted);
     CHECK(result.completed_trials == 2);
     CHECK(sitting.presenter.loaded.size() == 3);
-    CHECK(sitting.presenter.loaded.front() == Condition{0, 1});
+    CHECK(sitting.presenter.loaded.front() == Stimulus{0, 1});
     CHECK(sitting.log.started == std::vector<int>{0, 1});
     CHECK(sitting.log.flips == 2 * 12);
     CHECK(sitting.log.count("practice") == 1);

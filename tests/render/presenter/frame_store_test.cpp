@@ -20,22 +20,22 @@ constexpr std::size_t page_bytes = 24 * 16 * 4;
 /// Each page a grey of its own; pages of object 9 cannot be read from the third on.
 class GreyPages final : public FrameSource {
   public:
-    std::vector<int> page_of_frame(const Condition&) const override {
+    std::vector<int> page_of_frame(const Stimulus&) const override {
         std::vector<int> pages(pages_each);
         for (int i = 0; i < pages_each; ++i)
             pages[static_cast<std::size_t>(i)] = pages_each - 1 - i;
         return pages;
     }
-    LinearImage page(const Condition& condition, int page) const override {
+    LinearImage page(const Stimulus& stimulus, int page) const override {
         ++read;
-        if (condition.object == 9 && page >= 3)
+        if (stimulus.object == 9 && page >= 3)
             throw InputError("page 3 is damaged");
         LinearImage image(page_px);
         for (glm::vec4& pixel : image.pixels)
-            pixel = glm::vec4(glm::vec3(static_cast<float>(grey_of(condition, page)) / 255.0f), 1.0f);
+            pixel = glm::vec4(glm::vec3(static_cast<float>(grey_of(stimulus, page)) / 255.0f), 1.0f);
         return image;
     }
-    static int grey_of(const Condition& condition, int page) { return 20 * condition.object + page + 1; }
+    static int grey_of(const Stimulus& stimulus, int page) { return 20 * stimulus.object + page + 1; }
 
     mutable std::atomic<int> read{0};
 };
@@ -81,10 +81,10 @@ struct Store {
     }
 };
 
-std::vector<int> truth(const Condition& condition) {
+std::vector<int> truth(const Stimulus& stimulus) {
     std::vector<int> greys;
     for (int page = 0; page < pages_each; ++page)
-        greys.push_back(GreyPages::grey_of(condition, page));
+        greys.push_back(GreyPages::grey_of(stimulus, page));
     return greys;
 }
 

@@ -16,11 +16,11 @@ inline constexpr glm::ivec2 screen_px{96, 54}, image_px{32, 32};
 /// Pages of one plain colour each: red is the page's number over 255, green the object's.
 class PlainPages final : public FrameSource {
   public:
-    std::vector<int> page_of_frame(const Condition&) const override { return {0, 1, 2, 1, 0}; }
-    LinearImage page(const Condition& condition, int page) const override {
+    std::vector<int> page_of_frame(const Stimulus&) const override { return {0, 1, 2, 1, 0}; }
+    LinearImage page(const Stimulus& stimulus, int page) const override {
         LinearImage image(image_px);
         for (glm::vec4& pixel : image.pixels)
-            pixel = {static_cast<float>(page + 1) / 255.0f, static_cast<float>(condition.object) / 255.0f,
+            pixel = {static_cast<float>(page + 1) / 255.0f, static_cast<float>(stimulus.object) / 255.0f,
                      0.0f, 1.0f};
         return image;
     }

@@ -34,8 +34,8 @@ class PlainPage final : public FrameSource {
     PlainPage(glm::ivec2 size_px, glm::vec3 light) : picture_(size_px) {
         std::fill(picture_.pixels.begin(), picture_.pixels.end(), glm::vec4(light, 1.0f));
     }
-    std::vector<int> page_of_frame(const Condition&) const override { return {0}; }
-    LinearImage page(const Condition&, int) const override { return picture_; }
+    std::vector<int> page_of_frame(const Stimulus&) const override { return {0}; }
+    LinearImage page(const Stimulus&, int) const override { return picture_; }
     const LinearImage& picture() const { return picture_; }
 
   private:
@@ -129,8 +129,8 @@ TEST_CASE("in every mode a characterised display receives what is predicted", "[
         display.background = 0.2;
         class Pages final : public FrameSource {
           public:
-            std::vector<int> page_of_frame(const Condition&) const override { return {0}; }
-            LinearImage page(const Condition&, int) const override { return random_picture({301, 160}); }
+            std::vector<int> page_of_frame(const Stimulus&) const override { return {0}; }
+            LinearImage page(const Stimulus&, int) const override { return random_picture({301, 160}); }
         } pages;
         const glm::ivec2 origin{101, 7};
         const auto bytes = drawn(ContextKind::osmesa, display, pages, {301, 160}, origin);

@@ -20,12 +20,12 @@ namespace {
 class PlainLight final : public FrameSource {
   public:
     PlainLight(glm::ivec2 size, std::vector<double> light) : size_(size), light_(std::move(light)) {}
-    std::vector<int> page_of_frame(const Condition&) const override {
+    std::vector<int> page_of_frame(const Stimulus&) const override {
         std::vector<int> pages(light_.size());
         std::iota(pages.begin(), pages.end(), 0);
         return pages;
     }
-    LinearImage page(const Condition&, int page) const override {
+    LinearImage page(const Stimulus&, int page) const override {
         LinearImage image(size_);
         const auto light = static_cast<float>(light_[static_cast<std::size_t>(page)]);
         std::fill(image.pixels.begin(), image.pixels.end(),

@@ -17,8 +17,8 @@ namespace overt::test {
 class AllLevels final : public FrameSource {
   public:
     AllLevels(glm::ivec2 size, bool is_grey) : size_(size), is_grey_(is_grey) {}
-    std::vector<int> page_of_frame(const Condition&) const override { return {0, 1, 2}; }
-    LinearImage page(const Condition&, int page) const override {
+    std::vector<int> page_of_frame(const Stimulus&) const override { return {0, 1, 2}; }
+    LinearImage page(const Stimulus&, int page) const override {
         LinearImage image(size_);
         RandomStream random(static_cast<std::uint64_t>(page), "light");
         int i = 0;
