@@ -40,7 +40,7 @@ TEST_CASE("a protocol with many errors reports all of them with their places", "
         {{36, 8}, "an object is either \"shipped\" or a \"mesh\", not both"},
         {{36, 8}, "there is no file " + folder + "no_such_mesh.ply"},
         {{40, 6}, "id \"hermes\" is taken already"},
-        {{41, 11}, "overt has no object \"mouse\""},
+        {{41, 11}, "overt has no sculpture \"mouse\""},
         {{43, 1}, "object \"penelope\" has neither \"shipped\" nor \"mesh\""},
         {{49, 13}, "roughness: 1.3 is out of range, which is 0.001 … 1"},
         {{51, 1}, "[[material]] has no \"kind\""},

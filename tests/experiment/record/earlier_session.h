@@ -1,11 +1,16 @@
 /// Session files as earlier programs wrote them.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
 #include <SQLiteCpp/SQLiteCpp.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "experiment/record/old_names.h"
+#include "experiment/record/seal_chain.h"
 #include "experiment/record/session_schema.h"
 #include "tests/experiment/record/session_fixture.h"
 
@@ -29,15 +34,27 @@ inline void make_earlier(const std::filesystem::path& file, int version) {
         while (names.executeStep())
             tables.push_back(names.getColumn(0).getString());
         for (const std::string& table : tables) {
-            std::string columns;
-            SQLite::Statement column(database, "SELECT a.name FROM pragma_table_info('" + table +
-                                                   "', 'main') AS a JOIN pragma_table_info('" + table +
-                                                   "', 'today') AS b ON a.name = b.name");
+            const std::string of_today(todays_name(table));
+            std::vector<std::string> there, columns, columns_of_today;
+            SQLite::Statement column(database,
+                                     "SELECT name FROM pragma_table_info('" + of_today + "', 'today')");
             while (column.executeStep())
-                columns += (columns.empty() ? "" : ", ") + column.getColumn(0).getString();
-            database.exec("INSERT INTO main." + table + " (" + columns + ") SELECT " + columns +
-                          " FROM today." + table);
+                there.push_back(column.getColumn(0).getString());
+            SQLite::Statement own(database, "SELECT name FROM pragma_table_info('" + table + "', 'main')");
+            while (own.executeStep()) {
+                const std::string name = own.getColumn(0).getString();
+                if (std::find(there.begin(), there.end(), todays_name(name)) == there.end())
+                    continue;
+                columns.push_back(name);
+                columns_of_today.emplace_back(todays_name(name));
+            }
+            if (!columns.empty())
+                database.exec(fmt::format("INSERT INTO main.{} ({}) SELECT {} FROM today.{}", table,
+                                          fmt::join(columns, ", "), fmt::join(columns_of_today, ", "),
+                                          of_today));
         }
+        if (version >= first_version_with_seals)
+            seal_all_anew(database);
     }
     std::filesystem::rename(earlier, file);
 }

@@ -47,7 +47,7 @@ fs::path make_session_of_version(const fs::path& root, int version) {
 } // namespace
 
 TEST_CASE("sessions of earlier formats are read as they are, and nothing in them changes", "[unit]") {
-    const int version = GENERATE(1, 2);
+    const int version = GENERATE(1, 2, 3);
     const TemporaryFolder root;
     const fs::path session = make_session_of_version(root.path(), version);
     const std::string before = text_of(session / session_file_name);
@@ -61,12 +61,15 @@ TEST_CASE("sessions of earlier formats are read as they are, and nothing in them
     CHECK(record.skipped_trials().empty());
     const Verification found = verify_session(session);
     CHECK(found.is_sound());
-    CHECK_THAT(found.notes.at(0), Contains("without seals"));
+    if (version < first_version_with_seals)
+        CHECK_THAT(found.notes.at(0), Contains("without seals"));
+    else
+        CHECK(found.damages.empty());
     CHECK(text_of(session / session_file_name) == before);
 }
 
 TEST_CASE("a session of an earlier format that goes on becomes one of today, and a copy is kept", "[unit]") {
-    const int version = GENERATE(1, 2);
+    const int version = GENERATE(1, 2, 3);
     const TemporaryFolder root;
     const fs::path session = make_session_of_version(root.path(), version);
     const std::string before = text_of(session / session_file_name);
@@ -85,7 +88,7 @@ TEST_CASE("a session of an earlier format that goes on becomes one of today, and
     const AllRows rows = read_all_rows(session / session_file_name).value();
     for (const char* const table : {"flip", "sample"})
         for (std::int64_t trial = 1; trial <= 3; ++trial)
-            if (version == 2 || std::string(table) == "sample")
+            if (version >= 2 || std::string(table) == "sample")
                 CHECK(rows.at({table, trial}) == rows_before.at({table, trial}));
 
     const SessionRecord record(session);
@@ -101,6 +104,26 @@ TEST_CASE("a session of an earlier format that goes on becomes one of today, and
     SQLite::Database(((session / session_file_name).string()), SQLite::OPEN_READWRITE)
         .exec("UPDATE sample SET pupil_area = 1 WHERE trial_id = 1 AND n = 7");
     CHECK(verify_session(session).damages.at(0).row == "trial_id = 1, n = 7");
+}
+
+TEST_CASE("seals that an earlier format set hold after tables and columns have other names", "[unit]") {
+    const TemporaryFolder root;
+    const fs::path session = make_session_of_version(root.path(), 3);
+    REQUIRE(migrate_session_file(session / session_file_name));
+    const auto damages = [&] { return verify_session(session).damages; };
+    const auto spoil = [&](const char* sql) {
+        SQLite::Database((session / session_file_name).string(), SQLite::OPEN_READWRITE).exec(sql);
+    };
+    const auto is_told = [&](const std::string& table) {
+        const auto found = damages();
+        return std::ranges::any_of(found, [&](const Damage& damage) { return damage.table == table; });
+    };
+    CHECK_FALSE(is_told("trial"));
+    CHECK_FALSE(is_told("sculpture"));
+    spoil("UPDATE trial SET object = object + 1 WHERE trial_id = 2");
+    CHECK(is_told("trial"));
+    spoil("UPDATE object SET title = title || '!'");
+    CHECK(is_told("sculpture"));
 }
 
 TEST_CASE("of a trial that failed twice each attempt gets what was decided about itself", "[unit]") {
