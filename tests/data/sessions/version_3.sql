@@ -1,0 +1,257 @@
+-- The tables of session format 3, as its last program made them.
+CREATE TABLE session (
+    id INTEGER PRIMARY KEY CHECK (id = 1),
+    protocol_name TEXT NOT NULL,
+    protocol_title TEXT NOT NULL,
+    protocol_text TEXT NOT NULL,
+    protocol_sha256 TEXT NOT NULL,
+    observer_label TEXT NOT NULL,
+    observer_number INTEGER NOT NULL,
+    session_number INTEGER NOT NULL,
+    seed TEXT NOT NULL,
+    started_utc TEXT NOT NULL,
+    clock TEXT NOT NULL CHECK (clock IN ('steady', 'virtual')),
+    program_version TEXT NOT NULL,
+    compiler TEXT NOT NULL,
+    compiler_flags TEXT NOT NULL,
+    commit_id TEXT NOT NULL,
+    gl_context TEXT NOT NULL,
+    gl_vendor TEXT NOT NULL,
+    gl_renderer TEXT NOT NULL,
+    gl_version TEXT NOT NULL,
+    tracker_name TEXT NOT NULL,
+    tracker_rate_hz REAL NOT NULL,
+    tracker_eye TEXT NOT NULL CHECK (tracker_eye IN ('left', 'right')),
+    tracker_both_eyes INTEGER NOT NULL DEFAULT 0,
+    tracker_model TEXT NOT NULL DEFAULT '',
+    further_tracker TEXT NOT NULL DEFAULT '',
+    screen_width_px INTEGER NOT NULL,
+    screen_height_px INTEGER NOT NULL,
+    screen_width_mm REAL NOT NULL,
+    screen_height_mm REAL NOT NULL,
+    viewing_distance_mm REAL NOT NULL,
+    image_left_px INTEGER NOT NULL,
+    image_top_px INTEGER NOT NULL,
+    image_width_px INTEGER NOT NULL,
+    image_height_px INTEGER NOT NULL,
+    refresh_hz REAL NOT NULL,
+    display_latency_ns INTEGER NOT NULL,
+    output_mode TEXT NOT NULL,
+    background REAL NOT NULL,
+    timing TEXT NOT NULL DEFAULT '',
+    frame_count INTEGER NOT NULL,
+    frame_rate_hz REAL NOT NULL,
+    amplitude_deg REAL NOT NULL,
+    playback TEXT NOT NULL CHECK (playback IN ('cycle', 'ping-pong')),
+    duration_s REAL NOT NULL,
+    when_late TEXT NOT NULL CHECK (when_late IN ('drop', 'stretch')) DEFAULT 'drop'
+) STRICT;
+CREATE TABLE characterisation (
+    id INTEGER PRIMARY KEY CHECK (id = 1),
+    display TEXT NOT NULL,
+    date TEXT NOT NULL,
+    instrument TEXT NOT NULL,
+    sha256 TEXT NOT NULL,
+    black_x REAL NOT NULL,
+    black_y REAL NOT NULL,
+    black_z REAL NOT NULL,
+    red_x REAL NOT NULL,
+    red_y REAL NOT NULL,
+    red_z REAL NOT NULL,
+    green_x REAL NOT NULL,
+    green_y REAL NOT NULL,
+    green_z REAL NOT NULL,
+    blue_x REAL NOT NULL,
+    blue_y REAL NOT NULL,
+    blue_z REAL NOT NULL
+) STRICT;
+CREATE TABLE sculpture (
+    sculpture INTEGER PRIMARY KEY,
+    id TEXT NOT NULL,
+    title TEXT NOT NULL,
+    mesh_sha256 TEXT NOT NULL,
+    mesh_file TEXT NOT NULL,
+    camera_x REAL NOT NULL,
+    camera_y REAL NOT NULL,
+    camera_z REAL NOT NULL,
+    target_x REAL NOT NULL,
+    target_y REAL NOT NULL,
+    target_z REAL NOT NULL,
+    vertical_fov_deg REAL NOT NULL,
+    axis_x REAL NOT NULL,
+    axis_y REAL NOT NULL,
+    axis_z REAL NOT NULL,
+    min_x REAL NOT NULL,
+    min_y REAL NOT NULL,
+    min_z REAL NOT NULL,
+    max_x REAL NOT NULL,
+    max_y REAL NOT NULL,
+    max_z REAL NOT NULL,
+    unit TEXT NOT NULL DEFAULT ''
+) STRICT;
+CREATE TABLE characterisation_file (n INTEGER PRIMARY KEY, name TEXT NOT NULL, text TEXT NOT NULL) STRICT;
+CREATE TABLE schedule (trial INTEGER PRIMARY KEY, task INTEGER NOT NULL, sculpture INTEGER NOT NULL,
+                       material INTEGER NOT NULL, block INTEGER NOT NULL DEFAULT 0) STRICT;
+CREATE TABLE block (block INTEGER PRIMARY KEY, id TEXT NOT NULL) STRICT;
+CREATE TABLE protocol_file (n INTEGER PRIMARY KEY, name TEXT NOT NULL, text TEXT NOT NULL,
+                            sha256 TEXT NOT NULL) STRICT;
+CREATE TABLE task (task INTEGER PRIMARY KEY, id TEXT NOT NULL, question TEXT NOT NULL) STRICT;
+CREATE TABLE part (sculpture INTEGER NOT NULL, part INTEGER NOT NULL, name TEXT NOT NULL,
+                   PRIMARY KEY (sculpture, part)) STRICT, WITHOUT ROWID;
+CREATE TABLE material (material INTEGER PRIMARY KEY, id TEXT NOT NULL, title TEXT NOT NULL) STRICT;
+CREATE TABLE stimulus (sculpture INTEGER NOT NULL, material INTEGER NOT NULL, source TEXT NOT NULL,
+                       frames_sha256 TEXT NOT NULL, PRIMARY KEY (sculpture, material)) STRICT, WITHOUT ROWID;
+CREATE TABLE pose (pose INTEGER PRIMARY KEY, angle_deg REAL NOT NULL) STRICT;
+CREATE TABLE animation_frame (frame INTEGER PRIMARY KEY, pose INTEGER NOT NULL) STRICT;
+CREATE TABLE map (sculpture INTEGER NOT NULL, pose INTEGER NOT NULL, file TEXT NOT NULL, sha256 TEXT NOT NULL,
+                  made TEXT NOT NULL CHECK (made IN ('prepared', 'live')),
+                  kind TEXT NOT NULL DEFAULT 'triangles' CHECK (kind IN ('triangles', 'coordinates')),
+                  PRIMARY KEY (sculpture, pose)) STRICT, WITHOUT ROWID;
+CREATE TABLE sitting (sitting INTEGER PRIMARY KEY, started_utc TEXT NOT NULL,
+                      closed INTEGER NOT NULL,
+                      resumed TEXT CHECK (resumed IN ('redo', 'skip', 'restart-block')),
+                      program_version TEXT NOT NULL DEFAULT '', program_sha256 TEXT NOT NULL DEFAULT '') STRICT;
+CREATE TABLE trial (
+    trial_id INTEGER PRIMARY KEY, sitting INTEGER NOT NULL REFERENCES sitting,
+    trial INTEGER NOT NULL, attempt INTEGER NOT NULL,
+    task INTEGER NOT NULL, sculpture INTEGER NOT NULL, material INTEGER NOT NULL,
+    status TEXT NOT NULL CHECK (status IN ('open', 'completed', 'aborted', 'interrupted')),
+    started_ns INTEGER NOT NULL,
+    task_screen_onset_ns INTEGER, presentation_onset_ns INTEGER, presentation_end_ns INTEGER,
+    response_screen_onset_ns INTEGER, responded_ns INTEGER,
+    shown_refreshes INTEGER, missed_refreshes INTEGER, drift_deg REAL, answer TEXT,
+    lost_flips INTEGER, lost_samples INTEGER,
+    failure TEXT, comes_again TEXT CHECK (comes_again IN ('never', 'now', 'end-of-block'))
+) STRICT;
+CREATE TABLE superseded (attempt_id INTEGER PRIMARY KEY, sitting INTEGER NOT NULL, why TEXT NOT NULL) STRICT;
+CREATE TABLE given_up (trial INTEGER PRIMARY KEY, sitting INTEGER NOT NULL, why TEXT NOT NULL) STRICT;
+CREATE VIEW counted_trial AS SELECT * FROM trial
+    WHERE status = 'completed' AND trial_id NOT IN (SELECT attempt_id FROM superseded)
+CREATE TABLE flip (
+    trial_id INTEGER NOT NULL, n INTEGER NOT NULL,
+    refresh_in_trial INTEGER NOT NULL, refresh INTEGER NOT NULL,
+    planned INTEGER NOT NULL, shown INTEGER NOT NULL, pose INTEGER NOT NULL,
+    requested_ns INTEGER NOT NULL, swapped_ns INTEGER NOT NULL, vertical_blank_ns INTEGER NOT NULL,
+    source INTEGER NOT NULL, missed INTEGER NOT NULL, uncertainty_ns INTEGER NOT NULL DEFAULT 0,
+    PRIMARY KEY (trial_id, n)
+) STRICT, WITHOUT ROWID;
+CREATE TABLE sample (
+    trial_id INTEGER NOT NULL, n INTEGER NOT NULL,
+    tracker_us INTEGER NOT NULL, eye INTEGER NOT NULL, x_px REAL, y_px REAL, pupil_area REAL,
+    PRIMARY KEY (trial_id, n)
+) STRICT, WITHOUT ROWID;
+CREATE TABLE clock_pair (id INTEGER PRIMARY KEY, sitting INTEGER NOT NULL REFERENCES sitting,
+                         before_ns INTEGER NOT NULL, tracker_us INTEGER NOT NULL, after_ns INTEGER NOT NULL) STRICT;
+CREATE TABLE event (id INTEGER PRIMARY KEY, sitting INTEGER NOT NULL REFERENCES sitting,
+                    at_ns INTEGER NOT NULL, trial INTEGER, kind TEXT NOT NULL, detail TEXT NOT NULL) STRICT;
+CREATE TABLE seal (
+    seal INTEGER PRIMARY KEY,
+    kind TEXT NOT NULL CHECK (kind IN ('beginning', 'sitting', 'trial', 'other', 'end')),
+    sitting INTEGER NOT NULL, trial_id INTEGER, previous TEXT NOT NULL, sha256 TEXT NOT NULL
+) STRICT;
+CREATE TABLE sealed_table (
+    seal INTEGER NOT NULL, name TEXT NOT NULL, columns TEXT NOT NULL,
+    covers TEXT NOT NULL CHECK (covers IN ('all', 'trial', 'no trial', 'new')),
+    after_id INTEGER NOT NULL, to_id INTEGER NOT NULL, row_count INTEGER NOT NULL,
+    sha256 TEXT NOT NULL, locator BLOB NOT NULL,
+    PRIMARY KEY (seal, name)
+) STRICT, WITHOUT ROWID;
+CREATE TABLE display_box (
+    sitting INTEGER PRIMARY KEY REFERENCES sitting,
+    use TEXT NOT NULL CHECK (use IN ('box', 'declined', 'simulated', 'not needed')),
+    port TEXT NOT NULL, product TEXT NOT NULL, serial_number TEXT NOT NULL, firmware_date TEXT NOT NULL,
+    mode TEXT NOT NULL, gamma_table TEXT NOT NULL, settled_after_ns INTEGER, video_rate_hz REAL
+) STRICT;
+CREATE TABLE box_clock_pair (
+    id INTEGER PRIMARY KEY, sitting INTEGER NOT NULL REFERENCES sitting,
+    before_ns INTEGER NOT NULL, box_us INTEGER NOT NULL, after_ns INTEGER NOT NULL
+) STRICT;
+CREATE TABLE observer_field (n INTEGER PRIMARY KEY, id TEXT NOT NULL, title TEXT NOT NULL,
+                                           value TEXT NOT NULL) STRICT;
+CREATE TABLE dataset_entry (n INTEGER PRIMARY KEY, key TEXT NOT NULL, value TEXT NOT NULL) STRICT;
+CREATE TABLE consent (
+    n INTEGER PRIMARY KEY, sitting INTEGER NOT NULL REFERENCES sitting, observer TEXT NOT NULL,
+    accepted INTEGER NOT NULL CHECK (accepted IN (0, 1)), at_ns INTEGER NOT NULL, at_utc TEXT NOT NULL,
+    text_sha256 TEXT NOT NULL
+) STRICT;
+CREATE TABLE answer_recording (
+    trial_id INTEGER PRIMARY KEY, file TEXT NOT NULL, sha256 TEXT NOT NULL, device TEXT NOT NULL,
+    sample_rate_hz REAL NOT NULL, measured_rate_hz REAL NOT NULL, bits INTEGER NOT NULL,
+    input_latency_ns INTEGER NOT NULL, samples INTEGER NOT NULL, onset_sample REAL NOT NULL,
+    onset_uncertainty_ns INTEGER NOT NULL, overruns INTEGER NOT NULL, lost_samples INTEGER NOT NULL,
+    peak_dbfs REAL NOT NULL, noise_dbfs REAL NOT NULL, clipped_samples INTEGER NOT NULL,
+    voice_onset_ns INTEGER, voice_end_ns INTEGER, fault TEXT NOT NULL
+) STRICT;
+CREATE TABLE missed_refresh (
+    trial_id INTEGER NOT NULL, refresh_in_trial INTEGER NOT NULL, refresh INTEGER NOT NULL,
+    planned INTEGER NOT NULL, shown INTEGER NOT NULL, pose INTEGER NOT NULL,
+    vertical_blank_ns INTEGER NOT NULL, uncertainty_ns INTEGER NOT NULL,
+    PRIMARY KEY (trial_id, refresh_in_trial)
+) STRICT, WITHOUT ROWID;
+CREATE TABLE response_press (
+    trial_id INTEGER PRIMARY KEY, uncertainty_ns INTEGER NOT NULL
+) STRICT;
+CREATE TABLE swap_modes (
+    trial_id INTEGER PRIMARY KEY, flipped INTEGER NOT NULL, copied INTEGER NOT NULL,
+    suboptimal_copied INTEGER NOT NULL, skipped INTEGER NOT NULL
+) STRICT;
+CREATE TABLE gaze_event (
+    trial_id INTEGER NOT NULL, n INTEGER NOT NULL,
+    kind TEXT NOT NULL, eye INTEGER, start_us INTEGER NOT NULL, end_us INTEGER NOT NULL,
+    duration_us INTEGER NOT NULL, x_px REAL, y_px REAL, arrival_x_px REAL, arrival_y_px REAL, pupil REAL,
+    amplitude_deg REAL, peak_velocity_deg_s REAL, text TEXT NOT NULL,
+    PRIMARY KEY (trial_id, n)
+) STRICT, WITHOUT ROWID;
+CREATE TABLE trial_gaze (
+    trial_id INTEGER PRIMARY KEY, samples INTEGER NOT NULL, without_gaze INTEGER NOT NULL,
+    missing INTEGER NOT NULL
+) STRICT;
+CREATE TABLE sample_detail (
+    trial_id INTEGER NOT NULL, n INTEGER NOT NULL, tracker_us INTEGER NOT NULL, eye INTEGER NOT NULL,
+    confidence REAL, eye_x_mm REAL, eye_y_mm REAL, eye_z_mm REAL,
+    PRIMARY KEY (trial_id, n)
+) STRICT, WITHOUT ROWID;
+CREATE TABLE calibration (
+    id INTEGER PRIMARY KEY, sitting INTEGER NOT NULL REFERENCES sitting, at_ns INTEGER NOT NULL,
+    trial INTEGER, method TEXT NOT NULL, mean_deg REAL NOT NULL, max_deg REAL NOT NULL,
+    within_limits INTEGER NOT NULL CHECK (within_limits IN (0, 1))
+) STRICT;
+CREATE TABLE validated_target (
+    id INTEGER PRIMARY KEY, sitting INTEGER NOT NULL REFERENCES sitting,
+    calibration INTEGER NOT NULL REFERENCES calibration, eye INTEGER NOT NULL,
+    x_px REAL NOT NULL, y_px REAL NOT NULL, gaze_x_px REAL, gaze_y_px REAL, error_deg REAL,
+    rms_s2s_deg REAL, sd_deg REAL
+) STRICT;
+CREATE TABLE event_detection (
+    sitting INTEGER PRIMARY KEY REFERENCES sitting, name TEXT NOT NULL, version INTEGER NOT NULL,
+    parameters TEXT NOT NULL
+) STRICT;
+CREATE TABLE gaze_source (
+    sitting INTEGER PRIMARY KEY REFERENCES sitting, file TEXT NOT NULL, sha256 TEXT NOT NULL,
+    header TEXT NOT NULL, pupil TEXT NOT NULL CHECK (pupil IN ('area', 'diameter')), rate_hz REAL NOT NULL,
+    eyes TEXT NOT NULL CHECK (eyes IN ('left', 'right', 'both')),
+    px_per_deg_x REAL, px_per_deg_y REAL, skipped_lines INTEGER NOT NULL
+) STRICT;
+CREATE TABLE button_change (
+    id INTEGER PRIMARY KEY, sitting INTEGER NOT NULL REFERENCES sitting, at_ns INTEGER NOT NULL,
+    uncertainty_ns INTEGER NOT NULL, trial INTEGER, attempt_id INTEGER, box TEXT NOT NULL,
+    used_by TEXT NOT NULL CHECK (used_by IN ('observer', 'operator')), button INTEGER NOT NULL,
+    name TEXT NOT NULL, is_down INTEGER NOT NULL CHECK (is_down IN (0, 1)), device_us INTEGER,
+    meaning TEXT NOT NULL
+) STRICT;
+CREATE TABLE key_press (
+    id INTEGER PRIMARY KEY, sitting INTEGER NOT NULL REFERENCES sitting, at_ns INTEGER NOT NULL,
+    uncertainty_ns INTEGER NOT NULL, trial INTEGER, attempt_id INTEGER, device TEXT NOT NULL, name TEXT NOT NULL,
+    code INTEGER, modifiers TEXT NOT NULL, text TEXT NOT NULL, screen TEXT NOT NULL, meaning TEXT NOT NULL
+) STRICT;
+CREATE TABLE marker (
+    id INTEGER PRIMARY KEY, sitting INTEGER NOT NULL REFERENCES sitting, at_ns INTEGER NOT NULL,
+    trial INTEGER, attempt_id INTEGER, output TEXT NOT NULL, text TEXT NOT NULL, code INTEGER NOT NULL,
+    is_sent INTEGER NOT NULL CHECK (is_sent IN (0, 1)), not_before_ns INTEGER NOT NULL,
+    not_after_ns INTEGER NOT NULL, planned_refresh INTEGER, shown_refresh INTEGER
+) STRICT;
+CREATE TABLE run_option (
+    sitting INTEGER NOT NULL REFERENCES sitting, n INTEGER NOT NULL, name TEXT NOT NULL, value TEXT NOT NULL,
+    PRIMARY KEY (sitting, n)
+) STRICT, WITHOUT ROWID;
+CREATE TABLE file_hash (sha256 TEXT NOT NULL) STRICT;
