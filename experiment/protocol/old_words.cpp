@@ -79,8 +79,8 @@ class Reword {
 
     void count(Place place) {
         ++places_;
-        if (!first_)
-            first_ = place;
+        if (!first_ || place < *first_)
+            first_ = place; // the tree has its keys in another order than the file
     }
 
     const std::string& file_;

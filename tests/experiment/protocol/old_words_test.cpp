@@ -57,7 +57,7 @@ TEST_CASE("earlier words mean what today's do, and one note tells of them", "[un
     CHECK(today.lines().empty());
     CHECK(old.lines() ==
           Lines{"3:3: \"sculpture\" is the earlier word for \"object\"; it is read as that, here "
-                "and in 8 other places"});
+                "and in 7 other places"});
     CHECK(old.diagnostics.findings().at(0).severity == Severity::note);
     CHECK(old.diagnostics.warning_count() == 0);
     for (const Protocol* protocol : {&*old.protocol, &*today.protocol}) {
