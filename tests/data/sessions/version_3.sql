@@ -126,7 +126,7 @@ CREATE TABLE trial (
 CREATE TABLE superseded (attempt_id INTEGER PRIMARY KEY, sitting INTEGER NOT NULL, why TEXT NOT NULL) STRICT;
 CREATE TABLE given_up (trial INTEGER PRIMARY KEY, sitting INTEGER NOT NULL, why TEXT NOT NULL) STRICT;
 CREATE VIEW counted_trial AS SELECT * FROM trial
-    WHERE status = 'completed' AND trial_id NOT IN (SELECT attempt_id FROM superseded)
+    WHERE status = 'completed' AND trial_id NOT IN (SELECT attempt_id FROM superseded);
 CREATE TABLE flip (
     trial_id INTEGER NOT NULL, n INTEGER NOT NULL,
     refresh_in_trial INTEGER NOT NULL, refresh INTEGER NOT NULL,

@@ -22,7 +22,7 @@ TEST_CASE("simulated effects name what there is, and spots share out no more tha
                  "[[simulated_effect]]\nmaterial = \"silver\"\n");
     REQUIRE(unknown.size() == 3);
     CHECK_THAT(unknown[0], Catch::StartsWith("13:8: there is no task \"fre\""));
-    CHECK_THAT(unknown[1], Catch::StartsWith("15:13: there is no object \"b\""));
+    CHECK_THAT(unknown[1], Catch::StartsWith("15:10: there is no object \"b\""));
     CHECK_THAT(unknown[2], Catch::StartsWith("17:12: there is no material \"silver\""));
     const auto too_much = findings("[[simulated_effect]]\nmaterial = \"gold\"\nspot_share = 0.6\n"
                                    "[[simulated_effect]]\ntask = \"free\"\nspot_share = 0.5\n");

@@ -47,7 +47,7 @@ TEST_CASE("a protocol with many errors reports all of them with their places", "
         {{53, 9}, "there is no metal \"Fe\""},
         {{55, 1}, "[[task]] has no \"id\""},
         {{56, 12}, "question: expected a text, found a whole number"},
-        {{59, 13}, "there is no [[object]] \"hermse\""},
+        {{59, 10}, "there is no [[object]] \"hermse\""},
         {{61, 9}, "the path needs one group of # for the digits of the frame number"},
         {{66, 9}, "61 of 61 frames are missing"}};
     for (std::size_t i = 0; i < std::min(found.size(), expected.size()); ++i) {
