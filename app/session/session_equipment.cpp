@@ -76,7 +76,7 @@ void SessionEquipment::open(const Protocol& protocol, const RunOptions& options,
     sounds_.emplace(beeps);
     if (beeps)
         fmt::print("sounds of the set-up: {}\n", sounds_->description());
-    answers_.emplace(rig_.answer_equipment());
+    answers_.reset(new AnswerEquipment(rig_.answer_equipment())); // it cannot be moved
     fmt::print("spoken answers: {}\n", answers_->description());
 }
 

@@ -47,7 +47,7 @@ class SessionEquipment {
     std::unique_ptr<ResponsePanel> buttons_; ///< null: there are no response boxes
     std::optional<MarkerEquipment> markers_;
     std::optional<SetupSounds> sounds_;
-    std::optional<AnswerEquipment> answers_;
+    std::unique_ptr<AnswerEquipment> answers_;
 };
 
 } // namespace overt
