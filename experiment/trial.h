@@ -18,6 +18,14 @@ struct Stimulus {
     friend constexpr auto operator<=>(const Stimulus&, const Stimulus&) = default;
 };
 
+/// An object in a view: what maps show, whatever its material and its light.
+struct ViewedObject {
+    int object = 0;
+    int view = 0;
+    friend constexpr auto operator<=>(const ViewedObject&, const ViewedObject&) = default;
+};
+constexpr ViewedObject viewed(const Stimulus& stimulus) { return {stimulus.object, stimulus.view}; }
+
 /// One presentation under one task.
 struct Trial {
     int index = 0; ///< position in the observer's order, from 0

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "experiment/base/counted.h"
+#include "experiment/protocol/all_stimuli.h"
 #include "experiment/session/tracker_feed.h"
 #include "experiment/timing/refresh_ledger.h"
 
@@ -31,9 +32,10 @@ std::string quantiles_of(std::vector<double> values) {
 PresentationCheck check_presentation(const Protocol& protocol, const Trial& trial,
                                      const PresentationCheckPorts& ports) {
     PresentationCheck check;
-    PageCycle cycle = make_page_cycle(protocol.motions.front(), protocol.display.refresh_hz);
+    const Animation& motion = protocol.motion_of(trial.stimulus);
+    PageCycle cycle = page_cycles(protocol)[static_cast<std::size_t>(trial.stimulus.motion)];
     cycle.total_refreshes = std::min(cycle.total_refreshes, static_cast<int>(cycle.entry_of_refresh.size()));
-    RefreshLedger ledger(cycle, protocol.motions.front().when_late);
+    RefreshLedger ledger(cycle, motion.when_late);
     std::vector<TrackerFeed> feeds;
     for (const CheckedTracker& checked : ports.trackers)
         feeds.emplace_back(checked.tracker);

@@ -24,7 +24,10 @@ ScreenColumns changed_columns(const DisplaySettings& display, int left_px, int w
 /// Of one page: 4 bytes a pixel, or 8 with 16 bits a channel.
 double page_bytes(const Protocol& protocol);
 
-/// Pages of the stimulus that has most: one for each distinct pose, or for each frame that is ready-made.
+/// Pages of a stimulus: one for each picture of its motion, or for each frame that is ready-made.
+int pages_of(const Protocol& protocol, const Stimulus& stimulus);
+
+/// Pages of the stimulus that has most.
 int most_pages(const Protocol& protocol);
 
 } // namespace overt

@@ -17,7 +17,7 @@ void add_to(ContentHasher& hasher, const SceneView& scene) {
 }
 
 void add_to(ContentHasher& hasher, const MaterialSettings& material) {
-    const auto& [id, title, kind, metal, roughness, coat_ior, coat_absorbance, coat_thickness, coat_bump,
+    const auto& [entry, kind, metal, roughness, coat_ior, coat_absorbance, coat_thickness, coat_bump,
                  coat_bump_width, coat_seed, reflectance] = material;
     hasher.add(static_cast<int>(kind))
         .add(std::string_view(is_metal_file(metal) ? hash_of_file(metal) : metal));
@@ -36,10 +36,14 @@ void add_to(ContentHasher& hasher, const BakeSettings& settings) {
     hasher.add(pixel_step).add(seed);
 }
 
-ContentHash hash_of_surroundings(const LightSettings& light) {
-    const auto& [probe, exposure, rotation_deg] = light;
+Surroundings::Surroundings(const LightSettings& settings)
+    : light(settings), content(settings.is_file() ? hash_of_file(settings.probe) : settings.probe) {}
+
+ContentHash hash_of_surroundings(const Surroundings& surroundings, Degrees turn) {
+    const LightSettings& light = surroundings.light;
+    const auto& [entry, probe, exposure, rotation_deg] = light;
     ContentHasher hasher;
-    hasher.add(std::string_view(light.is_file() ? hash_of_file(probe) : probe)).add(rotation_deg);
+    hasher.add(std::string_view(surroundings.content)).add(rotation_deg + turn.value);
     // The overcast sky is as it always was, and no path is aimed in it.
     if (probe == "gallery")
         hasher.add(gallery_probe_version);
@@ -50,34 +54,37 @@ ContentHash hash_of_surroundings(const LightSettings& light) {
     return hasher.finish();
 }
 
-ContentHash traced_key(const Object& object, const MaterialSettings& material,
+ContentHash traced_key(const Object& object, int view, const MaterialSettings& material,
                        const ContentHash& surroundings, double exposure, const BakeSettings& settings,
                        StandardObserver observer) {
     ContentHasher hasher;
     // The silhouette follows the maps.
     hasher.add(std::string_view("traced")).add(frame_baker_version).add(coordinate_pass_version);
     hasher.add(std::string_view(object.mesh_hash)).add(std::string_view(surroundings));
-    add_to(hasher, object.scene);
+    add_to(hasher, object.scene(view));
     add_to(hasher, material);
     add_to(hasher, settings);
     hasher.add(settings.target_error_de > 0.0 ? exposure : 0.0).add(static_cast<int>(observer));
     return hasher.finish();
 }
 
-ContentHash live_key(const Object& object, const MaterialSettings& material, const ContentHash& surroundings,
-                     double exposure) {
+ContentHash live_key(const Object& object, int view, const MaterialSettings& material,
+                     const ContentHash& surroundings, Degrees turn, double exposure) {
     ContentHasher hasher;
     hasher.add(std::string_view("live")).add(stimulus_renderer_version);
     hasher.add(std::string_view(object.mesh_hash)).add(std::string_view(surroundings)).add(exposure);
-    add_to(hasher, object.scene);
+    add_to(hasher, object.scene(view));
     add_to(hasher, material);
+    // The same pictures as ever where the light does not move.
+    if (turn.value != 0.0)
+        hasher.add(turn.value);
     return hasher.finish();
 }
 
-ContentHash map_key(const Object& object) {
+ContentHash map_key(const Object& object, int view) {
     ContentHasher hasher;
     hasher.add(std::string_view(object.mesh_hash)).add(coordinate_pass_version);
-    add_to(hasher, object.scene);
+    add_to(hasher, object.scene(view));
     return hasher.finish();
 }
 

@@ -42,7 +42,7 @@ struct FixationContext {
     const GazeCone* cone = nullptr;         ///< the same
     const ScreenGeometry* screen = nullptr; ///< for the error of the look-up; null: it is not reckoned
     const LightScores* light = nullptr;     ///< of the stimulus; null: not known
-    std::span<const double> pose_seconds{}; ///< how long a presentation shows each pose, by PoseIndex
+    const ShownPictures* pictures = nullptr; ///< of the stimulus's motion; with `light`
 };
 
 /// A fixation of the events with the samples that are its own. Those that ended before the onset, or began

@@ -152,7 +152,9 @@ ReadTrial read_trial(const SessionRecord& record, const TrialRecord& trial, cons
         cone.emplace(header.display.screen,
                      Degrees{of.quality.accuracy_deg.value_or(GazeCone::usual_accuracy.value)},
                      cone_directions);
-    const std::vector<double> pose_seconds = seconds_of_poses(header.animation, header.poses);
+    const Stimulus& stimulus = trial.trial.stimulus;
+    const ShownPictures pictures =
+        shown_pictures(header.animation_of(stimulus), header.poses.frames_of(stimulus.motion));
     const FixationContext context{options,
                                   placed.samples,
                                   clock_map,
@@ -168,7 +170,7 @@ ReadTrial read_trial(const SessionRecord& record, const TrialRecord& trial, cons
                                   cone ? &*cone : nullptr,
                                   &header.display.screen,
                                   surface.light,
-                                  pose_seconds};
+                                  &pictures};
     for (const GazeEvent& event : events) {
         if (event.kind != GazeEvent::Kind::fixation)
             continue;
