@@ -77,6 +77,9 @@ struct Animation {
     /// Object and light. The light's turn has the light's amplitude in place of a, and no angle on top.
     Pose pose_of(AnimationFrameIndex frame) const;
 
+    /// Whether anything does.
+    bool moves() const { return kind != MotionKind::still || light_amplitude.value != 0.0; }
+
     /// The poses that differ, in order of first appearance: what a frame store has to hold of it.
     std::vector<Pose> pictures() const;
 

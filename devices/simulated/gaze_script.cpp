@@ -65,7 +65,7 @@ struct Composer {
     bool stays_visible(const ScriptedFixation& fixation, SessionDuration from) const {
         const int last = turn.step_at(fixation.end - fixation.light_delay);
         for (int step = turn.step_at(from - fixation.light_delay); step <= last; ++step) {
-            if (!targets->is_visible(*fixation.target, step))
+            if (!targets->is_visible(*fixation.target, turn.motion(), step))
                 return false;
         }
         return true;
@@ -145,11 +145,20 @@ struct Composer {
 
 } // namespace
 
-PursuedTurn::PursuedTurn(const ObservedScene& scene)
-    : frame_period_(scene.frame_period()), steps_(scene.animation.shown_frame_count()) {
+PursuedTurn::PursuedTurn(const ObservedScene& scene, int motion)
+    : frame_period_(scene.frame_period(motion)), steps_(scene.animation_of(motion).shown_frame_count()),
+      motion_(motion) {
     OVERT_EXPECTS(steps_ > 0);
-    for (int step = 0; step < scene.animation.steps_per_period(); ++step)
-        angles_.push_back(scene.animation.angle_of(scene.animation.frame_at_step(step)));
+    const Animation& animation = scene.animation_of(motion);
+    for (int step = 0; step < animation.steps_per_period(); ++step)
+        angles_.push_back(animation.angle_of(animation.frame_at_step(step)));
+}
+
+std::vector<PursuedTurn> turns_of(const ObservedScene& scene) {
+    std::vector<PursuedTurn> turns;
+    for (int motion = 0; motion < static_cast<int>(scene.animations.size()); ++motion)
+        turns.emplace_back(scene, motion);
+    return turns;
 }
 
 Degrees PursuedTurn::angle_at(SessionDuration since_lit) const noexcept {
@@ -167,7 +176,7 @@ int PursuedTurn::step_at(SessionDuration since_lit) const noexcept {
 }
 
 GazeScript::GazeScript(const ObservedScene& scene, const ObserverSettings& settings)
-    : horizon_(from_seconds(scene.animation.duration_s) + afterwards) {
+    : horizon_(from_seconds(scene.longest_s()) + afterwards) {
     const double shortest_s =
         settings.shortest_fixation_s + to_seconds(saccade_duration(Degrees{0.0})) + 1e-3;
     fixations_.reserve(static_cast<std::size_t>(to_seconds(horizon_) / shortest_s) + 2);

@@ -32,7 +32,9 @@ struct ObserverSettings {
 /// eye is at most half a step from what is lit.
 class PursuedTurn {
   public:
-    explicit PursuedTurn(const ObservedScene& scene);
+    explicit PursuedTurn(const ObservedScene& scene, int motion = 0);
+
+    int motion() const noexcept { return motion_; }
 
     /// `since_lit` counts from the instant at which the first frame's light reached the place looked at.
     Degrees angle_at(SessionDuration since_lit) const noexcept;
@@ -47,7 +49,11 @@ class PursuedTurn {
     std::vector<Degrees> angles_; ///< of one period
     SessionDuration frame_period_;
     int steps_ = 0; ///< shown in one presentation
+    int motion_ = 0;
 };
+
+/// Of all motions of a scene.
+std::vector<PursuedTurn> turns_of(const ObservedScene& scene);
 
 /// A stretch of time during which the eye stays with one place. Times count from the presentation's onset.
 struct ScriptedFixation {
@@ -62,7 +68,7 @@ struct ScriptedFixation {
 /// chosen: in an analysis it drops out as begun before the onset.
 class GazeScript {
   public:
-    /// Sets aside room for a presentation of the scene's animation.
+    /// Sets aside room for the scene's longest presentation.
     GazeScript(const ObservedScene& scene, const ObserverSettings& settings);
 
     /// Writes the script of a trial: a function of its arguments alone. `targets` is nullptr for an object

@@ -26,16 +26,19 @@ double share_of(SessionTime time, SessionTime begin, SessionTime end) {
 SimulatedObserver::Presentation::Presentation(const ObservedScene& scene, const ObserverSettings& settings)
     : script(scene, settings) {
     // One for each refresh; a missed refresh takes its place in the count.
-    flips.reserve(static_cast<std::size_t>(scene.animation.duration_s * scene.refresh_hz) + 64);
+    flips.reserve(static_cast<std::size_t>(scene.longest_s() * scene.refresh_hz) + 64);
 }
 
 SimulatedObserver::SimulatedObserver(ObservedScene scene, std::uint64_t seed,
                                      const ObserverSettings& settings)
-    : scene_(std::move(scene)), seed_(seed), settings_(settings), turn_(scene_),
+    : scene_(std::move(scene)), seed_(seed), settings_(settings),
       wandering_(seed, settings.drift, settings.tremor), blinks_(seed, settings.blinks_per_minute),
       px_per_deg_(px_per_deg_at_centre(scene_.screen)) {
-    for (int frame = 0; frame < scene_.animation.frame_count; ++frame)
-        angle_of_frame_.push_back(scene_.animation.angle_of({frame}));
+    for (std::size_t i = 0; i < scene_.animations.size(); ++i) {
+        Motion& motion = motions_.emplace_back(Motion{PursuedTurn(scene_, static_cast<int>(i)), {}});
+        for (int frame = 0; frame < scene_.animations[i].frame_count; ++frame)
+            motion.angle_of_frame.push_back(scene_.animations[i].angle_of({frame}));
+    }
     for (const ObservedObject& object : scene_.objects) {
         const bool has_surface = object.mesh && !object.mesh->triangles.empty();
         targets_.push_back(has_surface ? std::make_unique<GazeTargets>(object, scene_) : nullptr);
@@ -52,8 +55,9 @@ void SimulatedObserver::presentation_begins(const Trial& trial) noexcept {
     OVERT_EXPECTS(begun_ < presentations_.size());
     Presentation& presentation = *presentations_[begun_++];
     presentation.trial = trial.index;
-    presentation.targets = targets_[static_cast<std::size_t>(trial.stimulus.object)].get();
-    presentation.script.compose(scene_, presentation.targets, turn_, settings_, seed_, trial.index,
+    presentation.targets = targets_[scene_.index_of(trial.stimulus)].get();
+    presentation.motion = trial.stimulus.motion;
+    presentation.script.compose(scene_, presentation.targets, motion_of(presentation).turn, settings_, seed_, trial.index,
                                 gaze_plan(scene_, seed_, trial.task, trial.stimulus));
 }
 
@@ -127,13 +131,14 @@ SimulatedObserver::Looking SimulatedObserver::scripted(const Presentation& prese
     const std::vector<ScriptedFixation>& fixations = presentation.script.fixations();
     const std::size_t index = presentation.script.fixation_at(since_onset);
     const ScriptedFixation& fixation = fixations[index];
-    const ScreenPoint place = place_of(fixation, since_onset, scene_, presentation.targets, turn_);
+    const PursuedTurn& turn = motion_of(presentation).turn;
+    const ScreenPoint place = place_of(fixation, since_onset, scene_, presentation.targets, turn);
     if (since_onset < fixation.end || index + 1 == fixations.size())
         return {place, EyeState::fixation, &fixation};
     // Both ends of the way go on with the turning object.
     const ScriptedFixation& next = fixations[index + 1];
     const double share = to_seconds(since_onset - fixation.end) / to_seconds(next.begin - fixation.end);
-    const ScreenPoint to = place_of(next, since_onset, scene_, presentation.targets, turn_);
+    const ScreenPoint to = place_of(next, since_onset, scene_, presentation.targets, turn);
     return {between(place, to, saccade_progress(share)), EyeState::saccade, nullptr};
 }
 
@@ -168,7 +173,7 @@ GazeTruth SimulatedObserver::truth_at(SessionTime time) const noexcept {
         const glm::dvec2 image = scene_.screen.image_from_screen(truth.gaze.place);
         if (scene_.screen.is_inside_image(image))
             truth.surface = presentation->targets->surface_at(
-                image, angle_of_frame_[static_cast<std::size_t>(truth.frame->value)]);
+                image, motion_of(*presentation).angle_of_frame[static_cast<std::size_t>(truth.frame->value)]);
     }
     return truth;
 }

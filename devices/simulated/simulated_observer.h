@@ -88,6 +88,7 @@ class SimulatedObserver final : public PresentationListener {
         Presentation(const ObservedScene& scene, const ObserverSettings& settings);
         int trial = -1;
         const GazeTargets* targets = nullptr;
+        int motion = 0;
         GazeScript script;
         std::vector<SeenFlip> flips;
         std::optional<SessionTime> end; ///< onset of the screen that followed
@@ -120,12 +121,19 @@ class SimulatedObserver final : public PresentationListener {
     ObservedScene scene_;
     std::uint64_t seed_;
     ObserverSettings settings_;
-    PursuedTurn turn_;
+    /// A motion as it is seen.
+    struct Motion {
+        PursuedTurn turn;
+        std::vector<Degrees> angle_of_frame;
+    };
+    const Motion& motion_of(const Presentation& presentation) const noexcept {
+        return motions_[static_cast<std::size_t>(presentation.motion)];
+    }
+    std::vector<Motion> motions_;
     FixationalMotion wandering_;
     BlinkTrain blinks_;
     glm::dvec2 px_per_deg_;
-    std::vector<Degrees> angle_of_frame_;
-    std::vector<std::unique_ptr<GazeTargets>> targets_;        ///< by object; nullptr without a mesh
+    std::vector<std::unique_ptr<GazeTargets>> targets_; ///< as the scene has objects; nullptr without a mesh
     std::vector<std::unique_ptr<Presentation>> presentations_; ///< in order; the last ones still empty
     std::size_t begun_ = 0;                                    ///< presentations that have begun
     std::vector<Place> places_; ///< in order of their times; none: always in the middle

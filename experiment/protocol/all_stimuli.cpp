@@ -1,5 +1,9 @@
 #include "experiment/protocol/all_stimuli.h"
 
+#include <algorithm>
+
+#include "experiment/base/error.h"
+
 
 namespace overt {
 
@@ -17,6 +21,14 @@ std::vector<Stimulus> all_stimuli(const Protocol& protocol) {
         stimuli = std::move(longer);
     }
     return stimuli;
+}
+
+Stimulus stimulus_of(const Protocol& protocol, const FrameSequenceSettings& frames) {
+    const std::vector<Stimulus> stimuli = all_stimuli(protocol);
+    const auto found = std::ranges::find_if(
+        stimuli, [&](const Stimulus& stimulus) { return find_frames(protocol, stimulus) == &frames; });
+    OVERT_EXPECTS(found != stimuli.end());
+    return *found;
 }
 
 PoseTable poses_of(const Protocol& protocol) {
@@ -49,7 +61,10 @@ bool is_named(std::size_t list, std::size_t entries) {
     return list < always_named || entries > 1;
 }
 
-std::string stimulus_name(const Protocol& protocol, const Stimulus& stimulus, char between) {
+namespace {
+
+std::string joined(const Protocol& protocol, const Stimulus& stimulus, std::string ListEntry::*what,
+                   std::string_view between) {
     std::string name;
     for (std::size_t list = 0; list < stimulus_lists.size(); ++list) {
         const std::vector<const ListEntry*> entries = entries_of(protocol, list);
@@ -57,9 +72,19 @@ std::string stimulus_name(const Protocol& protocol, const Stimulus& stimulus, ch
             continue;
         if (!name.empty())
             name += between;
-        name += entries[static_cast<std::size_t>(stimulus.*stimulus_lists[list].index)]->id;
+        name += entries[static_cast<std::size_t>(stimulus.*stimulus_lists[list].index)]->*what;
     }
     return name;
+}
+
+} // namespace
+
+std::string stimulus_name(const Protocol& protocol, const Stimulus& stimulus, char between) {
+    return joined(protocol, stimulus, &ListEntry::id, std::string_view(&between, 1));
+}
+
+std::string stimulus_title(const Protocol& protocol, const Stimulus& stimulus) {
+    return joined(protocol, stimulus, &ListEntry::title, ", ");
 }
 
 std::string section_of_view(const Protocol& protocol, int view) {

@@ -12,6 +12,9 @@ namespace overt {
 /// fastest.
 std::vector<Stimulus> all_stimuli(const Protocol& protocol);
 
+/// The stimulus that ready-made frames of the protocol show.
+Stimulus stimulus_of(const Protocol& protocol, const FrameSequenceSettings& frames);
+
 /// The turns of the objects in all motions.
 PoseTable poses_of(const Protocol& protocol);
 
@@ -27,6 +30,9 @@ bool is_named(std::size_t list, std::size_t entries);
 
 /// OBJECT/MATERIAL, and the ids of what else there is a choice of: "muse/gold/hall/turn".
 std::string stimulus_name(const Protocol& protocol, const Stimulus& stimulus, char between = '/');
+
+/// The same with titles, and commas between them.
+std::string stimulus_title(const Protocol& protocol, const Stimulus& stimulus);
 
 /// "[view]", or "[[view]] ID" where there are several: for messages.
 std::string section_of_view(const Protocol& protocol, int view);

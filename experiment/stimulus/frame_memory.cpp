@@ -39,10 +39,12 @@ int pages_of(const Protocol& protocol, const Stimulus& stimulus) {
     return find_frames(protocol, stimulus) ? motion.frame_count : static_cast<int>(motion.pictures().size());
 }
 
-int most_pages(const Protocol& protocol) {
+int most_pages(const Protocol& protocol, std::optional<int> motion) {
     int most = 0;
-    for (const Stimulus& stimulus : all_stimuli(protocol))
-        most = std::max(most, pages_of(protocol, stimulus));
+    for (const Stimulus& stimulus : all_stimuli(protocol)) {
+        if (stimulus.motion == motion.value_or(stimulus.motion))
+            most = std::max(most, pages_of(protocol, stimulus));
+    }
     return most;
 }
 
