@@ -34,7 +34,7 @@ std::filesystem::path record_session(const std::filesystem::path& folder, int tr
     header.tracker = {"made up", recorded_rate_hz, Eye::left};
     header.poses = distinct_poses(header.animations.front());
     header.tasks = {{"free", "Look around"}};
-    header.objects = {{"bust", "A bust", "", "", {}, {}, {}, {}}};
+    header.objects = {{"bust", "A bust", "", "", {}, {Camera{}}, {}, {}}};
     header.materials = {{"gold", "Gold"}};
     header.stimuli = {{{0, 0}, "made up", ""}};
     std::filesystem::create_directories(folder);

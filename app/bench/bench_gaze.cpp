@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "experiment/base/random.h"
+#include "experiment/protocol/all_stimuli.h"
 
 namespace overt {
 

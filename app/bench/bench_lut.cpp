@@ -9,6 +9,7 @@
 #include "app/stimuli/map_figures.h"
 #include "experiment/base/error.h"
 #include "experiment/maps/coordinate_maps.h"
+#include "experiment/protocol/all_stimuli.h"
 #include "render/gl/headless_context.h"
 #include "render/gl/pixel_readback.h"
 #include "render/stimulus/coordinate_pass.h"

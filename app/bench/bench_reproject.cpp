@@ -10,6 +10,7 @@
 #include "experiment/analysis/gaze_cone.h"
 #include "experiment/base/parallel.h"
 #include "experiment/base/random.h"
+#include "experiment/protocol/all_stimuli.h"
 #include "experiment/record/read/sample_join.h"
 #include "render/gl/headless_context.h"
 #include "render/stimulus/coordinate_pass.h"

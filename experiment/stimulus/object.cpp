@@ -130,7 +130,7 @@ Object load_object(const ObjectSettings& settings, const Protocol& protocol,
             depth_range(scene.bounds, scene.view);
         } catch (const InputError& error) {
             throw InputError(fmt::format("object \"{}\"{}: {}", settings.id,
-                                         view.id.empty() ? "" : fmt::format(", view \"{}\"", view.id),
+                                         protocol.views.size() == 1 ? "" : fmt::format(", view \"{}\"", view.id),
                                          error.what()));
         }
     }
