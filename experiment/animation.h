@@ -59,15 +59,15 @@ constexpr bool is_same_pose(const Pose& a, const Pose& b) {
 
 /// A motion. Source of the defaults: Sidorov, Harvey, Smithson and Hardeberg 2019, section 4.1.
 struct Animation {
-    MotionKind kind = MotionKind::turn;
     int frame_count = 61;
     double frame_rate_hz = 30.0;
     Degrees amplitude{25.0}; ///< of `turn`: to each side of `angle`
-    Degrees angle{0.0};      ///< from the front view: the middle of a turn, or where a still object stands
-    Degrees light_amplitude{0.0}; ///< the light's turn to each side, in step with the object's
     Playback playback = Playback::cycle;
     double duration_s = 8.0; ///< of one presentation
     WhenLate when_late = WhenLate::drop;
+    MotionKind kind = MotionKind::turn;
+    Degrees angle{0.0}; ///< from the front view: the middle of a turn, or where a still object stands
+    Degrees light_amplitude{0.0}; ///< the light's turn to each side, in step with the object's
 
     /// The angle of the object in a frame, counter-clockwise seen from above: `angle`, and of `turn` with
     /// cycle a sin(2 pi k / (n-1)), with ping_pong -a cos(pi k / (n-1)) on top of it. Frames that share a pose
