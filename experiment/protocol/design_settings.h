@@ -26,6 +26,7 @@ struct Task {
     TaskCoverage stimuli = TaskCoverage::every_stimulus;
     double simulated_head_share =
         0.4; ///< share of a simulated observer's fixations that go to the part "head"
+    std::vector<std::string> slots = {}; ///< see slots_of_task()
 };
 
 /// For each of `stimulus_lists`, the ids of the entries that are chosen; none: all.

@@ -31,6 +31,7 @@
 #include "experiment/protocol/output_mode.h"
 #include "experiment/protocol/protocol_sources.h"
 #include "experiment/protocol/sitting_settings.h"
+#include "experiment/protocol/slot.h"
 #include "experiment/screen_geometry.h"
 #include "experiment/stimulus_lists.h"
 #include "experiment/units.h"
@@ -374,6 +375,8 @@ struct Protocol {
     std::vector<MotionSettings> motions = std::vector<MotionSettings>(1);
     std::vector<ViewSettings> views = std::vector<ViewSettings>(1);
     std::vector<FrameSequenceSettings> frames;
+    std::vector<SlotSettings> slot_entries;    ///< as they are written
+    std::vector<Slot> slots = written_out({}); ///< the places that they are; never empty
 
     const ObjectSettings& object_of(const Stimulus& of) const {
         return objects.at(static_cast<std::size_t>(of.object));

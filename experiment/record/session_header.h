@@ -124,6 +124,15 @@ struct RecordedStimulus {
     ContentHash frames_sha256;
 };
 
+/// A place on the screen.
+struct RecordedSlot {
+    std::string id;
+    std::string title;
+    glm::ivec2 origin_px{0}; ///< top left pixel of its image
+    glm::ivec2 size_px{0};
+    bool operator==(const RecordedSlot&) const = default;
+};
+
 /// A coordinate-encoded map of an object in a view and a pose. It shows all materials and lights.
 struct RecordedMap {
     enum class Made : std::uint8_t { prepared, live };
@@ -166,6 +175,7 @@ struct SessionHeader {
     std::vector<RecordedMaterial> materials;
     std::vector<RecordedStimulus> stimuli;
     std::vector<RecordedMap> maps;
+    std::vector<RecordedSlot> slots = {}; ///< as read: one at least, that of the image where none is recorded
 
     const Animation& animation_of(const Stimulus& stimulus) const {
         return animations.at(static_cast<std::size_t>(stimulus.motion));
@@ -176,6 +186,16 @@ struct SessionHeader {
     /// What the plan has for each refresh of a presentation of a stimulus.
     PageCycle page_cycle_of(const Stimulus& stimulus) const {
         return make_page_cycle(animation_of(stimulus), poses.frames_of(stimulus.motion), display.refresh_hz);
+    }
+
+    /// The screen with a slot's image on it.
+    ScreenGeometry screen_of_slot(int slot) const {
+        ScreenGeometry screen = display.screen;
+        if (slot >= 0 && static_cast<std::size_t>(slot) < slots.size()) {
+            screen.image_origin_px = slots[static_cast<std::size_t>(slot)].origin_px;
+            screen.image_px = slots[static_cast<std::size_t>(slot)].size_px;
+        }
+        return screen;
     }
 };
 
