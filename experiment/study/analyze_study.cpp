@@ -192,6 +192,8 @@ StudyResults analyze_study(ReadStudy study, const StudyOptions& options, const S
     results.by = options.by;
     results.confidence = options.confidence;
     glance_at(results, options.exclude);
+    if (options.is_by_asked)
+        check_asked_factors(options.by, study.levels);
     results.groups = make_groups(results, options.by, study.levels);
 
     add_maps(study, options, progress);
