@@ -20,6 +20,11 @@ struct SaliencyMap {
     std::shared_ptr<const Mesh> surface; ///< in the object's unit; the same object while it is the same
     std::vector<float> share;            ///< by vertex: of the highest density, 0 … 1; all 0 without gaze
     double gaze_s = 0.0;                 ///< that is in it
+    struct AreaShare {
+        std::string area;
+        double share = 0.0; ///< of that time; 0 without gaze
+    };
+    std::vector<AreaShare> areas{}; ///< of the object; those that overlap add up to more than 1
 };
 
 /// Sums up gaze on a thread of its own, where surfaces are prepared as well. The kernel is the analysis'
@@ -51,7 +56,8 @@ class LiveSaliency {
         std::shared_ptr<const WatchedObject> object;
         int trial = -1;
         std::uint32_t vertex = 0; ///< of the object's mesh
-        double seconds = 0.0;     ///< 0: the surface is to be prepared
+        PartIndex part = 0;
+        double seconds = 0.0; ///< 0: the surface is to be prepared
     };
     struct Surface;
     void work(const std::stop_token& stop);

@@ -95,7 +95,7 @@ struct Composer {
         return true;
     }
 
-    bool find_target(const Departure& before, ScriptedFixation& next, double duration_s, Region region) {
+    bool find_target(const Departure& before, ScriptedFixation& next, double duration_s, std::size_t region) {
         return find_target(before, next, duration_s,
                            [&] { return targets->draw(random, region, plan.spread); });
     }
@@ -114,21 +114,38 @@ struct Composer {
         return -1;
     }
 
+    /// An area of the scene, or elsewhere.
+    std::size_t choose_region() {
+        double chance = random.uniform();
+        std::size_t area = 0;
+        for (; area < plan.area_count && chance >= plan.shares[area]; ++area)
+            chance -= plan.shares[area];
+        return area;
+    }
+
+    bool find_in_another(const Departure& before, ScriptedFixation& next, double duration_s,
+                         std::size_t region) {
+        for (std::size_t other = targets->elsewhere() + 1; other-- > 0;) {
+            if (other != region && find_target(before, next, duration_s, other))
+                return true;
+        }
+        return false;
+    }
+
     ScriptedFixation next_fixation(const ScriptedFixation& last) {
         const Departure before = departure_of(last);
         const double duration_s =
             log_normal_within(random, settings.fixation_median_s, settings.fixation_log_sd,
                               settings.shortest_fixation_s, settings.longest_fixation_s);
         const int spot = choose_spot();
-        const Region region = random.uniform() < plan.head_share ? Region::head : Region::elsewhere;
-        const Region other = region == Region::head ? Region::elsewhere : Region::head;
+        const std::size_t region = choose_region();
         ScriptedFixation next;
         if (targets) {
             const bool found_spot = spot >= 0 && find_target(before, next, duration_s, [&] {
                                         return targets->draw_from_spot(random, spot);
                                     });
             if (found_spot || find_target(before, next, duration_s, region) ||
-                find_target(before, next, duration_s, other))
+                find_in_another(before, next, duration_s, region))
                 return next;
             next.target.reset();
             next.place = scene.screen.centre();

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "devices/simulated/observed_scene.h"
@@ -11,9 +12,6 @@
 #include "experiment/scene/ray_caster.h"
 
 namespace overt {
-
-/// The head, or all that is not the head.
-enum class Region : std::uint8_t { head, elsewhere };
 
 /// Draws surface points and knows what is visible of them. Constant queries allocate nothing.
 class GazeTargets {
@@ -24,10 +22,16 @@ class GazeTargets {
     GazeTargets(const ObservedObject& object, const ObservedScene& scene);
     static constexpr double spot_radius = 0.04;
 
+    /// Regions are the scene's areas, by their index, and what is in none of them.
+    std::size_t elsewhere() const noexcept { return regions_.size() - 1; }
+
     /// A point of the region, all of its area equally probable, save that the part "plinth" is looked at a
-    /// tenth as often. An object without that region gives a point of the other. `spread`: see GazePlan;
-    /// the usual distance is the root mean square one of both regions.
-    SurfacePoint draw(RandomStream& random, Region region, double spread = 0.0) const noexcept;
+    /// tenth as often. An object without that region gives a point elsewhere, or of its first region.
+    /// `spread`: see GazePlan; the usual distance is the root mean square one of all regions.
+    SurfacePoint draw(RandomStream& random, std::size_t region, double spread = 0.0) const noexcept;
+
+    /// Share of a region's weight that lies in an area of the object; nothing if the object has neither.
+    std::optional<double> share_within(std::size_t region, std::string_view area) const;
 
     /// The part on which an effect's spot lies.
     PartIndex part_of_spot(int effect) const noexcept {
@@ -58,6 +62,8 @@ class GazeTargets {
         }
     };
 
+    /// A region with triangles: this one, else elsewhere, else the first that has any.
+    const WeightedTriangles& region_or_other(std::size_t region) const noexcept;
     SurfacePoint draw_from(RandomStream& random, const WeightedTriangles& from) const noexcept;
     struct Spot {
         SurfacePoint middle;
@@ -70,12 +76,12 @@ class GazeTargets {
     const Mesh* mesh_;
     SceneView scene_;
     RayCaster caster_;
-    std::vector<glm::dvec3> eyes_; ///< the camera as the object sees it, by step of a period
-    WeightedTriangles head_, elsewhere_;
-    std::vector<Spot> spots_;   ///< by effect
-    glm::dvec3 middle_{0.0};    ///< of both regions by weighted area
-    double usual_square_ = 1.0; ///< mean square distance from it
-    double most_square_ = 1.0;  ///< largest, as a multiple of that
+    std::vector<glm::dvec3> eyes_;           ///< the camera as the object sees it, by step of a period
+    std::vector<WeightedTriangles> regions_; ///< the last is elsewhere
+    std::vector<Spot> spots_;                ///< by effect
+    glm::dvec3 middle_{0.0};                 ///< of all regions by weighted area
+    double usual_square_ = 1.0;              ///< mean square distance from it
+    double most_square_ = 1.0;               ///< largest, as a multiple of that
 };
 
 } // namespace overt

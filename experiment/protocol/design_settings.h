@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "experiment/base/enum_names.h"
@@ -16,14 +17,27 @@ enum class TaskCoverage : std::uint8_t { every_stimulus, once_per_object };
 template <>
 inline constexpr auto names_of<TaskCoverage> = enum_names<TaskCoverage>("every-stimulus", "once-per-object");
 
+/// Shares by the names of areas.
+using AreaShares = std::vector<std::pair<std::string, double>>;
+
 /// [[task]]
 struct Task {
     std::string id;
     std::string question;
     TaskCoverage stimuli = TaskCoverage::every_stimulus;
-    double simulated_head_share =
-        0.4; ///< share of a simulated observer's fixations that go to the part "head"
+    // Shares of a simulated observer's fixations: see simulated_shares().
+    std::optional<double> simulated_head_share;
+    AreaShares simulated_area_shares;
 };
+
+/// Where simulated observers look for a task: the shares that go to areas, each once, the head first. A task
+/// that says nothing gives the head usual_head_share; what the areas leave goes to the rest of the surface,
+/// by area.
+AreaShares simulated_shares(const Task& task);
+inline constexpr double usual_head_share = 0.4;
+
+/// Most areas with shares, of all tasks together, and the head.
+inline constexpr std::size_t most_simulated_areas = 32;
 
 /// What tells trials apart. A stimulus is an object in a material.
 enum class TrialFactor : std::uint8_t { task, object, material, stimulus };
@@ -106,18 +120,22 @@ struct GroupSettings {
 
 /// [simulated_observers]: how they differ from one another.
 struct SimulatedObserverSettings {
-    double head_share_sd = 0.0; ///< standard deviation of the logit of their shares of fixations on the head
+    /// Standard deviation of the logit of their shares of fixations on the head, and on each other area that
+    /// has a share.
+    double head_share_sd = 0.0;
 };
 
 /// [[simulated_effect]]: what the gaze of simulated observers depends on, for a study to find. Ids; empty:
 /// any.
 struct SimulatedEffect {
     std::string task, object, material;
-    double head_odds = 1.0;  ///< times the odds of the task's simulated_head_share
+    double head_odds = 1.0;  ///< times the odds of the task's share of the head
     double spot_share = 0.0; ///< share of fixations that go to the effect's own spot
     /// How far from the object's middle the other fixations lie: places at r times the usual distance are
     /// looked at exp(spread r^2) times as often; 0: by area alone.
     double spread = 0.0;
+    std::string area{};     ///< of area_odds
+    double area_odds = 1.0; ///< times the odds of the task's share of the area
 };
 /// Effects with a spot that one trial can have.
 inline constexpr int most_simulated_spots = 8;

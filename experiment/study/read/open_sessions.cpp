@@ -145,7 +145,7 @@ StudyObject describe_object(const SessionHeader& header, int index) {
     object.id = recorded.id;
     object.title = recorded.title;
     object.part_names = recorded.part_names;
-    object.head = HeadParts(recorded.part_names);
+    object.areas = Areas(recorded.part_names);
     object.camera = recorded.camera;
     object.axis_point = recorded.axis_point;
     object.unit = recorded.unit;
