@@ -125,21 +125,6 @@ const GazeTargets::WeightedTriangles& GazeTargets::region_or_other(std::size_t r
     return regions_[region];
 }
 
-std::optional<double> GazeTargets::share_within(std::size_t region, std::string_view area) const {
-    const Areas areas(mesh_->part_names);
-    const std::optional<std::size_t> own = areas.find(area);
-    const WeightedTriangles& from = region_or_other(region);
-    if (!own)
-        return std::nullopt;
-    double inside = 0.0, before = 0.0;
-    for (std::size_t i = 0; i < from.triangles.size(); ++i) {
-        if (areas.holds(*own, mesh_->triangle_parts[from.triangles[i]]))
-            inside += from.cumulative[i] - before;
-        before = from.cumulative[i];
-    }
-    return inside / from.cumulative.back();
-}
-
 SurfacePoint GazeTargets::draw(RandomStream& random, std::size_t region, double spread) const noexcept {
     const WeightedTriangles& from = region_or_other(region);
     SurfacePoint point = draw_from(random, from);

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <string_view>
 #include <vector>
 
 #include "devices/simulated/observed_scene.h"
@@ -29,9 +28,6 @@ class GazeTargets {
     /// tenth as often. An object without that region gives a point elsewhere, or of its first region.
     /// `spread`: see GazePlan; the usual distance is the root mean square one of all regions.
     SurfacePoint draw(RandomStream& random, std::size_t region, double spread = 0.0) const noexcept;
-
-    /// Share of a region's weight that lies in an area of the object; nothing if the object has neither.
-    std::optional<double> share_within(std::size_t region, std::string_view area) const;
 
     /// The part on which an effect's spot lies.
     PartIndex part_of_spot(int effect) const noexcept {

@@ -26,8 +26,8 @@ struct Task {
     std::string question;
     TaskCoverage stimuli = TaskCoverage::every_stimulus;
     // Shares of a simulated observer's fixations: see simulated_shares().
-    std::optional<double> simulated_head_share;
-    AreaShares simulated_area_shares;
+    std::optional<double> simulated_head_share{};
+    AreaShares simulated_area_shares{};
 };
 
 /// Where simulated observers look for a task: the shares that go to areas, each once, the head first. A task
