@@ -116,9 +116,9 @@ MemoryNeed memory_need(const Protocol& protocol, int poses) {
 std::string order_in_words(const BlockSettings& block) {
     std::string words(name_of(block.order));
     if (block.order == OrderMethod::blocked)
-        words += fmt::format(" by {}, levels {}", name_of(block.by), name_of(block.levels));
+        words += fmt::format(" by {}, levels {}", block.by, name_of(block.levels));
     if (block.order == OrderMethod::weighted)
-        words += fmt::format(" by {}{}", name_of(block.by), block.draws ? ", drawn with replacement" : "");
+        words += fmt::format(" by {}{}", block.by, block.draws ? ", drawn with replacement" : "");
     if (block.repetitions > 1)
         words += fmt::format(", {} times{}", block.repetitions,
                              block.repetition_order == RepetitionOrder::mixed ? ", mixed" : "");
@@ -192,6 +192,7 @@ DesignReport make_design_report(const Protocol& protocol, const std::vector<Obse
     report.tasks = ids_of(protocol.tasks);
     report.objects = ids_of(protocol.objects);
     report.materials = ids_of(protocol.materials);
+    report.factors = factors_of(protocol);
     add_observers(report, protocol);
     report.practice_trials = static_cast<int>(protocol.practice.size());
     report.observers = protocol.schedule.observers;
@@ -215,6 +216,8 @@ DesignReport make_design_report(const Protocol& protocol, const std::vector<Obse
             report.schedule_groups.push_back(protocol.groups[static_cast<std::size_t>(group)].id);
     }
     report.warnings = balance_warnings(protocol, presentations);
+    for (std::string& warning : aliased_factor_warnings(report.factors, presentations))
+        report.warnings.push_back(std::move(warning));
     report.rotations = rotation_facts(protocol);
     for (std::string& warning : rotation_warnings(report.rotations))
         report.warnings.push_back(std::move(warning));

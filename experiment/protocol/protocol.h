@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <vector>
 
@@ -18,17 +19,19 @@
 #include "experiment/calibration/calibration_settings.h"
 #include "experiment/colour/display_characterisation.h"
 #include "experiment/events/event_settings.h"
+#include "experiment/factors.h"
 #include "experiment/gaze.h"
 #include "experiment/keys/key_places.h"
+#include "experiment/list_entry.h"
 #include "experiment/ports/observer_field.h"
 #include "experiment/ports/tracker_kinds.h"
 #include "experiment/protocol/design_settings.h"
 #include "experiment/protocol/device_settings.h"
-#include "experiment/protocol/list_entry.h"
 #include "experiment/protocol/material_kind.h"
 #include "experiment/protocol/output_mode.h"
 #include "experiment/protocol/protocol_sources.h"
 #include "experiment/protocol/sitting_settings.h"
+#include "experiment/protocol/slot.h"
 #include "experiment/screen_geometry.h"
 #include "experiment/stimulus_lists.h"
 #include "experiment/units.h"
@@ -371,6 +374,8 @@ struct Protocol {
     std::vector<MotionSettings> motions = std::vector<MotionSettings>(1);
     std::vector<ViewSettings> views = std::vector<ViewSettings>(1);
     std::vector<FrameSequenceSettings> frames;
+    std::vector<SlotSettings> slot_entries;    ///< as they are written
+    std::vector<Slot> slots = written_out({}); ///< the places that they are; never empty
 
     const ObjectSettings& object_of(const Stimulus& of) const {
         return objects.at(static_cast<std::size_t>(of.object));
@@ -403,6 +408,19 @@ static_assert(std::tuple_size_v<decltype(entries_of_lists)> == stimulus_lists.si
 /// as they are. `list`: index into `stimulus_lists`.
 std::vector<const ListEntry*> entries_of(const Protocol& protocol, std::size_t list);
 std::vector<ListEntry*> entries_of(Protocol& protocol, std::size_t list);
+
+/// Their ids.
+std::vector<std::string_view> ids_in_list(const Protocol& protocol, std::size_t list);
+
+/// All factors of a protocol's trials.
+Factors factors_of(const Protocol& protocol);
+
+/// "muse, gold": the ids of a stimulus' entries, of lists with several, and always of object and material.
+std::string stimulus_in_words(const Protocol& protocol, const Stimulus& stimulus);
+
+/// For each list: whether a simulated effect holds for each of its entries.
+std::array<std::vector<bool>, stimulus_lists.size()> chosen_by(const Protocol& protocol,
+                                                               const SimulatedEffect& effect);
 
 /// The screen and the stimulus's place on it, as the protocol has them.
 ScreenGeometry screen_geometry_of(const Protocol& protocol);

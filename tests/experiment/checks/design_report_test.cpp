@@ -138,7 +138,7 @@ TEST_CASE("weights and groups that show some stimuli more often are no imbalance
     BlockSettings block;
     block.id = "weighted";
     block.order = OrderMethod::weighted;
-    block.by = TrialFactor::material;
+    block.by = "material";
     block.weights = {2.0, 1.0, 1.0};
     protocol.blocks = {block};
     CHECK(make_design_report(protocol, {}).warnings.empty());
