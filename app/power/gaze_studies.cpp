@@ -24,17 +24,20 @@ template <class Entries> int index_of(const Entries& entries, const std::string&
 
 ObservedEffect planted(const PowerEffect& effect, const Protocol& protocol, const ObservedScene& scene) {
     ObservedEffect planted;
+    SimulatedEffect holds;
     const auto hold_in = [&](const std::string& column, const std::string& level) {
+        const auto list = std::ranges::find(stimulus_lists, column, &StimulusList::name);
         if (column == "task")
             planted.task = index_of(protocol.tasks, level);
-        else if (column == "material")
-            planted.material = index_of(protocol.materials, level);
+        else if (list != stimulus_lists.end())
+            holds.entries[static_cast<std::size_t>(list - stimulus_lists.begin())] = level;
         else
-            planted.object = index_of(protocol.objects, level);
+            holds.where.push_back({column, level, {}});
     };
     hold_in(effect.column, effect.level);
     for (const StudyKey& key : effect.within)
         hold_in(key.column, key.value);
+    planted.entries = chosen_by(protocol, holds);
     if (effect.measure == PowerMeasure::area) {
         planted.area = area_in(scene, effect.area);
         OVERT_EXPECTS(planted.area >= 0);
