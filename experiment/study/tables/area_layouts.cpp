@@ -33,7 +33,7 @@ void add_figure_columns(StudyLayout<AreaRow>& to, const StudyResults& results) {
 
 RowLayout<AreaRow> figure4_layout(const StudyResults& results) {
     StudyLayout<AreaRow> to("figure4_area_share",
-                            "Share of counted fixations on one area, the head unless another was chosen: of "
+                            "Share of counted fixations on one area: of "
                             "groups, of each level of each column, and of all.");
     add_figure_columns(to, results);
     return to;
