@@ -25,6 +25,7 @@
 #include "experiment/list_entry.h"
 #include "experiment/ports/observer_field.h"
 #include "experiment/ports/tracker_kinds.h"
+#include "experiment/protocol/area_settings.h"
 #include "experiment/protocol/design_settings.h"
 #include "experiment/protocol/device_settings.h"
 #include "experiment/protocol/material_kind.h"
@@ -258,9 +259,7 @@ struct ObjectSettings : ListEntry {
     int lut_first_number = 0;                   ///< number of animation frame 0
     std::optional<int> lut_scale;               ///< of 16-bit codes; left out: a file beside each map says it
     std::optional<glm::dvec3> lut_min, lut_max; ///< the box that they are coded by, likewise
-    // The part "head" in the file's coordinates: inside any sphere and on the positive side of all planes.
-    std::vector<std::array<double, 4>> head_spheres; ///< x, y, z, radius
-    std::vector<std::array<double, 6>> head_planes;  ///< point and normal
+    std::vector<AreaSettings> areas;            ///< beside those that the mesh file and `labels` name
 };
 
 /// [[material]]
@@ -324,10 +323,11 @@ enum class FrameColours : std::uint8_t { display, rec709, xyz };
 template <>
 inline constexpr auto names_of<FrameColours> = enum_names<FrameColours>("display", "rec709", "xyz");
 
-/// [[frames]]: a ready-made animation for one object in one material, instead of rendering it.
+/// [[frames]]: a ready-made animation for one stimulus, instead of rendering it.
 struct FrameSequenceSettings {
     std::string object;
     std::string material;
+    std::string light, motion, view; ///< empty: the only one that there is
     std::string
         files; ///< path with # for the digits of the frame number; resolved against the protocol's folder
     int first_number = 0; ///< number of animation frame 0
@@ -434,8 +434,7 @@ std::filesystem::path frame_file(const FrameSequenceSettings& sequence, Animatio
 /// The same for the map of one frame, of an object with ready-made maps.
 std::filesystem::path lut_file(const ObjectSettings& object, AnimationFrameIndex frame);
 
-/// The ready-made frames of an object in a material, or nullptr if they are to be rendered. Indices into
-/// the protocol's lists.
-const FrameSequenceSettings* find_frames(const Protocol& protocol, int object, int material);
+/// The ready-made frames of a stimulus, or nullptr if they are to be rendered.
+const FrameSequenceSettings* find_frames(const Protocol& protocol, const Stimulus& stimulus);
 
 } // namespace overt

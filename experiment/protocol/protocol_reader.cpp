@@ -6,6 +6,7 @@
 #include "experiment/protocol/old_words.h"
 #include "experiment/protocol/protocol_keys.h"
 #include "experiment/protocol/protocol_sources.h"
+#include "experiment/protocol/written_series.h"
 #include "experiment/spectra/metal_table.h"
 
 namespace overt {
@@ -64,6 +65,12 @@ void complete(Protocol& protocol) {
     if (!protocol.display.characterisation_file.empty())
         protocol.display.characterisation_file =
             folder_of(protocol, "display.characterisation") / protocol.display.characterisation_file;
+    for (std::size_t i = 0; i < protocol.motions.size(); ++i) {
+        // What does not move has one frame.
+        MotionSettings& motion = protocol.motions[i];
+        if (!motion.moves() && !protocol.places.is_written(fmt::format("motion[{}].frame_count", i)))
+            motion.frame_count = 1;
+    }
     for (std::size_t i = 0; i < protocol.lights.size(); ++i) {
         LightSettings& light = protocol.lights[i];
         if (light.is_file())
@@ -81,6 +88,7 @@ bool read_written_keys(ProtocolExamination& examination, std::string_view text, 
     JoinedToml joined = read_joined_toml(text, protocol.file, reader, diagnostics);
     protocol.included = std::move(joined.included);
     put_todays_words(joined.toml, protocol.file.string(), diagnostics);
+    write_out_series(joined.toml, protocol.file.string(), diagnostics);
     KeyWalk(protocol_keys(), protocol.file.string(), protocol.places, examination.faulty, diagnostics)
         .read(joined.toml, protocol);
     complete(protocol);

@@ -17,6 +17,14 @@ template <class Entry> std::vector<Key> entry_keys(std::vector<Key> own, bool is
                         : identifier().required(),
          "Short name, used in file names and tables."},
         {"title", member_of<Entry>(&ListEntry::title), left_out("the id"), "Name for figures and reports."},
+        {"columns", member_of<Entry>(&ListEntry::columns), left_out("none"),
+         "What tables are to say of it besides, words or numbers: { gloss = \"high\", size_cm = 12 }. Each "
+         "name is a factor, by which trials are ordered, limited and analysed as by the list itself."},
+        {"series", member_of<Entry>(&ListEntry::series), left_out("one entry"),
+         "Several entries in place of this one, which differ in the value of a key that takes a number, a "
+         "word or a file: { roughness = [0.02, 0.05, 0.1] } makes three, with the ids ID-0.02 and so on, and "
+         "a "
+         "column of the key's name. Of several keys the first values belong together, then the second."},
     };
     keys.insert(keys.end(), own.begin(), own.end());
     return keys;
@@ -24,12 +32,17 @@ template <class Entry> std::vector<Key> entry_keys(std::vector<Key> own, bool is
 
 } // namespace
 
-std::vector<Key> head() {
-    using S = ObjectSettings;
+std::vector<Key> area() {
+    using A = AreaSettings;
     return {
-        {"spheres", &S::head_spheres, left_out("the mesh has no head"), "Middle and radius of each sphere."},
-        {"planes", &S::head_planes, left_out("nothing is cut off"),
-         "A point of each plane, and the direction in which the head lies."},
+        {"spheres", &A::spheres, left_out("none"), "Middle and radius of each sphere."},
+        {"boxes", &A::boxes, left_out("none"),
+         "Two corners of each box: the one with the smallest coordinates, and the one with the largest."},
+        {"groups", &A::groups, left_out("none"),
+         "Names of parts that the mesh file labels, such as the groups of an OBJ file, or that `labels` "
+         "names."},
+        {"planes", &A::planes, left_out("nothing is cut off"),
+         "A point of each plane, and the direction in which the area lies."},
     };
 }
 
@@ -85,12 +98,20 @@ std::vector<Key> motion() {
     using A = Animation;
     return entry_keys<M>(
         {
+            {"kind", member_of<M>(&A::kind),
+             "The object turns to and fro as a sine, or it stands still; the light may turn with either."},
             {"frame_count", member_of<M>(&A::frame_count), range(1, 10000),
              "Frames of the animation; with `cycle` the last closes the loop, being the first again."},
             {"frame_rate_hz", member_of<M>(&A::frame_rate_hz), range(0.1, 1000, "Hz"),
              "Frames per second, if the refresh rate is a whole multiple of it; see `display.refresh_hz`."},
             {"amplitude_deg", member_of<M>(&A::amplitude), range(0, 180, "deg"),
-             "Largest turn to each side of the front view."},
+             "Largest turn to each side of `angle_deg`; with `still` it has no effect."},
+            {"angle_deg", member_of<M>(&A::angle), range(-360, 360, "deg"),
+             "Where a still object stands, or the middle of its turn: counter-clockwise from the front view, seen "
+             "from above."},
+            {"light_amplitude_deg", member_of<M>(&A::light_amplitude), range(0, 180, "deg"),
+             "Largest turn of the surroundings to each side of where `[light]` has them, in step with the "
+             "object's."},
             {"playback", member_of<M>(&A::playback),
              "The frames hold a whole period of the sine, or one sweep from end to end that is played forth "
              "and "
@@ -111,7 +132,8 @@ std::vector<Key> object() {
     using S = ObjectSettings;
     return entry_keys<S>({
         {"shipped", &S::shipped, left_out("see `mesh` and `lut`"),
-         "An object that overt makes itself, its head being known: \"muse\", \"runner\" or \"scholar\"."},
+         "An object that overt makes itself, with the areas head, body and plinth: \"muse\", \"runner\" or "
+         "\"scholar\"."},
         {"mesh", &S::mesh, left_out("see `shipped` and `lut`"),
          "A PLY, OBJ or STL file of triangles, by its path from the protocol's folder."},
         {"up", &S::up, one_of(axes), "The axis of the mesh file that points up."},
@@ -122,10 +144,9 @@ std::vector<Key> object() {
          "every export says so."},
         {"labels", &S::labels, left_out("the labels of the mesh file, if it has any"),
          "A text file with a whole number for each triangle of the mesh, or for each vertex: which part it "
-         "belongs to. Lines `# part 1 head` name parts. Beside `head` both hold: a part that lies in the "
-         "head as "
-         "a whole stays a part, called head/NAME, and counts as head; of one that reaches beyond it the head "
-         "takes what it contains."},
+         "belongs to. Lines `# part 1 rim` name parts. Each part is an area, as are the groups of a mesh "
+         "file; "
+         "beside `areas` both hold, and a triangle may belong to several."},
         {"weld_tolerance", &S::weld_tolerance, range(0, 0.01),
          "Vertices of the mesh that are no farther apart than this share of the diagonal of its box are one: "
          "what some programs write for a corner differs by rounding. 0: only those at the very same place."},

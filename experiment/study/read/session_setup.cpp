@@ -103,11 +103,11 @@ StimulusSetup stimuli_of(const SessionHeader& header) {
         stimuli.image_deg = {angle_deg(image_mm.x, screen.viewing_distance_mm),
                              angle_deg(image_mm.y, screen.viewing_distance_mm)};
     }
-    stimuli.frame_count = header.animation.frame_count;
-    stimuli.frame_rate_hz = header.animation.frame_rate_hz;
-    stimuli.amplitude_deg = header.animation.amplitude.value;
-    stimuli.playback = header.animation.playback;
-    stimuli.duration_s = header.animation.duration_s;
+    stimuli.frame_count = header.animations.front().frame_count;
+    stimuli.frame_rate_hz = header.animations.front().frame_rate_hz;
+    stimuli.amplitude_deg = header.animations.front().amplitude.value;
+    stimuli.playback = header.animations.front().playback;
+    stimuli.duration_s = header.animations.front().duration_s;
     return stimuli;
 }
 
@@ -137,7 +137,7 @@ SessionSetup setup_of(const SessionRecord& record) {
     setup.display = display_of(header);
     if (!knows_no_stimulus(header)) {
         setup.stimuli = stimuli_of(header);
-        for (const RecordedMaterial& material : header.materials)
+        for (const ListEntry& material : header.materials)
             setup.materials.push_back({material.id, plain_line_of(material.title)});
         for (const RecordedTask& task : header.tasks)
             setup.tasks.push_back({task.id, plain_line_of(task.question)});
