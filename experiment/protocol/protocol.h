@@ -415,9 +415,6 @@ std::vector<std::string_view> ids_in_list(const Protocol& protocol, std::size_t 
 /// All factors of a protocol's trials.
 Factors factors_of(const Protocol& protocol);
 
-/// "muse, gold": the ids of a stimulus' entries, of lists with several, and always of object and material.
-std::string stimulus_in_words(const Protocol& protocol, const Stimulus& stimulus);
-
 /// For each list: whether a simulated effect holds for each of its entries.
 std::array<std::vector<bool>, stimulus_lists.size()> chosen_by(const Protocol& protocol,
                                                                const SimulatedEffect& effect);
