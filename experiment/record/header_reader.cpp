@@ -93,9 +93,8 @@ void read_motions(const SQLite::Database& database, SessionHeader& header) {
             header.animations = std::move(motions);
     header.poses.of_motion.resize(header.animations.size());
     const bool has_motion = has_column(database, "animation_frame", "motion");
-    for (Query row(database, has_motion
-                                 ? "SELECT motion, pose FROM animation_frame ORDER BY motion, frame"
-                                 : "SELECT 0, pose FROM animation_frame ORDER BY frame");
+    for (Query row(database, has_motion ? "SELECT motion, pose FROM animation_frame ORDER BY motion, frame"
+                                        : "SELECT 0, pose FROM animation_frame ORDER BY frame");
          row.step();) {
         const auto motion = static_cast<std::size_t>(row.small());
         if (motion >= header.poses.of_motion.size())
@@ -110,7 +109,8 @@ void read_cameras(const SQLite::Database& database, SessionHeader& header) {
     for (Query row(database, "SELECT object, view, x, y, z, target_x, target_y, target_z, vertical_fov_deg "
                              "FROM camera ORDER BY object, view");
          row.step();) {
-        const auto object = static_cast<std::size_t>(row.small()), view = static_cast<std::size_t>(row.small());
+        const auto object = static_cast<std::size_t>(row.small()),
+                   view = static_cast<std::size_t>(row.small());
         constexpr std::size_t most_views = 255;
         if (object >= header.objects.size() || view > most_views)
             throw RecordError(fmt::format("table camera: there is no object {} in view {}", object, view));
@@ -124,9 +124,10 @@ void read_cameras(const SQLite::Database& database, SessionHeader& header) {
 }
 
 void read_design(const SQLite::Database& database, SessionHeader& header) {
-    for (Query row(database, fmt::format("SELECT trial, task, object, material, {} FROM schedule ORDER BY trial",
-                                         further_indices(database, "schedule"))
-                                 .c_str());
+    for (Query row(database,
+                   fmt::format("SELECT trial, task, object, material, {} FROM schedule ORDER BY trial",
+                               further_indices(database, "schedule"))
+                       .c_str());
          row.step();)
         header.schedule.trials.push_back({row.small(), row.small(), read_stimulus(row)});
     read_blocks(database, header);

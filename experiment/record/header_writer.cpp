@@ -82,8 +82,8 @@ void insert_objects(SQLite::Database& database, const SessionHeader& header) {
                       stimulus.stimulus.light, stimulus.stimulus.motion, stimulus.stimulus.view,
                       stimulus.source, stimulus.frames_sha256);
     for (const RecordedMap& map : header.maps)
-        insert_values(database, "INTO map", map.viewed.object, map.viewed.view, map.pose.value, map.file, map.sha256,
-                      map.made == RecordedMap::Made::prepared ? "prepared" : "live",
+        insert_values(database, "INTO map", map.viewed.object, map.viewed.view, map.pose.value, map.file,
+                      map.sha256, map.made == RecordedMap::Made::prepared ? "prepared" : "live",
                       map.kind == RecordedMap::Kind::triangles ? "triangles" : "coordinates");
 }
 

@@ -11,8 +11,9 @@ namespace overt {
 namespace {
 
 std::string stimulus_file(const SessionHeader& header, const Stimulus& stimulus, std::string_view ending) {
-    std::string name = fmt::format("stimuli/{}_{}", header.objects[static_cast<std::size_t>(stimulus.object)].id,
-                                   header.materials[static_cast<std::size_t>(stimulus.material)].id);
+    std::string name =
+        fmt::format("stimuli/{}_{}", header.objects[static_cast<std::size_t>(stimulus.object)].id,
+                    header.materials[static_cast<std::size_t>(stimulus.material)].id);
     // What else stimuli of the session differ in, by its number.
     constexpr std::pair<std::string_view, int Stimulus::*> further[] = {
         {"light", &Stimulus::light}, {"motion", &Stimulus::motion}, {"view", &Stimulus::view}};

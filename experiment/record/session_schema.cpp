@@ -233,9 +233,8 @@ CREATE TABLE IF NOT EXISTS run_option (
 )sql";
 
 void make_session_tables(SQLite::Database& database) {
-    for (const std::string& sql :
-         {create_sql(session_table()), create_sql(characterisation_table()), create_sql(object_table()),
-          create_sql(animation_table())})
+    for (const std::string& sql : {create_sql(session_table()), create_sql(characterisation_table()),
+                                   create_sql(object_table()), create_sql(animation_table())})
         database.exec(sql);
     for (const char* const sql : {session_schema_sql, box_tables_sql, observer_tables_sql, ledger_tables_sql,
                                   slot_tables_sql, gaze_tables_sql, device_tables_sql, option_tables_sql})

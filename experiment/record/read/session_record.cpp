@@ -35,10 +35,10 @@ void check_indices(const SessionHeader& header, const std::vector<TrialRecord>& 
                        within(slot, header.slots.size());
         }
         if (!is_known)
-            throw RecordError(
-                fmt::format("{}: table trial, trial_id {}: it names a task, object, material, motion, view or "
-                            "slot that the session does not have: the file is damaged.",
-                            file.string(), record.id));
+            throw RecordError(fmt::format(
+                "{}: table trial, trial_id {}: it names a task, object, material, motion, view or "
+                "slot that the session does not have: the file is damaged.",
+                file.string(), record.id));
     }
 }
 

@@ -114,8 +114,9 @@ id = "cloudy"
 id = "behind"
 rotation_deg = 180
 )");
-    text = with(text, "[animation]\nframe_count = 31\nframe_rate_hz = 30\namplitude_deg = 25\nduration_s = 1\n",
-                R"([[motion]]
+    text =
+        with(text, "[animation]\nframe_count = 31\nframe_rate_hz = 30\namplitude_deg = 25\nduration_s = 1\n",
+             R"([[motion]]
 id = "turn"
 frame_count = 31
 frame_rate_hz = 30

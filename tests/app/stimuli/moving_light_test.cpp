@@ -77,11 +77,13 @@ TEST_CASE("a frame under a turned light is that under the light standing there",
 TEST_CASE("motions share the frames and maps of poses that they have in common, views have their own",
           "[session]") {
     const SmallExperiment experiment(
-        with(with_motions("\n[[motion]]\nid = \"right\"\nkind = \"still\"\nangle_deg = 25\nframe_rate_hz = 6\n"
-                          "duration_s = 1\n"),
-             "[view]\nwidth_px = 40\nheight_px = 48\n",
-             "[[view]]\nid = \"front\"\nwidth_px = 40\nheight_px = 48\n\n[[view]]\nid = \"above\"\nwidth_px = 40\n"
-             "height_px = 48\ncamera_position = [0, -1500, 900]\n"),
+        with(
+            with_motions("\n[[motion]]\nid = \"right\"\nkind = \"still\"\nangle_deg = 25\nframe_rate_hz = 6\n"
+                         "duration_s = 1\n"),
+            "[view]\nwidth_px = 40\nheight_px = 48\n",
+            "[[view]]\nid = \"front\"\nwidth_px = 40\nheight_px = 48\n\n[[view]]\nid = \"above\"\nwidth_px = "
+            "40\n"
+            "height_px = 48\ncamera_position = [0, -1500, 900]\n"),
         Cache::own);
     const ProgramRun run = bake(experiment, {"--quality", "draft"});
     INFO(run.err);
@@ -89,9 +91,10 @@ TEST_CASE("motions share the frames and maps of poses that they have in common, 
     // Seven frames have three angles: in front, and about 22 degrees to each side; the other stands at 25.
     CHECK(maps_of(experiment.cache()) == 2 * 2 * (poses + 1));
     CHECK(frames_of(experiment.cache()) == 2 * 4 * (poses + 1));
-    const SmallExperiment same(with_motions("\n[[motion]]\nid = \"longer\"\nframe_count = 7\nframe_rate_hz = 6\n"
-                                            "amplitude_deg = 25\nduration_s = 2\n"),
-                               Cache::own);
+    const SmallExperiment same(
+        with_motions("\n[[motion]]\nid = \"longer\"\nframe_count = 7\nframe_rate_hz = 6\n"
+                     "amplitude_deg = 25\nduration_s = 2\n"),
+        Cache::own);
     const ProgramRun shared = bake(same, {"--quality", "draft"});
     INFO(shared.err);
     REQUIRE(shared.exit_code == 0);
@@ -103,8 +106,8 @@ TEST_CASE("a name leaves open what is the first of its list, and an unknown one 
     const SmallExperiment experiment(with_motions(lamp));
     const std::filesystem::path picture = experiment.folder().path() / "picture.png";
     const auto play = [&](const std::string& stimulus, const std::string& frame) {
-        return experiment.overt({"play", experiment.protocol().string(), "--live", "--stimulus", stimulus, "--frame",
-                                 frame, "--picture", picture.string(), "--context", "osmesa"});
+        return experiment.overt({"play", experiment.protocol().string(), "--live", "--stimulus", stimulus,
+                                 "--frame", frame, "--picture", picture.string(), "--context", "osmesa"});
     };
     const ProgramRun first = play("bust/smooth", "6");
     INFO(first.err);
