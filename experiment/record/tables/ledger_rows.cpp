@@ -86,9 +86,12 @@ RowLayout<LedgerRow> ledger_layout(const SharedColumns& shared, const SessionHea
         layout.add<LedgerRow>(
             {{{"light_angle_deg",
                "Turn of the light from where the protocol has it, counter-clockwise seen from above", "deg"},
-              [&header](auto& row) {
+              [&header](auto& row) -> std::optional<Fixed> {
+                  if (row.lit.shown == no_frame)
+                      return std::nullopt;
+                  constexpr int angle_decimals = 6;
                   const Animation& motion = item(header.animations, row.motion);
-                  return when(row.lit.shown != no_frame, Fixed{motion.pose_of(row.lit.shown).light.value, 6});
+                  return Fixed{motion.pose_of(row.lit.shown).light.value, angle_decimals};
               }}});
     return layout;
 }
