@@ -98,7 +98,8 @@ void add_lut(CLI::App& app, ChosenCommand& chosen) {
     command.add_option("PROTOCOL", options.protocol, "Protocol file (TOML)")->required();
     option(command, "--stimulus", options.stimulus, "OBJECT",
            "OBJECT or OBJECT/MATERIAL by their ids; the map is the same for all materials and lights. With "
-           "several views OBJECT/VIEW, with several motions the whole name", must_be_given);
+           "several views OBJECT/VIEW, with several motions the whole name",
+           must_be_given);
     add_frame_option(command, options.frame, "Animation frame, or all");
     option(command, "--out", options.out, "DIR",
            "Folder to write to (default: luts/OBJECT; with --check nothing is written)");
@@ -123,7 +124,8 @@ void add_reconstruct(CLI::App& app, ChosenCommand& chosen) {
     command.add_option("PROTOCOL", options.protocol, "Protocol file (TOML)")->required();
     option(command, "--stimulus", options.stimulus, "OBJECT",
            "OBJECT or OBJECT/MATERIAL by their ids; the maps are the same for all materials and lights. With "
-           "several views OBJECT/VIEW", must_be_given);
+           "several views OBJECT/VIEW",
+           must_be_given);
     add_frame_option(
         command, options.frame,
         "Animation frame: the triangles between its pixels, cut at silhouettes and where one part hides "
