@@ -1,0 +1,72 @@
+/// The rules by which trials are made, as a table: to add one is a file here and a row below.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string_view>
+
+#include "experiment/base/kind_table.h"
+#include "experiment/design/rules/trial_rule.h"
+
+namespace overt {
+
+using MakeTrialRule = std::unique_ptr<TrialRule>(const RuleRequest& request);
+
+// A file each.
+MakeTrialRule every_rule, pairs_rule, triads_rule, quadruples_rule, standard_rule, tuples_rule, search_rule,
+    match_rule, stream_rule;
+
+struct TrialRuleRow {
+    std::string_view name;
+    std::string_view explanation;
+    MakeTrialRule* make;
+    /// The keys that it looks at besides `rule`, `of`, `same` and `drawn`; empty behind the last.
+    std::array<std::string_view, 8> keys;
+    bool keeps_order = false; ///< its trials come in the order that it gives them
+
+    constexpr bool has_key(std::string_view key) const { return std::ranges::find(keys, key) != keys.end(); }
+};
+
+enum class TrialRuleKind : std::uint8_t {};
+
+template <>
+inline constexpr auto kinds_of<TrialRuleKind> = std::to_array<TrialRuleRow>({
+    {"every", "each combination of the levels of `of`, in one slot", every_rule, {"in", "draw"}},
+    {"pairs",
+     "each pair of stimuli that differ in all of `of`; `ordered` both ways round, `identical` also each with "
+     "itself",
+     pairs_rule,
+     {"any", "differs", "ordered", "identical", "side", "draw"}},
+    {"triads",
+     "each three levels a < b < c of one factor, b in the middle slot, for difference scaling",
+     triads_rule,
+     {"any", "side", "draw"}},
+    {"quadruples",
+     "each four levels a < b < c < d of one factor, a pair (a, b) and a pair (c, d) that do not overlap, in "
+     "the first two slots and the last two, for difference scaling",
+     quadruples_rule,
+     {"any", "side", "draw"}},
+    {"standard",
+     "each level of one factor against `standard`",
+     standard_rule,
+     {"any", "differs", "standard", "identical", "side", "draw"}},
+    {"tuples",
+     "each set of `size` stimuli that differ in all of `of` from each other",
+     tuples_rule,
+     {"any", "differs", "size", "side", "draw"}},
+    {"search",
+     "a target among distractors, or distractors alone: each target and set size, in slots that are drawn",
+     search_rule,
+     {"target", "distractors", "set_sizes", "absent", "side", "draw"}},
+    {"match",
+     "a sample, and slots of which one shows what has its levels of `of` while it differs in `differs`",
+     match_rule,
+     {"any", "differs", "sample", "among", "side", "draw"}},
+    {"stream",
+     "one stimulus after the other, of which a share repeats what came `back` trials before",
+     stream_rule,
+     {"length", "back", "repeats"},
+     true},
+});
+
+} // namespace overt
