@@ -38,11 +38,12 @@ void TrialQueue::begin_block(int block) {
         const PracticeSettings& practice = protocol_.practice[i];
         if (practice.block.empty() ? !is_first : practice.block != settings.id)
             continue;
-        const Trial trial{
+        Trial trial{
             static_cast<int>(i),
             index_of(protocol_.tasks, practice.task),
             {index_of(protocol_.objects, practice.object), index_of(protocol_.materials, practice.material)},
             block};
+        fill_slots(protocol_, trial);
         before_.push_back({SessionStep::Kind::practice, trial, 1, block});
     }
 }

@@ -63,6 +63,9 @@ std::vector<Key> task() {
         {"stimuli", &T::stimuli,
          "Asked for every object in every material, or once per object with the material changing from "
          "observer to observer."},
+        {"slots", &T::slots, identifier().left_out("the only slot there is"),
+         "Ids of the `[[slot]]`s in which the task's stimuli are shown, all at once; of a circle or a grid, "
+         "all its places. Each shows the stimulus that the trial has for it."},
         {"simulated_head_share", &T::simulated_head_share, range(0, 1),
          "Share of a simulated observer's fixations that go to the head."},
     };

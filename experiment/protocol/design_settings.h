@@ -21,6 +21,7 @@ struct Task {
     std::string id;
     std::string question;
     TaskCoverage stimuli = TaskCoverage::every_stimulus;
+    std::vector<std::string> slots; ///< see slots_of_task()
     double simulated_head_share =
         0.4; ///< share of a simulated observer's fixations that go to the part "head"
 };

@@ -55,6 +55,8 @@ void complete(Protocol& protocol) {
         if (!sequence.files.empty())
             sequence.files = (folder_of(protocol, fmt::format("frames[{}]", i)) / sequence.files).string();
     }
+    protocol.slots = written_out(protocol.slot_entries);
+    fit_view_to_slots(protocol);
     if (!protocol.display.characterisation_file.empty())
         protocol.display.characterisation_file =
             folder_of(protocol, "display.characterisation") / protocol.display.characterisation_file;
