@@ -25,6 +25,14 @@ struct PlacedStimulus {
     friend constexpr bool operator==(const PlacedStimulus&, const PlacedStimulus&) = default;
 };
 
+/// A level of a factor that a trial has by itself, whatever its stimuli: a column of a table of trials, the
+/// set size of a search.
+struct TrialLevel {
+    std::string factor;
+    std::string level; ///< a number as it is written in tables
+    friend bool operator==(const TrialLevel&, const TrialLevel&) = default;
+};
+
 /// What is shown under one task: most often one stimulus, else one in each of several slots. A slot of the
 /// task that has none stays empty.
 struct Trial {
@@ -34,6 +42,9 @@ struct Trial {
     int block = 0;                           ///< index into the protocol's blocks; 0 if it has none
     int slot = 0;                            ///< of `stimulus`
     std::vector<PlacedStimulus> beside = {}; ///< in further slots, each once, in the task's order
+    std::vector<TrialLevel> levels = {};     ///< of its own factors
+    std::string correct = {};                ///< the correct answer; empty: there is none, or nobody knows it
+    bool is_catch = false;                   ///< a trial that checks the observer, mixed in among the others
     friend bool operator==(const Trial&, const Trial&) = default;
 
     std::size_t shown_count() const { return 1 + beside.size(); }

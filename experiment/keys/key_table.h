@@ -82,9 +82,9 @@ struct Key {
 /// Where the structs of a section lie in the struct that a whole file becomes.
 class SectionHome {
   public:
-    /// Of a table within a section: its keys are members of the section's struct.
+    /// Of a table within a section whose keys are members of the section's struct.
     SectionHome() = default;
-    /// Of a [section], and of a [[list]].
+    /// Of a [section], of a [[list]], and of a table within one that has a struct of its own there.
     template <class Root, class Struct>
     SectionHome(Struct Root::*one) : place_(one), left_out_(&as_left_out<Struct>()) {}
     template <class Root, class Struct>
@@ -100,6 +100,7 @@ class SectionHome {
         return home;
     }
 
+    bool has_struct() const { return place_.has_value(); }
     bool is_list() const { return add_ != nullptr; }
     /// The section's struct in `root`; of a list, a new entry of it.
     void* open(void* root) const { return is_list() ? add_(place_->in(root)) : place_->in(root); }
@@ -116,7 +117,7 @@ class SectionHome {
 /// A [section], the entries of a [[list]], or a table within one of them (`head = { … }` of an object).
 struct Section {
     std::string_view name;
-    SectionHome home; ///< of a table within a section: none
+    SectionHome home; ///< of a table within a section: of its struct, if that is not the section's
     std::vector<Key> keys;
     std::string_view explanation = {};
     std::vector<Section> tables = {};

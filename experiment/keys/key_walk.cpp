@@ -110,9 +110,11 @@ void KeyWalk::read_keys(const Section& section, const TomlTable& table, const st
         const Key* const key = section.find_key(entry.key);
         const auto inner = std::ranges::find(section.tables, entry.key, &Section::name);
         const std::string entry_path = path + "." + entry.key;
-        if (key)
+        // A key may be written as a value, or as a table of its own.
+        const bool is_inner = inner != section.tables.end() && (!key || entry.value.table());
+        if (key && !is_inner)
             read_key(*key, entry.value, entry_path, out);
-        else if (inner != section.tables.end())
+        else if (is_inner)
             read_inner(*inner, entry, entry_path, out);
         else
             error(entry.key_place, fmt::format("unknown key \"{}\" in [{}]", entry.key, section.name),
@@ -128,7 +130,8 @@ void KeyWalk::read_keys(const Section& section, const TomlTable& table, const st
 void KeyWalk::read_inner(const Section& section, const TomlEntry& entry, const std::string& path, void* out) {
     places_.note(path, entry.value.place);
     if (entry.value.table()) {
-        read_keys(section, *entry.value.table(), path, out);
+        read_keys(section, *entry.value.table(), path,
+                  section.home.has_struct() ? section.home.open(out) : out);
         return;
     }
     error(entry.value.place, fmt::format("{}: expected a table, found {}", section.name, entry.value.kind()),

@@ -66,6 +66,10 @@ std::vector<Key> task() {
         {"slots", &T::slots, identifier().left_out("the only slot there is"),
          "Ids of the `[[slot]]`s in which the task's stimuli are shown, all at once; of a circle or a grid, "
          "all its places. Each shows the stimulus that the trial has for it."},
+        {"trials", &T::trials_file, left_out("every stimulus"),
+         "Which trials the task has: a rule, or the path of a table (CSV, TSV) with a row for each; see "
+         "[design.md](design.md)."},
+        {"repetitions", &T::repetitions, range(1, 1000), "How often each of its trials comes."},
         {"simulated_head_share", &T::simulated_head_share, range(0, 1),
          "Share of a simulated observer's fixations that go to the head."},
     };

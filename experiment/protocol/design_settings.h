@@ -3,11 +3,13 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "experiment/base/enum_names.h"
+#include "experiment/protocol/trials_settings.h"
 
 namespace overt {
 
@@ -23,7 +25,10 @@ struct Task {
     TaskCoverage stimuli = TaskCoverage::every_stimulus;
     std::vector<std::string> slots; ///< see slots_of_task()
     double simulated_head_share =
-        0.4; ///< share of a simulated observer's fixations that go to the part "head"
+        0.4;                    ///< share of a simulated observer's fixations that go to the part "head"
+    TrialsSettings trials = {}; ///< neither a rule nor a file: every stimulus, by `stimuli`
+    std::filesystem::path trials_file = {}; ///< of a table; resolved against the protocol's folder
+    int repetitions = 1;                    ///< how often each of its trials comes
 };
 
 /// What tells trials apart. A stimulus is an object in a material.

@@ -28,6 +28,7 @@
 #include "experiment/protocol/protocol_sources.h"
 #include "experiment/protocol/sitting_settings.h"
 #include "experiment/protocol/slot.h"
+#include "experiment/protocol/trial_table.h"
 #include "experiment/screen_geometry.h"
 #include "experiment/units.h"
 
@@ -369,6 +370,7 @@ struct Protocol {
     std::vector<ObjectSettings> objects;
     std::vector<MaterialSettings> materials;
     std::vector<FrameSequenceSettings> frames;
+    std::vector<TrialTable> trial_tables; ///< of the tasks that name one
     std::vector<SlotSettings> slot_entries;    ///< as they are written
     std::vector<Slot> slots = written_out({}); ///< the places that they are; never empty
 

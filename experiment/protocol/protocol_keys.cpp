@@ -71,8 +71,15 @@ const KeyTable& protocol_keys() {
              "Spoken answers: a WAV file for each trial that counts, from the end of the animation to the "
              "key that ends the answer, with the sample at the response screen's onset, the onset of the "
              "voice, clipping and silence in the record."},
-            {"task", &Protocol::tasks, task(),
-             "A question that observers are asked about what they see. At least one."},
+            {"task",
+             &Protocol::tasks,
+             task(),
+             "A question that observers are asked about what they see. At least one.",
+             {{"trials",
+               &Task::trials,
+               trials(),
+               "A rule that makes the task's trials of the levels of factors. `overt check` says how many it "
+               "gives."}}},
             {"block", &Protocol::blocks, block(),
              "A part of the session with an order of its own. Without any block, all trials are one, in "
              "random order. The limits of `[schedule]` hold in each block that does not set them itself, but "

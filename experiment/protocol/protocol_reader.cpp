@@ -64,6 +64,34 @@ void complete(Protocol& protocol) {
         protocol.light.probe = (folder_of(protocol, "light.probe") / protocol.light.probe).string();
 }
 
+/// Reads the tables that tasks name; their texts stand beside those of included files.
+void read_trial_tables(ProtocolExamination& examination, const IncludeReader& reader) {
+    Protocol& protocol = examination.protocol;
+    for (std::size_t i = 0; i < protocol.tasks.size(); ++i) {
+        Task& task = protocol.tasks[i];
+        const std::string path = fmt::format("task[{}].trials", i);
+        if (task.trials_file.empty())
+            continue;
+        UnreadFile why_not;
+        const IncludedText* const text =
+            text_beside(protocol.included, protocol.file, folder_of(protocol, path) / task.trials_file,
+                        reader, examination.diagnostics(), why_not);
+        if (!text) {
+            examination.error({path},
+                              fmt::format("trials \"{}\": {}", task.trials_file.string(), why_not.message),
+                              why_not.hint);
+            continue;
+        }
+        const auto table =
+            parse_delimited(text->text, text->file.string(), text->number, examination.diagnostics());
+        task.trials.table = static_cast<int>(protocol.trial_tables.size());
+        protocol.trial_tables.push_back(table ? trial_table_of(*table, protocol,
+                                                               slots_of_task(protocol, static_cast<int>(i)),
+                                                               text->file.string(), examination.diagnostics())
+                                              : TrialTable{});
+    }
+}
+
 } // namespace
 
 bool read_written_keys(ProtocolExamination& examination, std::string_view text, const IncludeReader& reader) {
@@ -77,6 +105,8 @@ bool read_written_keys(ProtocolExamination& examination, std::string_view text, 
     KeyWalk(protocol_keys(), protocol.file.string(), protocol.places, examination.faulty, diagnostics)
         .read(joined.toml, protocol);
     complete(protocol);
+    if (joined.toml.is_whole)
+        read_trial_tables(examination, reader);
     return joined.toml.is_whole;
 }
 

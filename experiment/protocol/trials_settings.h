@@ -1,0 +1,36 @@
+/// Where trials come from, as a protocol states it: a rule, or a file. Explained key by key in
+/// trials_keys.cpp.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiment/design/rules/trial_rules.h"
+
+namespace overt {
+
+/// `trials` of a task or of catch trials: neither a file nor a rule, every stimulus.
+struct TrialsSettings {
+    int table = -1; ///< index into the protocol's trial tables; -1: it is none
+    std::optional<TrialRuleKind> rule;
+    // Names of factors: lists of the protocol, and columns of their entries.
+    std::vector<std::string> of, same, differs, any;
+    SideRule side = SideRule::drawn;
+    std::optional<int> draw;
+    DrawnFor drawn = DrawnFor::observer;
+    bool ordered = false, identical = false;
+    std::vector<std::string> standard, target, distractors; ///< levels
+    int size = 0;
+    std::vector<double> set_sizes;
+    double absent = 0.5;
+    // Ids of slots.
+    std::string in, sample;
+    std::vector<std::string> among;
+    int length = 0, back = 1;
+    double repeats = 0.25;
+
+    bool has_own_trials() const { return rule.has_value() || table >= 0; }
+};
+
+} // namespace overt
