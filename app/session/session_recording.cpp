@@ -122,7 +122,7 @@ SessionHeader make_session_header(const Protocol& protocol, const Schedule& sche
                       from_seconds(1e-3 * protocol.display.latency_ms),
                       std::string(name_of(protocol.display.output)), protocol.display.background};
     header.characterisation = recorded(protocol.display.characterisation);
-    header.animation = protocol.animation;
+    header.animation = protocol.motions.front();
     header.poses = library.cache().poses();
     for (const Task& task : protocol.tasks)
         header.tasks.push_back({task.id, task.question});

@@ -19,7 +19,7 @@ ObservedScene make_observed_scene(const Protocol& protocol, std::span<const Obje
                                   const ScreenGeometry& screen) {
     ObservedScene scene;
     scene.screen = screen;
-    scene.animation = protocol.animation;
+    scene.animation = protocol.motions.front();
     scene.refresh_hz = protocol.display.refresh_hz;
     scene.display_latency = from_seconds(1e-3 * protocol.display.latency_ms);
     for (const Object& object : objects)

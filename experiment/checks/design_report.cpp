@@ -20,7 +20,7 @@ namespace overt {
 namespace {
 
 AnimationFacts animation_facts(const Protocol& protocol) {
-    const Animation& animation = protocol.animation;
+    const Animation& animation = protocol.motions.front();
     const PageCycle cycle = make_page_cycle(animation, protocol.display.refresh_hz);
     AnimationFacts facts;
     facts.frames = animation.frame_count;
@@ -56,7 +56,7 @@ VisualAngles visual_angles(const Protocol& protocol) {
     angles.image_up_deg = std::copysign(geometry.angle_between(centre, {centre.x_px, middle.y_px}).value,
                                         centre.y_px - middle.y_px);
     // The camera stands before the middle of its picture, wherever that is shown.
-    angles.camera_fov_deg = protocol.view.vertical_fov_deg.value_or(size_deg(centre, image_px).y);
+    angles.camera_fov_deg = protocol.views.front().vertical_fov_deg.value_or(size_deg(centre, image_px).y);
     angles.px_per_deg = geometry.px_per_deg_at_centre();
     return angles;
 }
@@ -108,7 +108,8 @@ MemoryNeed memory_need(const Protocol& protocol, int poses) {
     MemoryNeed need;
     need.pages_per_stimulus_bytes = most_pages(protocol) * page_bytes(protocol);
     need.next_fits = 2.0 * need.pages_per_stimulus_bytes <= 1e6 * protocol.display.frame_store_mb;
-    need.maps_per_object_bytes = bytes_per_map_px * poses * protocol.view.width_px * protocol.view.height_px;
+    need.maps_per_object_bytes =
+        bytes_per_map_px * poses * protocol.views.front().width_px * protocol.views.front().height_px;
     return need;
 }
 
@@ -195,8 +196,8 @@ DesignReport make_design_report(const Protocol& protocol, const std::vector<Obse
     report.practice_trials = static_cast<int>(protocol.practice.size());
     report.observers = protocol.schedule.observers;
     report.display = protocol.display;
-    report.view = protocol.view;
-    report.motion = protocol.animation;
+    report.view = protocol.views.front();
+    report.motion = protocol.motions.front();
     report.animation = animation_facts(protocol);
     report.angles = visual_angles(protocol);
     report.assumptions = assumptions;

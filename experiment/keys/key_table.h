@@ -91,7 +91,8 @@ class SectionHome {
     SectionHome(std::vector<Struct> Root::*list)
         : place_(list), left_out_(&as_left_out<Struct>()), add_([](void* entries) -> void* {
               return &static_cast<std::vector<Struct>*>(entries)->emplace_back();
-          }) {}
+          }),
+          clear_([](void* entries) { static_cast<std::vector<Struct>*>(entries)->clear(); }) {}
     /// Of a section whose keys are members of the whole file's struct itself.
     template <class Root> static SectionHome root() {
         SectionHome home;
@@ -104,6 +105,8 @@ class SectionHome {
     bool is_list() const { return add_ != nullptr; }
     /// The section's struct in `root`; of a list, a new entry of it.
     void* open(void* root) const { return is_list() ? add_(place_->in(root)) : place_->in(root); }
+    /// Takes out the entries of a list.
+    void clear(void* root) const { clear_(place_->in(root)); }
 
     const void* left_out_root() const { return place_ ? place_->left_out_struct() : nullptr; }
     const void* left_out_struct() const { return left_out_; }
@@ -112,6 +115,7 @@ class SectionHome {
     std::optional<MemberPlace> place_;
     const void* left_out_ = nullptr;
     void* (*add_)(void* list) = nullptr;
+    void (*clear_)(void* list) = nullptr;
 };
 
 /// A [section], the entries of a [[list]], or a table within one of them (`head = { … }` of an object).
@@ -121,9 +125,16 @@ struct Section {
     std::vector<Key> keys;
     std::string_view explanation = {};
     std::vector<Section> tables = {};
+    /// Of a list that is never empty: its only entry may be written as a [section] of this name.
+    std::string_view alone = {};
 
     bool is_list() const { return home.is_list(); }
-    std::string heading() const; ///< "[name]" or "[[name]]"
+    bool is_never_empty() const { return !alone.empty(); }
+    bool is_called(std::string_view heading) const {
+        return heading == name || (!alone.empty() && heading == alone);
+    }
+    std::string heading() const;      ///< "[name]" or "[[name]]"; "[alone]" of a list that may be one
+    std::string list_heading() const; ///< "[[name]]"
     /// The key of its own, and not of a table within it, that is called so; or null.
     const Key* find_key(std::string_view key) const;
 };

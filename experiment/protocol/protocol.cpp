@@ -19,15 +19,40 @@ Protocol protocol_of_further(const Protocol& protocol, std::size_t index) {
     return further;
 }
 
+namespace {
+
+template <class Pointer, class OfProtocol>
+std::vector<Pointer> pointers_to_entries(OfProtocol& protocol, std::size_t list) {
+    std::vector<Pointer> entries;
+    std::size_t at = 0;
+    const auto take = [&](auto of_list) {
+        if (at++ == list)
+            for (auto& entry : protocol.*of_list)
+                entries.push_back(&entry);
+    };
+    std::apply([&](auto... of_list) { (take(of_list), ...); }, entries_of_lists);
+    return entries;
+}
+
+} // namespace
+
+std::vector<const ListEntry*> entries_of(const Protocol& protocol, std::size_t list) {
+    return pointers_to_entries<const ListEntry*>(protocol, list);
+}
+
+std::vector<ListEntry*> entries_of(Protocol& protocol, std::size_t list) {
+    return pointers_to_entries<ListEntry*>(protocol, list);
+}
+
 ScreenGeometry screen_geometry_of(const Protocol& protocol) {
     const DisplaySettings& display = protocol.display;
     ScreenGeometry geometry;
     geometry.screen_px = {display.width_px, display.height_px};
     geometry.screen_mm = {display.width_mm, display.height_mm};
     geometry.viewing_distance_mm = display.viewing_distance_mm;
-    geometry.image_px = {protocol.view.width_px, protocol.view.height_px};
+    geometry.image_px = {protocol.views.front().width_px, protocol.views.front().height_px};
     geometry.image_origin_px = centred_origin_px(geometry.screen_px, geometry.image_px);
-    const ViewSettings& view = protocol.view;
+    const ViewSettings& view = protocol.views.front();
     // The pixel whose distance from the middle is seen under the angle: tan(angle) * distance.
     const auto px_of = [&](double deg, int axis) {
         return std::tan(to_radians({deg}).value) * geometry.viewing_distance_mm * geometry.screen_px[axis] /

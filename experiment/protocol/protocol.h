@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -23,6 +24,7 @@
 #include "experiment/ports/tracker_kinds.h"
 #include "experiment/protocol/design_settings.h"
 #include "experiment/protocol/device_settings.h"
+#include "experiment/protocol/list_entry.h"
 #include "experiment/protocol/material_kind.h"
 #include "experiment/protocol/output_mode.h"
 #include "experiment/protocol/protocol_sources.h"
@@ -30,6 +32,7 @@
 #include "experiment/protocol/slot.h"
 #include "experiment/protocol/trial_table.h"
 #include "experiment/screen_geometry.h"
+#include "experiment/stimulus_lists.h"
 #include "experiment/units.h"
 
 namespace overt {
@@ -192,8 +195,8 @@ struct EventDetectionSettings : EventSettings {
     EventMethod method = EventMethod::tracker;
 };
 
-/// [view]: image and camera, the same for all stimuli.
-struct ViewSettings {
+/// [[view]]: image and camera. [view] is the only one.
+struct ViewSettings : ListEntry {
     int width_px = 1024;
     int height_px = 1024;
     // Place on the screen: its top left pixel, or its middle's angle from the middle of the screen; left out:
@@ -207,8 +210,8 @@ struct ViewSettings {
     std::optional<glm::dvec3> camera_target;   ///< left out: the centre of the bounding box
 };
 
-/// [light]: what surrounds the object.
-struct LightSettings {
+/// [[light]]: what surrounds the object. [light] is the only one.
+struct LightSettings : ListEntry {
     /// "overcast" or "gallery", or a latitude-longitude EXR or HDR file, linear Rec.709, +y up, resolved
     /// against the protocol's folder.
     std::string probe = "overcast";
@@ -217,6 +220,9 @@ struct LightSettings {
     double exposure = 1.0;     ///< factor from the probe's radiance to the display's white
     double rotation_deg = 0.0; ///< turns the probe about the vertical
 };
+
+/// [[motion]]: how an object turns. [animation] is the only one.
+struct MotionSettings : ListEntry, Animation {};
 
 /// [screens]: what is shown between the animations.
 struct ScreenSettings {
@@ -236,9 +242,7 @@ struct ScreenSettings {
 };
 
 /// [[object]]
-struct ObjectSettings {
-    std::string id;
-    std::string title;
+struct ObjectSettings : ListEntry {
     std::string shipped;        ///< name of an object that overt makes itself, or empty
     std::filesystem::path mesh; ///< PLY, OBJ or STL, or empty; resolved against the protocol's folder
     std::string up = "z";       ///< axis of the file that points up: x, y, z, -x, -y, -z
@@ -259,9 +263,7 @@ struct ObjectSettings {
 };
 
 /// [[material]]
-struct MaterialSettings {
-    std::string id;
-    std::string title;
+struct MaterialSettings : ListEntry {
     MaterialKind kind = MaterialKind::smooth_conductor;
     std::string metal =
         "Au"; ///< "Au", "Ag", or a file (metal_table.h), resolved against the protocol's folder
@@ -344,10 +346,7 @@ struct Protocol {
     std::vector<FurtherTrackerSettings> further_trackers;
     CalibrationKeys calibration;
     EventDetectionSettings events;
-    ViewSettings view;
-    LightSettings light;
     BakingSettings bake;
-    Animation animation;
     ScheduleSettings schedule;
     ScreenSettings screens;
     ConsentSettings consent;
@@ -367,18 +366,48 @@ struct Protocol {
     std::vector<SimulatedEffect> simulated_effects;
     BreakSettings breaks;
     RepeatSettings repeat;
+    // A stimulus is an entry of each. There is always a light, a motion and a view.
     std::vector<ObjectSettings> objects;
     std::vector<MaterialSettings> materials;
+    std::vector<LightSettings> lights = std::vector<LightSettings>(1);
+    std::vector<MotionSettings> motions = std::vector<MotionSettings>(1);
+    std::vector<ViewSettings> views = std::vector<ViewSettings>(1);
     std::vector<FrameSequenceSettings> frames;
     std::vector<TrialTable> trial_tables; ///< of the tasks that name one
     std::vector<SlotSettings> slot_entries;    ///< as they are written
     std::vector<Slot> slots = written_out({}); ///< the places that they are; never empty
+
+    const ObjectSettings& object_of(const Stimulus& of) const {
+        return objects.at(static_cast<std::size_t>(of.object));
+    }
+    const MaterialSettings& material_of(const Stimulus& of) const {
+        return materials.at(static_cast<std::size_t>(of.material));
+    }
+    const LightSettings& light_of(const Stimulus& of) const {
+        return lights.at(static_cast<std::size_t>(of.light));
+    }
+    const MotionSettings& motion_of(const Stimulus& of) const {
+        return motions.at(static_cast<std::size_t>(of.motion));
+    }
+    const ViewSettings& view_of(const Stimulus& of) const {
+        return views.at(static_cast<std::size_t>(of.view));
+    }
 
     std::filesystem::path file;         ///< where it was read
     std::string text;                   ///< the file, byte for byte
     std::vector<IncludedText> included; ///< the files that it includes
     KeyPlaces places;                   ///< where each key stands in it, for findings that come later
 };
+
+/// Where the entries of each of `stimulus_lists` are, in their order.
+inline constexpr std::tuple entries_of_lists{&Protocol::objects, &Protocol::materials, &Protocol::lights,
+                                             &Protocol::motions, &Protocol::views};
+static_assert(std::tuple_size_v<decltype(entries_of_lists)> == stimulus_lists.size());
+
+/// The entries of a list as what all lists' entries have in common; for as long as the protocol's lists stay
+/// as they are. `list`: index into `stimulus_lists`.
+std::vector<const ListEntry*> entries_of(const Protocol& protocol, std::size_t list);
+std::vector<ListEntry*> entries_of(Protocol& protocol, std::size_t list);
 
 /// The screen and the stimulus's place on it, as the protocol has them.
 ScreenGeometry screen_geometry_of(const Protocol& protocol);
