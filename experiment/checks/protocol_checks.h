@@ -23,6 +23,8 @@ void check_dropped_limits(ProtocolExamination& examination);
 /// Blocks and groups: what they name, and what belongs together in one.
 void check_blocks(ProtocolExamination& examination);
 void check_groups(ProtocolExamination& examination);
+/// Rules and tables of trials: after check_slots().
+void check_trials(ProtocolExamination& examination);
 void check_practice(ProtocolExamination& examination);
 void check_simulated_effects(ProtocolExamination& examination);
 void check_breaks(ProtocolExamination& examination);

@@ -7,6 +7,7 @@
 #include "experiment/design/latin_square.h"
 #include "experiment/design/observer_groups.h"
 #include "experiment/design/schedule.h"
+#include "experiment/design/task_trials.h"
 
 namespace overt {
 
@@ -48,9 +49,23 @@ int rotated(const Protocol& protocol, int row, int cell, const BlockScope& scope
                          "material rotation")[static_cast<std::size_t>(column)];
 }
 
-std::vector<Trial> trials_in(const Protocol& protocol, int block, const BlockScope& scope, int row) {
+/// Whose trials are asked for.
+struct ForObserver {
+    int number = 1;
+    std::uint64_t seed = 0;
+};
+
+std::vector<Trial> trials_in(const Protocol& protocol, int block, const BlockScope& scope, int row,
+                             const ForObserver& observer) {
     std::vector<Trial> trials;
     for (const int task : scope.tasks) {
+        if (protocol.tasks[static_cast<std::size_t>(task)].trials.has_own_trials()) {
+            for (Trial& trial : own_trials(protocol, task, block, stimuli_in(protocol, scope),
+                                           observer.number, observer.seed))
+                trials.push_back(std::move(trial));
+            continue;
+        }
+        const std::size_t first = trials.size();
         const TaskCoverage own = protocol.tasks[static_cast<std::size_t>(task)].stimuli;
         const bool rotates = rotates_materials(protocol, block, task);
         // A rotated task's cells are numbered by its place among the rotated tasks, whatever block it is in.
@@ -72,9 +87,14 @@ std::vector<Trial> trials_in(const Protocol& protocol, int block, const BlockSco
             for (const int material : scope.materials)
                 trials.push_back({count_of(trials), task, {object, material}, block});
         }
+        std::for_each(trials.begin() + static_cast<std::ptrdiff_t>(first), trials.end(),
+                      [&](Trial& trial) { fill_slots(protocol, trial); });
+        const std::vector<Trial> once(trials.begin() + static_cast<std::ptrdiff_t>(first), trials.end());
+        for (int i = 1; i < protocol.tasks[static_cast<std::size_t>(task)].repetitions; ++i)
+            trials.insert(trials.end(), once.begin(), once.end());
     }
-    for (Trial& trial : trials)
-        fill_slots(protocol, trial);
+    for (std::size_t i = 0; i < trials.size(); ++i)
+        trials[i].index = static_cast<int>(i);
     return trials;
 }
 
@@ -104,6 +124,27 @@ BlockScope scope_of(const Protocol& protocol, int block) {
     return {chosen(protocol.tasks, settings.tasks, nullptr),
             chosen(protocol.objects, settings.objects, nullptr),
             chosen(protocol.materials, settings.materials, nullptr)};
+}
+
+std::vector<Stimulus> stimuli_in(const Protocol& protocol, const BlockScope& scope) {
+    std::vector<Stimulus> stimuli{{}};
+    for (std::size_t list = 0; list < stimulus_lists.size(); ++list) {
+        std::vector<int> entries(entries_of(protocol, list).size());
+        std::iota(entries.begin(), entries.end(), 0);
+        if (stimulus_lists[list].index == &Stimulus::object)
+            entries = scope.objects;
+        if (stimulus_lists[list].index == &Stimulus::material)
+            entries = scope.materials;
+        std::vector<Stimulus> further;
+        for (Stimulus stimulus : stimuli) {
+            for (const int entry : entries) {
+                stimulus.*stimulus_lists[list].index = entry;
+                further.push_back(stimulus);
+            }
+        }
+        stimuli = std::move(further);
+    }
+    return stimuli;
 }
 
 const BlockSettings whole_session;
@@ -207,8 +248,8 @@ std::vector<BlockPlan> block_plans(const Protocol& protocol, int observer_number
          order_of_blocks(protocol, blocks, rotations.row_of(Kind::blocks, -1, place.row), seed)) {
         BlockPlan plan{block, {}, {}, rotations.row_of(Kind::levels, block, place.row)};
         plan.scope = std::ranges::find(scopes, block, &BlockScopeOf::block)->scope;
-        plan.trials =
-            trials_in(protocol, block, plan.scope, rotations.row_of(Kind::materials, -1, place.row));
+        plan.trials = trials_in(protocol, block, plan.scope, rotations.row_of(Kind::materials, -1, place.row),
+                                {observer_number, seed});
         if (!plan.trials.empty())
             plans.push_back(std::move(plan));
     }

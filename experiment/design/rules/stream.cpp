@@ -35,6 +35,8 @@ class StreamRule : public TrialRule {
                static_cast<std::size_t>(request().repetitions);
     }
 
+    std::size_t available() const override { return count(); }
+
     std::vector<RuledTrial> trials(RandomStream& random) const override {
         std::vector<RuledTrial> all;
         for (int repetition = 0; repetition < request().repetitions; ++repetition)

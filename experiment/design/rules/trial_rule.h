@@ -113,6 +113,9 @@ class TrialRule {
     /// How many trials trials() gives; 0: the rule finds nothing to combine.
     virtual std::size_t count() const = 0;
 
+    /// How many there are to draw from.
+    virtual std::size_t available() const = 0;
+
     /// The trials, in the order of the lists. What is drawn is drawn of `random`.
     virtual std::vector<RuledTrial> trials(RandomStream& random) const = 0;
 
@@ -128,6 +131,7 @@ class CombiningRule : public TrialRule {
   public:
     using TrialRule::TrialRule;
     std::size_t count() const override;
+    std::size_t available() const override { return combinations().size(); }
     std::vector<RuledTrial> trials(RandomStream& random) const override;
 
   protected:

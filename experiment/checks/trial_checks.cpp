@@ -1,0 +1,203 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "experiment/base/counted.h"
+#include "experiment/checks/protocol_checks.h"
+#include "experiment/design/block_plan.h"
+#include "experiment/design/task_trials.h"
+
+namespace overt {
+
+namespace {
+
+/// The trials of one task, as its keys ask for them.
+class TaskTrialsCheck {
+  public:
+    TaskTrialsCheck(ProtocolExamination& examination, int task)
+        : examination_(examination), protocol_(examination.protocol), task_(task),
+          settings_(protocol_.tasks[static_cast<std::size_t>(task)]) {}
+
+    void run() {
+        if (settings_.stimuli != TaskCoverage::every_stimulus && settings_.trials.has_own_trials())
+            error({"stimuli", "trials"}, "\"trials\" says already which stimuli the task is asked for",
+                  "leave out \"stimuli\"");
+        if (settings_.trials.table >= 0)
+            return check_table();
+        if (!settings_.trials.rule)
+            return;
+        check_keys();
+        const int blocks = block_count(protocol_);
+        for (int block = 0; block < blocks && errors_ == 0; ++block) {
+            const BlockScope scope = scope_of(protocol_, block);
+            if (std::ranges::find(scope.tasks, task_) != scope.tasks.end())
+                check_block(block, stimuli_in(protocol_, scope));
+        }
+    }
+
+  private:
+    const TrialRuleRow& row() const { return row_of(*settings_.trials.rule); }
+    std::string path(std::string_view key) const { return fmt::format("task[{}].{}", task_, key); }
+
+    void error(const std::vector<std::string_view>& keys, std::string message, std::string hint = {}) {
+        ++errors_;
+        std::vector<std::string> paths;
+        for (const std::string_view key : keys)
+            paths.push_back(path(key));
+        examination_.error(paths, std::move(message), std::move(hint));
+    }
+    void error_at_rule_key(std::string_view key, std::string message, std::string hint = {}) {
+        const std::string inner = fmt::format("trials.{}", key);
+        error({inner, "trials"}, std::move(message), std::move(hint));
+    }
+
+    /// Keys that say nothing to this rule.
+    void check_keys() {
+        std::vector<std::string_view> others;
+        for (const TrialRuleRow& other : kinds_of<TrialRuleKind>)
+            for (const std::string_view key : other.keys)
+                if (!key.empty() && !row().has_key(key) && std::ranges::find(others, key) == others.end())
+                    others.push_back(key);
+        for (const std::string_view key : others) {
+            if (!examination_.is_written(path(fmt::format("trials.{}", key))))
+                continue;
+            std::vector<std::string_view> users;
+            for (const TrialRuleRow& other : kinds_of<TrialRuleKind>)
+                if (other.has_key(key))
+                    users.push_back(other.name);
+            error_at_rule_key(key, fmt::format("\"{}\" says nothing to the rule \"{}\"", key, row().name),
+                              fmt::format("it is for {}", fmt::join(users, ", ")));
+        }
+        for (const double size : settings_.trials.set_sizes)
+            if (size != static_cast<int>(size))
+                error_at_rule_key("set_sizes", fmt::format("{} is no whole number of stimuli", size));
+    }
+
+    /// The key among those of factors that has this name.
+    std::string_view key_with(const std::string& name) const {
+        const TrialsSettings& trials = settings_.trials;
+        for (const auto& [key, names] :
+             {std::pair("of", &trials.of), std::pair("same", &trials.same),
+              std::pair("differs", &trials.differs), std::pair("any", &trials.any)})
+            if (std::ranges::find(*names, name) != names->end())
+                return key;
+        return "of";
+    }
+
+    void check_block(int block, const std::vector<Stimulus>& stimuli) {
+        const RuleTask by = rule_task(protocol_, task_, stimuli);
+        const std::vector<std::string> names = stimulus_factor_names(protocol_);
+        const std::vector<std::string_view> known(names.begin(), names.end());
+        for (const std::string& name : by.unknown)
+            error_at_rule_key(key_with(name), fmt::format("there is no factor \"{}\"", name),
+                              suggest_name(name, known));
+        if (!by.unknown.empty())
+            return;
+        const std::string where =
+            protocol_.blocks.empty() ? "" : fmt::format(" in block \"{}\"", block_at(protocol_, block).id);
+        check_factors(by, where);
+        if (errors_ > 0)
+            return;
+        const auto rule = row().make(by.request);
+        for (const RuleProblem& problem : rule->problems())
+            error_at_rule_key(problem.key, problem.message, problem.hint);
+        if (errors_ == 0)
+            check_count(*rule, where);
+        if (errors_ == 0 && row().keeps_order)
+            check_order(block);
+    }
+
+    void check_factors(const RuleTask& by, const std::string& where) {
+        for (const std::vector<RuleFactor>* factors : {&by.request.of, &by.request.differs})
+            for (const RuleFactor& factor : *factors) {
+                std::vector<int> met = factor.of_stimulus;
+                std::ranges::sort(met);
+                met.erase(std::unique(met.begin(), met.end()), met.end());
+                std::erase(met, -1);
+                if (met.size() < 2 && row().name != "every")
+                    error_at_rule_key(
+                        key_with(factor.name),
+                        fmt::format("the factor \"{}\" has {}{}, so that nothing can differ in it",
+                                    factor.name, counted(met.size(), "level"), where),
+                        "give its list more entries, or go by another factor");
+            }
+        if (row().name == "every" && !settings_.trials.of.empty())
+            for (const std::string& list : by.unsaid)
+                error_at_rule_key(
+                    "of", fmt::format("nothing says which {} the trials show{}", list, where),
+                    fmt::format("name \"{}\" in of, or choose one of them for the block", list));
+        if (row().name != "every" && settings_.trials.of.empty() && by.request.of.size() != 1)
+            error_at_rule_key(
+                "of",
+                by.request.of.empty()
+                    ? fmt::format("there is nothing{} in which stimuli differ", where)
+                    : fmt::format("nothing says in which factor the stimuli of a trial differ{}: {} differ",
+                                  where, fmt::join(names_of_factors(by.request.of), " and ")),
+                "write of = \"FACTOR\"");
+    }
+
+    static std::vector<std::string_view> names_of_factors(const std::vector<RuleFactor>& factors) {
+        std::vector<std::string_view> names;
+        for (const RuleFactor& factor : factors)
+            names.push_back(factor.name);
+        return names;
+    }
+
+    void check_count(const TrialRule& rule, const std::string& where) {
+        const std::size_t count = rule.count();
+        if (count == 0)
+            error_at_rule_key("rule", fmt::format("the rule \"{}\" gives no trials{}", row().name, where),
+                              "no stimuli are alike and differ as it asks for");
+        else if (count > most_trials_of_observer)
+            error_at_rule_key(
+                "rule",
+                fmt::format("the rule \"{}\" gives {}{} trials{}; {} is the most that a session can hold",
+                            row().name, count >= Combinations::most ? "more than " : "", count, where,
+                            most_trials_of_observer),
+                row().has_key("draw") ? "draw some of them with draw = N" : "");
+        else if (settings_.trials.draw && static_cast<std::size_t>(*settings_.trials.draw) > rule.available())
+            error_at_rule_key("draw",
+                              fmt::format("{} trials are drawn, and the rule \"{}\" gives {}{} to draw from",
+                                          *settings_.trials.draw, row().name, rule.available(), where),
+                              "without \"draw\" all of them come");
+    }
+
+    void check_order(int block) {
+        if (block_at(protocol_, block).order == OrderMethod::sequential)
+            return;
+        error_at_rule_key(
+            "rule", fmt::format("the trials of the rule \"{}\" come in its own order", row().name),
+            protocol_.blocks.empty()
+                ? "add a [[block]] with order = \"sequential\" for the task"
+                : fmt::format("give block \"{}\" order = \"sequential\"", block_at(protocol_, block).id));
+    }
+
+    void check_table() {
+        const TrialTable& table = protocol_.trial_tables[static_cast<std::size_t>(settings_.trials.table)];
+        for (std::size_t i = 0; i < table.factors.size(); ++i) {
+            const bool is_one = std::ranges::all_of(table.rows, [&](const TrialTableRow& trial) {
+                return trial.levels[i].level == table.rows.front().levels[i].level;
+            });
+            if (is_one && table.rows.size() > 1)
+                examination_.warning({path("trials")},
+                                     fmt::format("the column \"{}\" of {} is the same in all rows",
+                                                 table.factors[i], table.file));
+        }
+    }
+
+    ProtocolExamination& examination_;
+    const Protocol& protocol_;
+    int task_;
+    const Task& settings_;
+    int errors_ = 0;
+};
+
+} // namespace
+
+void check_trials(ProtocolExamination& examination) {
+    for (int task = 0; task < static_cast<int>(examination.protocol.tasks.size()); ++task)
+        TaskTrialsCheck(examination, task).run();
+}
+
+} // namespace overt
