@@ -48,6 +48,11 @@ struct Trial {
     friend bool operator==(const Trial&, const Trial&) = default;
 
     std::size_t shown_count() const { return 1 + beside.size(); }
+    std::vector<PlacedStimulus> all_shown() const {
+        std::vector<PlacedStimulus> all{shown(0)};
+        all.insert(all.end(), beside.begin(), beside.end());
+        return all;
+    }
     /// The i-th that it shows, `stimulus` being the 0th.
     PlacedStimulus shown(std::size_t i) const {
         return i == 0 ? PlacedStimulus{stimulus, slot} : beside[i - 1];

@@ -234,12 +234,12 @@ void TrialQueue::restart_block() {
     attempts_since_pause_ = 0;
 }
 
-std::optional<Stimulus> TrialQueue::expected() const {
+std::optional<Trial> TrialQueue::expected() const {
     for (const SessionStep& step : before_) {
         if (step.kind == SessionStep::Kind::practice)
-            return step.trial.stimulus;
+            return step.trial;
     }
-    return waiting_.empty() ? std::nullopt : std::optional(waiting_.front().trial.stimulus);
+    return waiting_.empty() ? std::nullopt : std::optional(waiting_.front().trial);
 }
 
 } // namespace overt

@@ -23,10 +23,10 @@ struct Task {
     std::string id;
     std::string question;
     TaskCoverage stimuli = TaskCoverage::every_stimulus;
-    std::vector<std::string> slots; ///< see slots_of_task()
     double simulated_head_share =
-        0.4;                    ///< share of a simulated observer's fixations that go to the part "head"
-    TrialsSettings trials = {}; ///< neither a rule nor a file: every stimulus, by `stimuli`
+        0.4; ///< share of a simulated observer's fixations that go to the part "head"
+    std::vector<std::string> slots = {};    ///< see slots_of_task()
+    TrialsSettings trials = {};             ///< neither a rule nor a file: every stimulus, by `stimuli`
     std::filesystem::path trials_file = {}; ///< of a table; resolved against the protocol's folder
     int repetitions = 1;                    ///< how often each of its trials comes
 };
