@@ -28,7 +28,8 @@ struct Task {
     std::vector<std::string> slots = {};    ///< see slots_of_task()
     TrialsSettings trials = {};             ///< neither a rule nor a file: every stimulus, by `stimuli`
     std::filesystem::path trials_file = {}; ///< of a table; resolved against the protocol's folder
-    int repetitions = 1;                    ///< how often each of its trials comes
+    CatchSettings catch_trials = {};
+    int repetitions = 1; ///< how often each of its trials comes
 };
 
 /// What tells trials apart. A stimulus is an object in a material.
@@ -98,6 +99,7 @@ struct BlockSettings {
     RepetitionOrder repetition_order = RepetitionOrder::in_turn;
     std::string instructions; ///< shown before it; empty: nothing
     bool continues = false;   ///< limits count the trials of the block before, too
+    DrawSettings draw = {};
     std::optional<int> max_task_run, max_object_run, max_material_run, max_stimulus_run;
     std::optional<int> min_task_distance, min_object_distance, min_material_distance, min_stimulus_distance;
 };
