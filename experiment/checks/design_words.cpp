@@ -38,10 +38,11 @@ Texts ids_of_slots(const Protocol& protocol, int task) {
 
 /// What a task without a rule or a table shows.
 Texts words_of_coverage(const Protocol& protocol, int block, int task, const BlockScope& scope) {
-    const std::vector<Stimulus> stimuli = stimuli_in(protocol, scope);
+    const std::vector<Stimulus> stimuli = stimuli_in(scope);
+    const Factors factors = factors_of(protocol);
     std::vector<RuleFactor> lists;
     for (const StimulusList& list : stimulus_lists) {
-        RuleFactor factor = *stimulus_factor(protocol, stimuli, list.name);
+        RuleFactor factor = *stimulus_factor(factors, stimuli, list.name);
         std::vector<int> met = factor.of_stimulus;
         std::ranges::sort(met);
         const auto count = std::unique(met.begin(), met.end()) - met.begin();
@@ -62,7 +63,7 @@ Texts words_of_coverage(const Protocol& protocol, int block, int task, const Blo
 Texts words_of_rule(const Protocol& protocol, int task, const BlockScope& scope) {
     const TrialsSettings& trials = protocol.tasks[static_cast<std::size_t>(task)].trials;
     const TrialRuleRow& row = row_of(*trials.rule);
-    const RuleTask by = rule_task(protocol, task, stimuli_in(protocol, scope));
+    const RuleTask by = rule_task(protocol, task, stimuli_in(scope));
     const RuleRequest& request = by.request;
     const Texts slots = request.slots;
     Texts among = trials.among, sizes;
@@ -152,6 +153,7 @@ std::vector<TaskWords> design_in_words(const Protocol& protocol, double trial_s)
             parts.push_back(std::move(words));
         }
     }
+    const Factors factors = factors_of(protocol);
     for (const Observer& observer : planned_observers(protocol)) {
         for (const BlockPlan& plan : block_plans(protocol, observer.number, 0)) {
             const std::string& block = block_at(protocol, plan.block).id;
@@ -160,7 +162,8 @@ std::vector<TaskWords> design_in_words(const Protocol& protocol, double trial_s)
                 for (const Trial& trial : plan.trials)
                     if (words.block == block &&
                         protocol.tasks[static_cast<std::size_t>(trial.task)].id == words.task)
-                        trials += weight_of(protocol, trial) * block_at(protocol, plan.block).repetitions;
+                        trials +=
+                            weight_of(protocol, factors, trial) * block_at(protocol, plan.block).repetitions;
                 words.trials = std::max(words.trials, static_cast<int>(trials + 0.5));
             }
         }

@@ -32,7 +32,7 @@ class TaskTrialsCheck {
         for (int block = 0; block < blocks && errors_ == 0; ++block) {
             const BlockScope scope = scope_of(protocol_, block);
             if (std::ranges::find(scope.tasks, task_) != scope.tasks.end())
-                check_block(block, stimuli_in(protocol_, scope));
+                check_block(block, stimuli_in(scope));
         }
     }
 
@@ -87,8 +87,8 @@ class TaskTrialsCheck {
 
     void check_block(int block, const std::vector<Stimulus>& stimuli) {
         const RuleTask by = rule_task(protocol_, task_, stimuli);
-        const std::vector<std::string> names = stimulus_factor_names(protocol_);
-        const std::vector<std::string_view> known(names.begin(), names.end());
+        const Factors factors = factors_of(protocol_);
+        const std::vector<std::string_view> known = stimulus_factor_names(factors);
         for (const std::string& name : by.unknown)
             error_at_rule_key(key_with(name), fmt::format("there is no factor \"{}\"", name),
                               suggest_name(name, known));

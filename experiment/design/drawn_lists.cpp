@@ -25,6 +25,17 @@ std::vector<int> drawn_of(std::vector<int> entries, std::optional<int> count, Ra
 
 bool DrawnList::is_old(int entry) const { return std::ranges::find(old, entry) != old.end(); }
 
+void mark_old_and_new(const DrawnList& drawn, std::vector<Trial>& trials) {
+    if (!drawn.tells_old_from_new)
+        return;
+    for (Trial& trial : trials) {
+        const bool is_old = drawn.is_old(trial.stimulus.*stimulus_lists[drawn.list].index);
+        trial.levels.push_back({"seen", is_old ? "old" : "new"});
+        if (trial.correct.empty())
+            trial.correct = trial.levels.back().level;
+    }
+}
+
 std::optional<std::size_t> list_called(std::string_view name) {
     const auto found = std::ranges::find(stimulus_lists, name, &StimulusList::name);
     return found == stimulus_lists.end()
@@ -44,7 +55,7 @@ std::optional<DrawnList> drawn_list(const Protocol& protocol, const std::vector<
     if (!settings.is_written() || scope == scopes.end())
         return std::nullopt;
     DrawnList drawn{list_called(settings.of).value(), {}, {}, !settings.from.empty()};
-    const std::vector<int>& all = entries_in(scope->scope, drawn.list);
+    const std::vector<int>& all = scope->scope.lists[drawn.list];
     const std::string purpose = "list of block " + block_at(protocol, block).id;
     RandomStream random =
         settings.per == DrawnFor::everyone

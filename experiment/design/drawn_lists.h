@@ -19,14 +19,14 @@ struct DrawnList {
     bool is_old(int entry) const;
 };
 
-/// Indices into the protocol's list that a scope shows.
-std::vector<int>& entries_in(BlockScope& scope, std::size_t list);
-const std::vector<int>& entries_in(const BlockScope& scope, std::size_t list);
-
 /// Nothing where the block draws none. `scopes`: the blocks that the observer has, with all that they could
 /// show. The protocol must be sound.
 std::optional<DrawnList> drawn_list(const Protocol& protocol, const std::vector<BlockScopeOf>& scopes,
                                     int block, int observer_number, std::uint64_t seed);
+
+/// Gives trials the level of "seen" that their first stimulus has, and as their correct answer where they
+/// have none. Does nothing where the list tells no old from new.
+void mark_old_and_new(const DrawnList& drawn, std::vector<Trial>& trials);
 
 /// Row of stimulus_lists of this name; nothing where there is none.
 std::optional<std::size_t> list_called(std::string_view name);
