@@ -135,6 +135,26 @@ Texts words_of_table(const Protocol& protocol, int task) {
     return sentences;
 }
 
+std::string words_of_catch(const CatchSettings& checks) {
+    const std::string file = checks.trials_file.filename().string();
+    if (checks.share)
+        return fmt::format("{:g} % more as catch trials, of {}",
+                           100.0 * *checks.share / (1.0 - *checks.share), file);
+    return checks.count ? fmt::format("{} catch trials of {} among them", *checks.count, file)
+                        : fmt::format("catch trials among them, the rows of {}", file);
+}
+
+std::string words_of_draw(const DrawSettings& draw) {
+    const std::string_view whose = draw.per == DrawnFor::observer ? "for each observer" : "once for everyone";
+    if (draw.from.empty())
+        return fmt::format("{} {}s drawn {}", draw.count.value_or(0), draw.of, whose);
+    const auto count = [](std::optional<int> number) {
+        return number ? fmt::format("{}", *number) : std::string("all");
+    };
+    return fmt::format("{} {}s that block {} has shown (old) and {} others (new), drawn {}",
+                       count(draw.old_entries), draw.of, draw.from, count(draw.new_entries), whose);
+}
+
 } // namespace
 
 std::vector<TaskWords> design_in_words(const Protocol& protocol, double trial_s) {
@@ -148,6 +168,10 @@ std::vector<TaskWords> design_in_words(const Protocol& protocol, double trial_s)
             words.sentences = settings.trials.rule         ? words_of_rule(protocol, task, scope)
                               : settings.trials.table >= 0 ? words_of_table(protocol, task)
                                                            : words_of_coverage(protocol, block, task, scope);
+            if (settings.catch_trials.table >= 0)
+                words.sentences.push_back(words_of_catch(settings.catch_trials));
+            if (in.draw.is_written())
+                words.sentences.push_back(words_of_draw(in.draw));
             if (const int times = settings.repetitions * in.repetitions; times > 1)
                 words.sentences.push_back(fmt::format("{} times each", times));
             parts.push_back(std::move(words));

@@ -253,9 +253,13 @@ std::vector<Trial> catch_trials(const Protocol& protocol, int task, int block,
     return checks;
 }
 
-bool draws_trials(const Protocol& protocol, int task) {
-    const TrialsSettings& settings = protocol.tasks.at(static_cast<std::size_t>(task)).trials;
-    return settings.rule && settings.per == DrawnFor::observer;
+bool draws_trials(const Protocol& protocol) {
+    const bool by_task = std::ranges::any_of(protocol.tasks, [](const Task& task) {
+        return (task.trials.rule && task.trials.per == DrawnFor::observer) || task.catch_trials.table >= 0;
+    });
+    return by_task || std::ranges::any_of(protocol.blocks, [](const BlockSettings& block) {
+               return block.draw.is_written() && block.draw.per == DrawnFor::observer;
+           });
 }
 
 } // namespace overt

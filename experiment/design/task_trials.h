@@ -42,6 +42,6 @@ std::vector<Trial> catch_trials(const Protocol& protocol, int task, int block,
                                 int observer_number, std::uint64_t seed);
 
 /// Whether two sessions of an observer can have different trials, by what is drawn.
-bool draws_trials(const Protocol& protocol, int task);
+bool draws_trials(const Protocol& protocol);
 
 } // namespace overt
