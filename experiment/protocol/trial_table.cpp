@@ -236,6 +236,8 @@ class TrialTableMaker {
     }
 
     int repeats_in(const TextCell& cell) {
+        if (cell.text.empty())
+            return 1;
         const std::optional<double> number = number_in_cell(text_, cell);
         if (number && *number >= 0 && *number <= most_repeats && *number == std::floor(*number))
             return static_cast<int>(*number);
