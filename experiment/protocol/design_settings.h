@@ -22,9 +22,10 @@ struct Task {
     std::string id;
     std::string question;
     TaskCoverage stimuli = TaskCoverage::every_stimulus;
-    std::vector<StepSettings> steps; ///< none: the question, a drift check, the stimulus, the answer
     double simulated_head_share =
         0.4; ///< share of a simulated observer's fixations that go to the part "head"
+    /// None: the question, a drift check, the stimulus, the answer.
+    std::vector<StepSettings> steps = {};
 };
 
 /// What tells trials apart. A stimulus is an object in a material.
