@@ -9,7 +9,7 @@
 #include "experiment/protocol/protocol_keys.h"
 #include "experiment/record/header_rows.h"
 #include "experiment/record/session_schema.h"
-#include "experiment/scene/ply_writer.h"
+#include "experiment/scene/files/ply_writer.h"
 
 namespace overt {
 
@@ -121,6 +121,10 @@ SessionHeader make_session_header(const Protocol& protocol, const Schedule& sche
     header.display = {screen_geometry_of(protocol), protocol.display.refresh_hz,
                       from_seconds(1e-3 * protocol.display.latency_ms),
                       std::string(name_of(protocol.display.output)), protocol.display.background};
+    for (const Slot& slot : protocol.slots) {
+        const ScreenGeometry at = slot_geometry(protocol, slot);
+        header.slots.push_back({slot.id, slot.title, at.image_origin_px, at.image_px});
+    }
     header.characterisation = recorded(protocol.display.characterisation);
     header.animation = protocol.animation;
     header.poses = library.cache().poses();

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "devices/simulated/gaze_plan.h"
@@ -55,6 +56,14 @@ struct ScriptedFixation {
     std::optional<SurfacePoint> target; ///< what is pursued; nothing: `place` on the screen is looked at
     ScreenPoint place;
     SessionDuration light_delay{}; ///< from vertical blank to the light of the row looked at
+    std::size_t shown = 0;         ///< what of the things shown the target is on
+};
+
+/// One of the things that a trial shows: what there is to look at, where, and how.
+struct ObservedPresentation {
+    const GazeTargets* targets = nullptr; ///< nullptr for an object without a mesh
+    ScreenGeometry screen;                ///< with the image where it is shown
+    GazePlan plan;
 };
 
 /// The fixations of one presentation in order; between the end of one and the begin of the next lies a
@@ -75,7 +84,15 @@ class GazeScript {
     /// the screen.
     void compose(const ObservedScene& scene, const GazeTargets* targets, const PursuedTurn& turn,
                  const ObserverSettings& settings, std::uint64_t seed, int trial,
-                 const GazePlan& plan) noexcept;
+                 const GazePlan& plan) noexcept {
+        const ObservedPresentation only{targets, scene.screen, plan};
+        compose(scene, {&only, 1}, turn, settings, seed, trial);
+    }
+    /// The same of several things shown at once (one at least): each fixation is on one of them, all equally
+    /// probable.
+    void compose(const ObservedScene& scene, std::span<const ObservedPresentation> shown,
+                 const PursuedTurn& turn, const ObserverSettings& settings, std::uint64_t seed,
+                 int trial) noexcept;
 
     const std::vector<ScriptedFixation>& fixations() const { return fixations_; }
 
@@ -88,6 +105,9 @@ class GazeScript {
 };
 
 /// Where a fixation's target is on the screen, as the eye pursues it.
+ScreenPoint place_of(const ScriptedFixation& fixation, SessionDuration since_onset,
+                     std::span<const ObservedPresentation> shown, const PursuedTurn& turn) noexcept;
+/// The same of the only thing shown.
 ScreenPoint place_of(const ScriptedFixation& fixation, SessionDuration since_onset,
                      const ObservedScene& scene, const GazeTargets* targets,
                      const PursuedTurn& turn) noexcept;

@@ -35,6 +35,9 @@ ObservedScene make_observed_scene(const Protocol& protocol, std::span<const Obje
                                  number_of(effect.object, protocol.objects),
                                  number_of(effect.material, protocol.materials), effect.head_odds,
                                  effect.spot_share, effect.spread});
+    if (!protocol.slot_entries.empty())
+        for (const Slot& slot : protocol.slots)
+            scene.slots.push_back(slot_geometry(protocol, slot));
     scene.head_share_sd = protocol.simulated_observers.head_share_sd;
     return scene;
 }

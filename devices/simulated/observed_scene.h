@@ -46,7 +46,12 @@ struct ObservedScene {
     std::vector<ObservedObject> objects; ///< by Stimulus::object
     std::vector<ObservedTask> tasks;     ///< by Trial::task
     std::vector<ObservedEffect> effects = {};
-    double head_share_sd = 0.0; ///< of the logit, over observers
+    double head_share_sd = 0.0;             ///< of the logit, over observers
+    std::vector<ScreenGeometry> slots = {}; ///< the screen with each slot's image; none: `screen` alone
+
+    const ScreenGeometry& screen_of_slot(int slot) const {
+        return slots.empty() ? screen : slots[static_cast<std::size_t>(slot)];
+    }
 
     /// From vertical blank to the light of a row: rows are lit one after another, evenly over one refresh.
     /// Rows above and below the screen are taken as its first and last.

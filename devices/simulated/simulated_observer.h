@@ -32,6 +32,7 @@ struct GazeTruth {
     std::optional<SurfacePoint> target;       ///< what the fixation under way pursues
     std::optional<AnimationFrameIndex> frame; ///< really lit then on the row looked at
     std::optional<SurfacePoint> surface;      ///< what is under the gaze in that frame, by ray casting
+    std::optional<std::size_t> shown;         ///< which of the things shown has it in its image
 };
 
 /// What an observer answers, and how long after the question.
@@ -87,7 +88,7 @@ class SimulatedObserver final : public PresentationListener {
     struct Presentation {
         Presentation(const ObservedScene& scene, const ObserverSettings& settings);
         int trial = -1;
-        const GazeTargets* targets = nullptr;
+        std::vector<ObservedPresentation> shown;
         GazeScript script;
         std::vector<SeenFlip> flips;
         std::optional<SessionTime> end; ///< onset of the screen that followed

@@ -131,6 +131,8 @@ void check_place(ProtocolExamination& examination) {
         examination.error({"view.centre_right_deg"}, "left_px already says where the stimulus is");
     if (view.top_px && view.centre_up_deg)
         examination.error({"view.centre_up_deg"}, "top_px already says where the stimulus is");
+    if (!protocol.slot_entries.empty())
+        return; // their places are checked themselves
     const ScreenGeometry geometry = screen_geometry_of(protocol);
     const glm::ivec2 first = geometry.image_origin_px, last = first + geometry.image_px - 1;
     // What is larger than the screen has been found already, and is nowhere inside it.
@@ -164,6 +166,8 @@ void check_photodiode(ProtocolExamination& examination) {
             examination.warning({"display.photodiode_px"}, "no square is shown: photodiode says no corner");
         return;
     }
+    if (!protocol.slot_entries.empty())
+        return;
     const ScreenGeometry geometry = screen_geometry_of(protocol);
     const glm::ivec2 first = patch->origin_px - patch_distance_px, end = patch->end_px() + patch_distance_px;
     const glm::ivec2 image = geometry.image_origin_px, image_end = image + geometry.image_px;

@@ -53,6 +53,9 @@ struct BlockPlan {
 std::vector<BlockPlan> block_plans(const Protocol& protocol, int observer_number, std::uint64_t seed,
                                    RotationRule rule = RotationRule::crossed);
 
+/// Puts the trial's stimulus into each of its task's slots: what a task without a rule of its own shows.
+void fill_slots(const Protocol& protocol, Trial& trial);
+
 /// How many trials a block has: its trials with their repetitions or weights, or its draws.
 int length_of(const Protocol& protocol, const BlockPlan& plan);
 

@@ -73,6 +73,8 @@ std::vector<Trial> trials_in(const Protocol& protocol, int block, const BlockSco
                 trials.push_back({count_of(trials), task, {object, material}, block});
         }
     }
+    for (Trial& trial : trials)
+        fill_slots(protocol, trial);
     return trials;
 }
 
@@ -110,6 +112,14 @@ int block_count(const Protocol& protocol) { return protocol.blocks.empty() ? 1 :
 
 const BlockSettings& block_at(const Protocol& protocol, int block) {
     return protocol.blocks.empty() ? whole_session : protocol.blocks.at(static_cast<std::size_t>(block));
+}
+
+void fill_slots(const Protocol& protocol, Trial& trial) {
+    const std::vector<int> slots = slots_of_task(protocol, trial.task);
+    trial.slot = slots.empty() ? 0 : slots.front();
+    trial.beside.clear();
+    for (std::size_t i = 1; i < slots.size(); ++i)
+        trial.beside.push_back({trial.stimulus, slots[i]});
 }
 
 int level_of(const Protocol& protocol, const Trial& trial, TrialFactor factor) {

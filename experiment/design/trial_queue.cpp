@@ -38,11 +38,12 @@ void TrialQueue::begin_block(int block) {
         const PracticeSettings& practice = protocol_.practice[i];
         if (practice.block.empty() ? !is_first : practice.block != settings.id)
             continue;
-        const Trial trial{
+        Trial trial{
             static_cast<int>(i),
             index_of(protocol_.tasks, practice.task),
             {index_of(protocol_.objects, practice.object), index_of(protocol_.materials, practice.material)},
             block};
+        fill_slots(protocol_, trial);
         before_.push_back({SessionStep::Kind::practice, trial, 1, block});
     }
 }
@@ -233,12 +234,12 @@ void TrialQueue::restart_block() {
     attempts_since_pause_ = 0;
 }
 
-std::optional<Stimulus> TrialQueue::expected() const {
+std::optional<Trial> TrialQueue::expected() const {
     for (const SessionStep& step : before_) {
         if (step.kind == SessionStep::Kind::practice)
-            return step.trial.stimulus;
+            return step.trial;
     }
-    return waiting_.empty() ? std::nullopt : std::optional(waiting_.front().trial.stimulus);
+    return waiting_.empty() ? std::nullopt : std::optional(waiting_.front().trial);
 }
 
 } // namespace overt

@@ -68,6 +68,9 @@ std::vector<Key> task() {
                   "duration, the spoken answer"),
          "What a trial does, one step after another, such as `[{ fixation = 0.5 }, { show = \"centre\" }, "
          "{ answer = \"spoken\" }]`; see [design.md](design.md)."},
+        {"slots", &T::slots, identifier().left_out("the only slot there is"),
+         "Ids of the `[[slot]]`s in which the task's stimuli are shown, all at once; of a circle or a grid, "
+         "all its places. Each shows the stimulus that the trial has for it."},
         {"simulated_head_share", &T::simulated_head_share, range(0, 1),
          "Share of a simulated observer's fixations that go to the head."},
     };

@@ -24,6 +24,7 @@ struct Task {
     TaskCoverage stimuli = TaskCoverage::every_stimulus;
     double simulated_head_share =
         0.4; ///< share of a simulated observer's fixations that go to the part "head"
+    std::vector<std::string> slots = {}; ///< see slots_of_task()
     /// None: the question, a drift check, the stimulus, the answer.
     std::vector<StepSettings> steps = {};
 };

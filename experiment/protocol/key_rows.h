@@ -12,6 +12,8 @@ namespace overt::key_rows {
 std::vector<Key> display(), tracker(), further_tracker(), calibration(), events(), screens();
 // What is shown (stimulus_keys.cpp).
 std::vector<Key> view(), light(), animation(), object(), head(), material();
+// Where on the screen (slot_keys.cpp).
+std::vector<Key> slot();
 // How it becomes pictures (frame_keys.cpp).
 std::vector<Key> bake(), frames();
 // What is asked, and in which order (design_keys.cpp).

@@ -27,6 +27,7 @@
 #include "experiment/protocol/output_mode.h"
 #include "experiment/protocol/protocol_sources.h"
 #include "experiment/protocol/sitting_settings.h"
+#include "experiment/protocol/slot.h"
 #include "experiment/screen_geometry.h"
 #include "experiment/units.h"
 
@@ -368,6 +369,8 @@ struct Protocol {
     std::vector<ObjectSettings> objects;
     std::vector<MaterialSettings> materials;
     std::vector<FrameSequenceSettings> frames;
+    std::vector<SlotSettings> slot_entries;    ///< as they are written
+    std::vector<Slot> slots = written_out({}); ///< the places that they are; never empty
 
     std::filesystem::path file;         ///< where it was read
     std::string text;                   ///< the file, byte for byte

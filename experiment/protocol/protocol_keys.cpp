@@ -111,6 +111,12 @@ const KeyTable& protocol_keys() {
                "planes. Coordinates are those of the mesh file; with `lut`, those of the maps."}}},
             {"material", &Protocol::materials, material(),
              "What every object is made of in turn. At least one."},
+            {"slot", &Protocol::slot_entries, slot(),
+             "A place on the screen in which a stimulus is shown, or several on a circle or a grid, for "
+             "tasks "
+             "that show several stimuli at once. Without any, stimuli stand where `[view]` says, in the slot "
+             "\"centre\". The object takes the same share of a slot as of the image of `[view]`. Columns are "
+             "even, since some outputs join pixels in pairs."},
             {"frames", &Protocol::frames, frames(),
              "A ready-made animation of one object in one material, shown instead of rendering it."},
             {"words", &Protocol::words, words(),

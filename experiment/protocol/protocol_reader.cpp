@@ -6,7 +6,7 @@
 #include "experiment/protocol/old_words.h"
 #include "experiment/protocol/protocol_keys.h"
 #include "experiment/protocol/protocol_sources.h"
-#include "experiment/scene/metal_table.h"
+#include "experiment/spectra/metal_table.h"
 
 namespace overt {
 
@@ -55,6 +55,8 @@ void complete(Protocol& protocol) {
         if (!sequence.files.empty())
             sequence.files = (folder_of(protocol, fmt::format("frames[{}]", i)) / sequence.files).string();
     }
+    protocol.slots = written_out(protocol.slot_entries);
+    fit_view_to_slots(protocol);
     if (!protocol.display.characterisation_file.empty())
         protocol.display.characterisation_file =
             folder_of(protocol, "display.characterisation") / protocol.display.characterisation_file;

@@ -97,6 +97,19 @@ void check_header(const SessionHeader& header, const std::filesystem::path& file
         demand(is_index(trial.task, header.tasks) && is_stimulus(trial.stimulus, header) &&
                    (header.blocks.empty() || is_index(trial.block, header.blocks)),
                fmt::format("the task, object, material or block of planned trial {}", trial.index + 1));
+    for (const RecordedSlot& slot : header.slots) {
+        const glm::ivec2 end = slot.origin_px + slot.size_px, screen = header.display.screen.screen_px;
+        const bool is_on_screen = slot.origin_px.x >= 0 && slot.origin_px.y >= 0 && slot.size_px.x > 0 &&
+                                  slot.size_px.y > 0 && end.x <= screen.x && end.y <= screen.y;
+        // The only one is where the image is, which an imported session may not know.
+        demand(is_plain_name(slot.id) && (header.slots.size() == 1 || is_on_screen),
+               fmt::format("the id or the place of slot \"{}\"", slot.id));
+    }
+    for (const Trial& trial : header.schedule.trials)
+        for (std::size_t i = 0; i < trial.shown_count(); ++i)
+            demand(is_index(trial.shown(i).slot, header.slots) &&
+                       is_stimulus(trial.shown(i).stimulus, header),
+                   fmt::format("a slot, or what is in it, of planned trial {}", trial.index + 1));
     const auto have_plain_names = [](const auto& entries) {
         return std::ranges::all_of(entries, [](const auto& entry) { return is_plain_name(entry.id); });
     };

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
@@ -40,6 +41,35 @@ void read_blocks(const SQLite::Database& database, SessionHeader& header) {
         header.protocol.included.push_back({row.text(), row.text(), row.text()});
 }
 
+/// What planned trials show in slots, where that is more than one stimulus in the first.
+void read_slots(const SQLite::Database& database, SessionHeader& header) {
+    if (has_table(database, "slot")) {
+        for (Query row(database,
+                       "SELECT id, title, left_px, top_px, width_px, height_px FROM slot ORDER BY slot");
+             row.step();)
+            header.slots.push_back(
+                {row.text(), row.text(), {row.small(), row.small()}, {row.small(), row.small()}});
+        for (Query row(database, "SELECT trial, place, slot, object, material, light, motion, view FROM "
+                                 "schedule_slot ORDER BY trial, place");
+             row.step();) {
+            const int index = row.small(), place = row.small();
+            PlacedStimulus shown;
+            row.read(shown.slot, shown.stimulus.object, shown.stimulus.material, shown.stimulus.light,
+                     shown.stimulus.motion, shown.stimulus.view);
+            const auto trial = std::ranges::find(header.schedule.trials, index, &Trial::index);
+            if (trial == header.schedule.trials.end())
+                throw RecordError(fmt::format("table schedule_slot: there is no trial {}", index));
+            if (place == 0)
+                trial->slot = shown.slot;
+            else
+                trial->beside.push_back(shown);
+        }
+    }
+    const ScreenGeometry& screen = header.display.screen;
+    if (header.slots.empty())
+        header.slots.push_back({"centre", "centre", screen.image_origin_px, screen.image_px});
+}
+
 void read_dataset(const SQLite::Database& database, SessionHeader& header) {
     if (!has_table(database, "dataset_entry"))
         return;
@@ -52,6 +82,7 @@ void read_design(const SQLite::Database& database, SessionHeader& header) {
          row.step();)
         header.schedule.trials.push_back({row.small(), row.small(), {row.small(), row.small()}});
     read_blocks(database, header);
+    read_slots(database, header);
     read_dataset(database, header);
     for (Query row(database, "SELECT id, question FROM task ORDER BY task"); row.step();)
         header.tasks.push_back({row.text(), row.text()});

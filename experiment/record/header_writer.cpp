@@ -22,6 +22,13 @@ void insert_design(SQLite::Database& database, const SessionHeader& header) {
         insert_values(database, "INTO schedule", trial.index, trial.task, trial.stimulus.object,
                       trial.stimulus.material, trial.block);
     int index = 0;
+    for (const Trial& trial : header.schedule.trials) {
+        for (std::size_t i = 0; i < trial.shown_count() && (trial.slot != 0 || !trial.beside.empty()); ++i) {
+            const auto [stimulus, slot] = trial.shown(i);
+            insert_values(database, "INTO schedule_slot", trial.index, static_cast<int>(i), slot,
+                          stimulus.object, stimulus.material, stimulus.light, stimulus.motion, stimulus.view);
+        }
+    }
     for (const std::string& block : header.blocks)
         insert_values(database, "INTO block", index++, block);
     index = 0;
@@ -42,6 +49,13 @@ void insert_design(SQLite::Database& database, const SessionHeader& header) {
     index = 0;
     for (const PoseIndex pose : header.poses.of_frame)
         insert_values(database, "INTO animation_frame", index++, pose.value);
+}
+
+void insert_slots(SQLite::Database& database, const SessionHeader& header) {
+    int index = 0;
+    for (const RecordedSlot& slot : header.slots)
+        insert_values(database, "INTO slot", index++, slot.id, slot.title, slot.origin_px.x, slot.origin_px.y,
+                      slot.size_px.x, slot.size_px.y);
 }
 
 void insert_objects(SQLite::Database& database, const SessionHeader& header) {
@@ -79,6 +93,7 @@ void create_session_file(const std::filesystem::path& file, const SessionHeader&
         if (header.characterisation)
             insert_characterisation(database, *header.characterisation);
         insert_design(database, header);
+        insert_slots(database, header);
         insert_objects(database, header);
         SealWriter(database).begin(0);
         transaction.commit();

@@ -121,6 +121,15 @@ struct RecordedStimulus {
     ContentHash frames_sha256;
 };
 
+/// A place on the screen.
+struct RecordedSlot {
+    std::string id;
+    std::string title;
+    glm::ivec2 origin_px{0}; ///< top left pixel of its image
+    glm::ivec2 size_px{0};
+    bool operator==(const RecordedSlot&) const = default;
+};
+
 /// A coordinate-encoded map of an object in a pose.
 struct RecordedMap {
     enum class Made : std::uint8_t { prepared, live };
@@ -163,6 +172,17 @@ struct SessionHeader {
     std::vector<RecordedMaterial> materials;
     std::vector<RecordedStimulus> stimuli;
     std::vector<RecordedMap> maps;
+    std::vector<RecordedSlot> slots = {}; ///< as read: one at least, that of the image where none is recorded
+
+    /// The screen with a slot's image on it.
+    ScreenGeometry screen_of_slot(int slot) const {
+        ScreenGeometry screen = display.screen;
+        if (slot >= 0 && static_cast<std::size_t>(slot) < slots.size()) {
+            screen.image_origin_px = slots[static_cast<std::size_t>(slot)].origin_px;
+            screen.image_px = slots[static_cast<std::size_t>(slot)].size_px;
+        }
+        return screen;
+    }
 };
 
 } // namespace overt

@@ -137,6 +137,29 @@ CREATE TABLE IF NOT EXISTS swap_modes (
 ) STRICT;
 )sql";
 
+const char* const slot_tables_sql = R"sql(
+CREATE TABLE IF NOT EXISTS slot (
+    slot INTEGER PRIMARY KEY, id TEXT NOT NULL, title TEXT NOT NULL, left_px INTEGER NOT NULL,
+    top_px INTEGER NOT NULL, width_px INTEGER NOT NULL, height_px INTEGER NOT NULL
+) STRICT;
+CREATE TABLE IF NOT EXISTS schedule_slot (
+    trial INTEGER NOT NULL, place INTEGER NOT NULL, slot INTEGER NOT NULL, object INTEGER NOT NULL,
+    material INTEGER NOT NULL, light INTEGER NOT NULL, motion INTEGER NOT NULL, view INTEGER NOT NULL,
+    PRIMARY KEY (trial, place)
+) STRICT, WITHOUT ROWID;
+CREATE TABLE IF NOT EXISTS presentation (
+    trial_id INTEGER NOT NULL, place INTEGER NOT NULL, slot INTEGER NOT NULL, object INTEGER NOT NULL,
+    material INTEGER NOT NULL, light INTEGER NOT NULL, motion INTEGER NOT NULL, view INTEGER NOT NULL,
+    first_refresh INTEGER, last_refresh INTEGER,
+    PRIMARY KEY (trial_id, place)
+) STRICT, WITHOUT ROWID;
+CREATE TABLE IF NOT EXISTS slot_flip (
+    trial_id INTEGER NOT NULL, refresh_in_trial INTEGER NOT NULL, place INTEGER NOT NULL,
+    planned INTEGER NOT NULL, shown INTEGER NOT NULL, pose INTEGER NOT NULL,
+    PRIMARY KEY (trial_id, refresh_in_trial, place)
+) STRICT, WITHOUT ROWID;
+)sql";
+
 const char* const gaze_tables_sql = R"sql(
 CREATE TABLE IF NOT EXISTS gaze_event (
     trial_id INTEGER NOT NULL, n INTEGER NOT NULL,
@@ -210,7 +233,7 @@ void make_session_tables(SQLite::Database& database) {
          {create_sql(session_table()), create_sql(characterisation_table()), create_sql(object_table())})
         database.exec(sql);
     for (const char* const sql : {session_schema_sql, box_tables_sql, observer_tables_sql, ledger_tables_sql,
-                                  gaze_tables_sql, device_tables_sql, option_tables_sql})
+                                  slot_tables_sql, gaze_tables_sql, device_tables_sql, option_tables_sql})
         database.exec(sql);
 }
 

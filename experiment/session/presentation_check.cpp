@@ -7,6 +7,7 @@
 #include "experiment/base/counted.h"
 #include "experiment/session/tracker_feed.h"
 #include "experiment/timing/refresh_ledger.h"
+#include "experiment/timing/slot_cycles.h"
 
 namespace overt {
 namespace {
@@ -44,7 +45,9 @@ PresentationCheck check_presentation(const Protocol& protocol, const Trial& tria
     std::vector<FlipReport> flips;
     flips.reserve(static_cast<std::size_t>(cycle.total_refreshes));
 
-    ports.presenter.load_frames(trial.stimulus);
+    ports.presenter.load_slots(trial.all_shown());
+    SlotCycles slots;
+    slots.begin(trial.index, std::vector<PageCycle>(trial.beside.size(), cycle));
     ports.presenter.veil(true);
     ports.presenter.show({});
     ports.log.trial_started(trial, ports.clock.now());
@@ -56,10 +59,13 @@ PresentationCheck check_presentation(const Protocol& protocol, const Trial& tria
     ledger.begin(trial.index);
     while (!ledger.is_complete() && !ports.presenter.closed()) {
         take_items();
-        const FlipRecord& flip = ledger.enter(ports.presenter.flip(ledger.next().frame));
+        const FlipRecord& flip = ledger.enter(
+            ports.presenter.flip_slots(slots.frames(ledger.next().frame, ledger.next_refresh())));
         for (int i = 0; i < ledger.missed_count(); ++i)
             ports.log.missed(ledger.missed(i));
         ports.log.flip(flip);
+        for (const SlotFlip& of_slot : slots.enter(flip))
+            ports.log.slot_flip(of_slot);
         for (PresentationListener* listener : ports.listeners)
             listener->flipped(flip);
         flips.push_back(flip.report);

@@ -141,7 +141,7 @@ void Session::run_instructions(const SessionStep& step) {
     read_text(state_, control_, block.instructions, "instructions of block " + block.id);
 }
 
-void Session::run_practice(const SessionStep& step, const std::optional<Stimulus>& next) {
+void Session::run_practice(const SessionStep& step, const std::optional<Trial>& next) {
     const Trial& trial = step.trial;
     const PracticeSettings& practice = state_.protocol.practice[static_cast<std::size_t>(trial.index)];
     TrialRun::Attempt attempt;

@@ -23,6 +23,13 @@ constexpr double shortest_sleep_s = 0.005;
 /// half is that, more is a step.
 constexpr double smallest_wall_step_s = 0.1;
 
+void tell_of_flip(PresentationListener& listener, const FlipRecord& flip,
+                  std::span<const SlotFlip> beside) noexcept {
+    listener.flipped(flip);
+    for (const SlotFlip& of_slot : beside)
+        listener.slot_flipped(of_slot);
+}
+
 } // namespace
 
 TrialRun::TrialRun(SessionState& state, OperatorControl& control, const ScreenPoint& screen_centre,
@@ -36,14 +43,14 @@ TrialRun::TrialRun(SessionState& state, OperatorControl& control, const ScreenPo
         feeds_.push_back({used, TrackerFeed(used.tracker)});
 }
 
-TrialRun::Attempt TrialRun::run(const Trial& trial, const std::optional<Stimulus>& next, bool is_practice) {
+TrialRun::Attempt TrialRun::run(const Trial& trial, const std::optional<Trial>& next, bool is_practice) {
     Attempt attempt;
     attempt.outcome.status = TrialOutcome::Status::aborted;
     control_.begin_trial();
     state_.write_down();
     state_.markers.begin_trial(trial, is_practice);
     state_.enter(SessionPhase::trial, is_practice ? -1 : trial.index);
-    state_.ports.presenter.load_frames(trial.stimulus);
+    state_.ports.presenter.load_slots(trial.all_shown());
     state_.log().trial_started(trial, state_.now());
     // Practice has numbers of its own.
     mark(MarkedEvent::trial, state_.now(),
@@ -80,6 +87,7 @@ void TrialRun::present(Running& running, std::size_t number) {
     shown_ = cut_to(cycle_, step.refreshes, step.still());
     for (PresentationListener* listener : ports.listeners)
         listener->presentation_begins(trial);
+    slots_.begin(trial.index, std::vector<PageCycle>(trial.beside.size(), shown_));
     ports.presenter.take_swap_modes(); // those before are not the presentation's
     await_gaze(running, step, state_.now());
     add_row(running, step);
@@ -96,16 +104,20 @@ void TrialRun::present(Running& running, std::size_t number) {
             break;
         // Show the frame that the plan has next, and learn when it was lit.
         state_.markers.before_flip(ledger_.next_refresh(), ledger_.next().frame, ports.presenter);
-        const FlipRecord& flip = ledger_.enter(ports.presenter.flip(ledger_.next().frame));
+        const FlipRecord& flip = ledger_.enter(
+            ports.presenter.flip_slots(slots_.frames(ledger_.next().frame, ledger_.next_refresh())));
         // Record what was shown at each refresh, and tell the listeners.
         for (int i = 0; i < ledger_.missed_count(); ++i)
             log.missed(ledger_.missed(i));
         log.flip(flip);
+        const std::span<const SlotFlip> beside = slots_.enter(flip);
+        for (const SlotFlip& of_slot : beside)
+            log.slot_flip(of_slot);
         mark_flip(flip);
         state_.markers.flipped(flip);
         watch_.flipped(flip);
-        for (PresentationListener* listener : ports.listeners)
-            listener->flipped(flip);
+        for (PresentationListener* const listener : ports.listeners)
+            tell_of_flip(*listener, flip, beside);
         // Remember what the operator pressed, here or at the tracker's host.
         look_at_keys();
         own.look_at_state();

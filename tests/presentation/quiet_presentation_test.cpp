@@ -30,14 +30,14 @@ class NotingPresenter final : public Presenter {
     int flips = 0;
 
     DisplayTiming timing() const override { return refresh_->timing(); }
-    void load_frames(const Stimulus&) override {}
+    void load_slots(std::span<const PlacedStimulus>) override {}
     FlipReport show(const Screen&) override {
         if (in_presentation_)
             presentations.push_back(test::calls - at_first_flip_);
         in_presentation_ = false;
         return refresh_->next();
     }
-    FlipReport flip(AnimationFrameIndex) noexcept override {
+    FlipReport flip_slots(std::span<const AnimationFrameIndex>) noexcept override {
         if (!in_presentation_)
             at_first_flip_ = test::calls;
         in_presentation_ = true;
