@@ -10,7 +10,7 @@ using Lines = std::vector<std::string>;
 
 namespace {
 
-/// A task of a minimal protocol with these steps, each on a line of its own, the first in line 18.
+/// A task of a minimal protocol with these steps, each on a line of its own, the first in line 17.
 Lines lines_of(const std::string& steps) {
     return ReadText(minimal_protocol,
                     "\n[[task]]\nid = \"t\"\nquestion = \"Look.\"\nsteps = [\n" + steps + "\n]\n")
@@ -73,36 +73,36 @@ TEST_CASE("what is wrong with a step is said at its place, and all of it at once
   { show = "centre", until = { for_s = 1 } },
   0.5,)");
     CHECK(found ==
-          Lines{"18:3: no kind of step is named here", "19:13: blank: a step of 0 s shows nothing",
-                "20:13: blank: a step of -1 s shows nothing",
-                "21:18: a step is one kind, and this one is \"blank\" already",
-                "22:18: a step \"blank\" has no key \"colour\"",
-                "23:16: fixation: from 1 to 0.5 s there is nothing to draw",
-                "24:44: fixation: the mean of 0.9 s does not lie between 0.5 s and the middle, 0.75 s",
-                "25:14: answer: unknown value \"sung\"", "26:30: until: unknown value \"soon\"",
-                "28:3: steps: expected a step such as { blank = 0.5 }, found a number"});
+          Lines{"17:3: no kind of step is named here", "18:13: blank: a step of 0 s shows nothing",
+                "19:13: blank: a step of -1 s shows nothing",
+                "20:18: a step is one kind, and this one is \"blank\" already",
+                "21:18: a step \"blank\" has no key \"colour\"",
+                "22:16: fixation: from 1 to 0.5 s there is nothing to draw",
+                "23:44: fixation: the mean of 0.9 s does not lie between 0.5 s and the middle, 0.75 s",
+                "24:14: answer: unknown value \"sung\"", "25:30: until: unknown value \"soon\"",
+                "27:3: steps: expected a step such as { blank = 0.5 }, found a number"});
 }
 
 TEST_CASE("steps that could not go together are found where they stand", "[unit]") {
     CHECK(
         lines_of(
             "  { fixation = 0.5, id = \"a\" },\n  { blank = 0.5, id = \"a\" },\n  { show = \"centre\" },") ==
-        Lines{"19:23: step id \"a\" is used twice, first in line 18"});
-    CHECK(lines_of("  { fixation = 0.5 },") == Lines{"18:3: no step of task t shows the stimulus"});
+        Lines{"18:23: step id \"a\" is used twice, first in line 17"});
+    CHECK(lines_of("  { fixation = 0.5 },") == Lines{"17:3: no step of task t shows the stimulus"});
     CHECK(lines_of("  { show = \"centre\" },\n  { show = \"centre\" },") ==
-          Lines{"19:3: task t shows its stimulus a second time"});
-    CHECK(lines_of("  { show = \"left\" },") == Lines{"18:3: unknown slot \"left\""});
+          Lines{"18:3: task t shows its stimulus a second time"});
+    CHECK(lines_of("  { show = \"left\" },") == Lines{"17:3: unknown slot \"left\""});
     CHECK(lines_of("  { fixation = { until = { gaze_within_deg = 1 } } },\n  { show = \"centre\" },") ==
-          Lines{"18:3: this step never ends for an observer who does not look there"});
+          Lines{"17:3: this step never ends for an observer who does not look there"});
     CHECK(lines_of("  { show = \"centre\" },\n  { answer = \"spoken\" },\n  { feedback = { answered = "
-                   "\"Yes\" } },") == Lines{"20:3: this step feedback never ends"});
+                   "\"Yes\" } },") == Lines{"19:3: this step feedback never ends"});
     CHECK(lines_of("  { feedback = { answered = \"Yes\" }, for_s = 1 },\n  { show = \"centre\" },") ==
-          Lines{"18:3: there is no answer yet that feedback could be about"});
-    CHECK(lines_of("  { show = \"centre\", frame = 61 },") == Lines{"18:30: frame: there is no frame 61"});
+          Lines{"17:3: there is no answer yet that feedback could be about"});
+    CHECK(lines_of("  { show = \"centre\", frame = 61 },") == Lines{"17:30: frame: there is no frame 61"});
     CHECK(
         lines_of(
             "  { fixation = { until = { gaze_within_deg = 1, patience_s = 2 } } },\n  { text = \"Go on\" },\n"
-            "  { show = \"centre\" },") == Lines{"18:3: no gaze is recorded during this step"});
+            "  { show = \"centre\" },") == Lines{"17:3: no gaze is recorded during this step"});
     CHECK(lines_of("  { blank = 0.5, until = { gaze_on = \"head\" } },\n  { show = \"centre\" },") ==
-          Lines{"18:37: a step blank shows no head"});
+          Lines{"17:37: a step blank shows no head"});
 }
