@@ -7,6 +7,7 @@
 #include "experiment/analysis/flip_history.h"
 #include "experiment/base/error.h"
 #include "experiment/base/random.h"
+#include "experiment/protocol/all_stimuli.h"
 #include "experiment/session/gaze_watch.h"
 
 namespace overt {
@@ -133,9 +134,9 @@ PlantedPath planted_path(const FlipHistory& history, const PlantedClock& clock, 
 GazeStepTrials simulate_gaze_steps(const Protocol& protocol, std::span<const Object> objects,
                                    const std::string& area, int trials, std::uint64_t seed) {
     const double refresh_hz = protocol.display.refresh_hz;
-    const PoseTable poses = distinct_poses(protocol.animation);
-    const PageCycle plan = cut_to(make_page_cycle(protocol.animation, refresh_hz),
-                                  static_cast<int>(std::lround(3.0 * refresh_hz)), std::nullopt);
+    const PoseTable poses = poses_of(protocol);
+    const PageCycle plan =
+        cut_to(page_cycles(protocol).front(), static_cast<int>(std::lround(3.0 * refresh_hz)), std::nullopt);
     SeenAreas seen(protocol, objects, poses);
     const std::shared_ptr<const AreaView> view = seen.area_of({}, area);
     if (!view)

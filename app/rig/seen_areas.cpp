@@ -54,7 +54,7 @@ std::shared_ptr<const AreaView> SeenAreas::area_of(const PlacedStimulus& placed,
     }
     if (object.has_mesh() && has_any)
         made->second = std::make_shared<CastArea>(
-            object.mesh, object.scene,
+            object.mesh, object.scene(stimulus.view),
             slot_geometry(*protocol_, protocol_->slots[static_cast<std::size_t>(placed.slot)]), *poses_,
             std::move(is_in_area));
     return made->second;

@@ -84,10 +84,12 @@ class StepChecks {
     void check_place(const StepSettings& step) {
         if (step.kind == StepKind::show)
             check_slots(step);
-        if (step.frame && *step.frame >= examination_.protocol.animation.frame_count)
-            error(step.frame_place, fmt::format("frame: there is no frame {}", *step.frame),
-                  fmt::format("the motion has frames 0 to {}",
-                              examination_.protocol.animation.frame_count - 1));
+        for (const MotionSettings& motion : examination_.protocol.motions)
+            if (step.frame && *step.frame >= motion.frame_count) {
+                error(step.frame_place, fmt::format("frame: there is no frame {}", *step.frame),
+                      fmt::format("the motion has frames 0 to {}", motion.frame_count - 1));
+                return;
+            }
     }
 
     /// A step shows all that the trial has: what it names are the task's slots.

@@ -8,6 +8,7 @@
 #include "experiment/base/counted.h"
 #include "experiment/ports/event_kinds.h"
 #include "experiment/ports/trial_mark.h"
+#include "experiment/protocol/all_stimuli.h"
 #include "experiment/session/session_screens.h"
 
 namespace overt {
@@ -35,10 +36,8 @@ void tell_of_flip(PresentationListener& listener, const FlipRecord& flip,
 TrialRun::TrialRun(SessionState& state, OperatorControl& control, const ScreenPoint& screen_centre,
                    std::uint64_t seed)
     : state_(state), control_(control), drift_checks_(state, control, screen_centre),
-      answers_(state, control), seed_(seed),
-      cycle_(make_page_cycle(state.protocol.animation, state.protocol.display.refresh_hz)), shown_(cycle_),
-      ledger_(shown_, state.protocol.animation.when_late),
-      watch_(screen_geometry_of(state.protocol), state.protocol.display) {
+      answers_(state, control), seed_(seed), cycles_(page_cycles(state.protocol)), shown_(cycles_.front()),
+      ledger_(shown_, WhenLate::drop), watch_(screen_geometry_of(state.protocol), state.protocol.display) {
     for (UsedTracker& used : state.trackers())
         feeds_.push_back({used, TrackerFeed(used.tracker)});
 }
@@ -84,16 +83,21 @@ void TrialRun::present(Running& running, std::size_t number) {
     SessionLog& log = state_.log();
     const SessionPorts& ports = state_.ports;
     TrackerFeed& own = feeds_.front().items;
-    shown_ = cut_to(cycle_, step.refreshes, step.still());
+    shown_ = cut_to(cycles_[static_cast<std::size_t>(trial.stimulus.motion)], step.refreshes, step.still());
     for (PresentationListener* listener : ports.listeners)
         listener->presentation_begins(trial);
-    slots_.begin(trial.index, std::vector<PageCycle>(trial.beside.size(), shown_));
+    std::vector<PageCycle> cycles_beside;
+    for (const PlacedStimulus& further : trial.beside)
+        cycles_beside.push_back(
+            cut_to(cycles_[static_cast<std::size_t>(further.stimulus.motion)], step.refreshes, step.still()));
+    slots_.begin(trial.index, std::move(cycles_beside));
     ports.presenter.take_swap_modes(); // those before are not the presentation's
     await_gaze(running, step, state_.now());
     add_row(running, step);
     const int patience = step.patience_refreshes.value_or(shown_.total_refreshes);
 
     // From here to the last flip nothing allocates, opens, throws or formats.
+    ledger_ = RefreshLedger(shown_, state_.protocol.motion_of(trial.stimulus).when_late);
     ledger_.begin(trial.index);
     state_.markers.begin_presentation();
     while (!ledger_.is_complete() && ledger_.next_refresh() < patience && !is_cut_short() &&

@@ -85,8 +85,8 @@ class TrialRun {
     DriftChecks drift_checks_;
     AnswerTaking answers_;
     std::uint64_t seed_;
-    PageCycle cycle_;
-    PageCycle shown_; ///< what the step that shows the stimulus lights
+    std::vector<PageCycle> cycles_; ///< by motion
+    PageCycle shown_;               ///< what the step that shows the stimulus lights
     RefreshLedger ledger_;
     GazeWatch watch_;
     bool has_shown_ = false;          ///< flips were recorded in this attempt

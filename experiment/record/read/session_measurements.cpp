@@ -81,11 +81,12 @@ std::vector<FlipRecord> SessionRecord::flips(const TrialRecord& trial) const {
                         has_column(*database_, "flip", "uncertainty_ns") ? "uncertainty_ns" : "0"),
             [&](Query& row) { return read_flip(row, trial.trial.index); }, trial.id);
     });
+    const int frame_count = header_.animation_of(trial.trial.stimulus).frame_count;
     if (trial.place > 0)
         take_slot_flips(*database_, trial, rows);
     for (const FlipRecord& flip : rows) {
         const auto is_frame = [&](AnimationFrameIndex frame) {
-            return frame == no_frame || (frame.value >= 0 && frame.value < header_.animation.frame_count);
+            return frame == no_frame || (frame.value >= 0 && frame.value < frame_count);
         };
         if (flip.pose.value < 0 || static_cast<std::size_t>(flip.pose.value) >= header_.poses.angles.size() ||
             !is_frame(flip.shown) || !is_frame(flip.planned))
@@ -200,7 +201,7 @@ std::optional<TrialLedger> SessionRecord::ledger(const TrialRecord& trial) const
 }
 
 PageCycle planned_cycle(const SessionHeader& header, const TrialRecord& trial) {
-    PageCycle motion = make_page_cycle(header.animation, header.display.refresh_hz);
+    PageCycle motion = header.page_cycle_of(trial.trial.stimulus);
     for (const RecordedStep& step : trial.outcome.steps)
         if (step.kind == "show")
             return cut_to(std::move(motion), step.planned_refreshes,
