@@ -337,7 +337,7 @@ nlohmann::ordered_json steps_schema(const KeyRule&) {
     nlohmann::ordered_json kinds = nlohmann::ordered_json::array();
     for (const StepKindRow& row : step_kinds)
         kinds.push_back({{"required", {row.name}}});
-    return {{"type", "array"}, {"minItems", 1}, {"items", {{"type", "object"}, {"oneOf", kinds}}}};
+    return {{"type", "array"}, {"minItems", 1}, {"items", {{"type", "object"}, {"anyOf", kinds}}}};
 }
 
 constexpr ValueType steps_type{"a list of steps", read_steps, steps_schema, nullptr};
