@@ -154,7 +154,7 @@ TEST_CASE("a slot's column may name a stimulus by its ids, and an empty one leav
 
 TEST_CASE("a table says for each trial how long a step lasts, or leaves it as it is", "[unit]") {
     const std::string steps =
-        "trials = \"list.tsv\"\nsteps = [{ blank = 0.5 }, { show = \"left\", for_s = 1 }, "
+        "trials = \"list.tsv\"\nsteps = [{ blank = 0.5 }, { show = [\"left\", \"right\"], for_s = 1 }, "
         "{ blank = 1, id = \"gap\" }]\n";
     const Protocol protocol =
         sound(with(steps), "left;right;blank_s;gap_s\nvase/g1;vase/g2;0,25;2\nvase/g1;vase/g2;;3\n");
