@@ -87,10 +87,13 @@ void read_own_levels(const SQLite::Database& database, SessionHeader& header) {
         std::string factor = row.text();
         trial.levels.push_back({std::move(factor), row.text()});
     }
-    for (Query row(database, "SELECT trial, correct, is_catch FROM schedule_answer"); row.step();) {
+    for (Query row(database, "SELECT trial, correct, role FROM schedule_answer"); row.step();) {
         Trial& trial = trial_at(row.small());
         trial.correct = row.text();
-        trial.is_catch = row.small() == 1;
+        const auto role = std::ranges::find(names_of<TrialRole>, row.text());
+        if (role == names_of<TrialRole>.end())
+            throw RecordError("table schedule_answer: there is no such role of a trial");
+        trial.role = static_cast<TrialRole>(role - names_of<TrialRole>.begin());
     }
 }
 
@@ -108,9 +111,8 @@ void read_motions(const SQLite::Database& database, SessionHeader& header) {
             header.animations = std::move(motions);
     header.poses.of_motion.resize(header.animations.size());
     const bool has_motion = has_column(database, "animation_frame", "motion");
-    for (Query row(database, has_motion
-                                 ? "SELECT motion, pose FROM animation_frame ORDER BY motion, frame"
-                                 : "SELECT 0, pose FROM animation_frame ORDER BY frame");
+    for (Query row(database, has_motion ? "SELECT motion, pose FROM animation_frame ORDER BY motion, frame"
+                                        : "SELECT 0, pose FROM animation_frame ORDER BY frame");
          row.step();) {
         const auto motion = static_cast<std::size_t>(row.small());
         if (motion >= header.poses.of_motion.size())
@@ -125,7 +127,8 @@ void read_cameras(const SQLite::Database& database, SessionHeader& header) {
     for (Query row(database, "SELECT object, view, x, y, z, target_x, target_y, target_z, vertical_fov_deg "
                              "FROM camera ORDER BY object, view");
          row.step();) {
-        const auto object = static_cast<std::size_t>(row.small()), view = static_cast<std::size_t>(row.small());
+        const auto object = static_cast<std::size_t>(row.small()),
+                   view = static_cast<std::size_t>(row.small());
         constexpr std::size_t most_views = 255;
         if (object >= header.objects.size() || view > most_views)
             throw RecordError(fmt::format("table camera: there is no object {} in view {}", object, view));

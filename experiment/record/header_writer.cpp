@@ -33,9 +33,8 @@ void insert_design(SQLite::Database& database, const SessionHeader& header) {
         int level = 0;
         for (const TrialLevel& of : trial.levels)
             insert_values(database, "INTO schedule_level", trial.index, level++, of.factor, of.level);
-        if (!trial.correct.empty() || trial.is_catch)
-            insert_values(database, "INTO schedule_answer", trial.index, trial.correct,
-                          trial.is_catch ? 1 : 0);
+        if (!trial.correct.empty() || trial.role != TrialRole::trial)
+            insert_values(database, "INTO schedule_answer", trial.index, trial.correct, name_of(trial.role));
     }
     for (const std::string& block : header.blocks)
         insert_values(database, "INTO block", index++, block);
@@ -88,8 +87,8 @@ void insert_objects(SQLite::Database& database, const SessionHeader& header) {
         insert_values(database, "INTO stimulus", stimulus.stimulus.object, stimulus.stimulus.material,
                       stimulus.source, stimulus.frames_sha256);
     for (const RecordedMap& map : header.maps)
-        insert_values(database, "INTO map", map.viewed.object, map.viewed.view, map.pose.value, map.file, map.sha256,
-                      map.made == RecordedMap::Made::prepared ? "prepared" : "live",
+        insert_values(database, "INTO map", map.viewed.object, map.viewed.view, map.pose.value, map.file,
+                      map.sha256, map.made == RecordedMap::Made::prepared ? "prepared" : "live",
                       map.kind == RecordedMap::Kind::triangles ? "triangles" : "coordinates");
 }
 

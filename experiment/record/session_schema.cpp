@@ -157,7 +157,7 @@ CREATE TABLE IF NOT EXISTS schedule_level (
     PRIMARY KEY (trial, n)
 ) STRICT, WITHOUT ROWID;
 CREATE TABLE IF NOT EXISTS schedule_answer (
-    trial INTEGER PRIMARY KEY, correct TEXT NOT NULL, is_catch INTEGER NOT NULL CHECK (is_catch IN (0, 1))
+    trial INTEGER PRIMARY KEY, correct TEXT NOT NULL, role TEXT NOT NULL CHECK (role IN ('trial', 'catch', 'practice'))
 ) STRICT;
 CREATE TABLE IF NOT EXISTS presentation (
     trial_id INTEGER NOT NULL, place INTEGER NOT NULL, slot INTEGER NOT NULL, object INTEGER NOT NULL,
@@ -241,9 +241,8 @@ CREATE TABLE IF NOT EXISTS run_option (
 )sql";
 
 void make_session_tables(SQLite::Database& database) {
-    for (const std::string& sql :
-         {create_sql(session_table()), create_sql(characterisation_table()), create_sql(object_table()),
-          create_sql(animation_table())})
+    for (const std::string& sql : {create_sql(session_table()), create_sql(characterisation_table()),
+                                   create_sql(object_table()), create_sql(animation_table())})
         database.exec(sql);
     for (const char* const sql : {session_schema_sql, box_tables_sql, observer_tables_sql, ledger_tables_sql,
                                   slot_tables_sql, gaze_tables_sql, device_tables_sql, option_tables_sql})

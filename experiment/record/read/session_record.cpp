@@ -56,7 +56,7 @@ SessionRecord::SessionRecord(const std::filesystem::path& session)
                 trial.trial.block = of.block;
                 trial.trial.levels = of.levels;
                 trial.trial.correct = of.correct;
-                trial.trial.is_catch = of.is_catch;
+                trial.trial.role = of.role;
             }
         }
     });

@@ -266,7 +266,7 @@ class StudyReader {
 
     bool is_of(std::size_t session, const TrialRecord& trial, int object) const {
         const auto own = open_[session].objects.find(viewed(trial.trial.stimulus));
-        return trial.counts && own != open_[session].objects.end() && own->second == object;
+        return trial.gives_results() && own != open_[session].objects.end() && own->second == object;
     }
 
     /// From the first session that has it whole.
@@ -346,7 +346,7 @@ class StudyReader {
         for (std::size_t session = 0; session < open_.size(); ++session) {
             const std::vector<TrialRecord>& trials = open_[session].presentations;
             for (std::size_t t = 0; t < trials.size(); ++t) {
-                if (!trials[t].counts)
+                if (!trials[t].gives_results())
                     continue;
                 ReadTrial& read = read_[session].trials[t];
                 const int index = static_cast<int>(results().trials.size());
