@@ -15,6 +15,8 @@ struct TrialRow {
 
 /// `header` must outlive it, as the next.
 RowLayout<TrialRow> trials_layout(const SharedColumns& shared, const SessionHeader& header);
+/// With the same columns and the slot: of presentations (TrialRecord::seen_in).
+RowLayout<TrialRow> presentations_layout(const SharedColumns& shared, const SessionHeader& header);
 
 /// Of attempts that count.
 RowLayout<TrialRecord> responses_layout(const SharedColumns& shared, const SessionHeader& header);

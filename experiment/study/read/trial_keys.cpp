@@ -5,9 +5,17 @@
 
 namespace overt {
 
+namespace {
+
+RowLayout<TrialRow> columns_of(const SessionHeader& header) {
+    const SharedColumns shared(header);
+    return shared.has_slots ? presentations_layout(shared, header) : trials_layout(shared, header);
+}
+
+} // namespace
+
 TrialKeys::TrialKeys(const SessionRecord& record)
-    : messages_(trial_messages(record)),
-      layout_(trials_layout(SharedColumns(record.header()), record.header())) {
+    : messages_(trial_messages(record)), layout_(columns_of(record.header())) {
     if (!messages_.empty())
         layout_.add<TrialRow>(imported_trial_columns(messages_));
     of_session_.push_back({"observer", record.header().schedule.observer.label});
