@@ -403,7 +403,7 @@ class StudyReader {
         std::vector<std::vector<ScreenArea>>& areas = results().screen_areas;
         std::vector<std::string> files, faults;
         for (const OpenSession& open : open_) {
-            for (const TrialRecord& trial : open.record().trials()) {
+            for (const TrialRecord& trial : open.presentations) {
                 if (!trial.counts)
                     continue;
                 RecordedScreenAreas recorded = recorded_screen_areas(open.record(), trial);
