@@ -61,7 +61,9 @@ template <class Items> bool is_index(int index, const Items& items) {
 }
 
 bool is_stimulus(const Stimulus& stimulus, const SessionHeader& header) {
-    return is_index(stimulus.object, header.objects) && is_index(stimulus.material, header.materials);
+    return is_index(stimulus.object, header.objects) && is_index(stimulus.material, header.materials) &&
+           is_index(stimulus.motion, header.animations) && stimulus.light >= 0 &&
+           is_index(stimulus.view, header.objects[static_cast<std::size_t>(stimulus.object)].cameras);
 }
 
 bool is_label(const std::string& label) {

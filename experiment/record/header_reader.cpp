@@ -104,6 +104,15 @@ void read_dataset(const SQLite::Database& database, SessionHeader& header) {
         header.dataset.push_back({row.text(), row.text()});
 }
 
+Stimulus read_stimulus(Query& row) {
+    return {row.small(), row.small(), row.small(), row.small(), row.small()};
+}
+
+/// The columns of light, motion and view. Sessions of earlier formats have one of each.
+const char* further_indices(const SQLite::Database& database, const char* table) {
+    return has_column(database, table, "light") ? "light, motion, view" : "0, 0, 0";
+}
+
 /// Sessions of earlier formats have one motion, which the session's own row tells, and one view.
 void read_motions(const SQLite::Database& database, SessionHeader& header) {
     if (has_table(database, "animation"))
@@ -142,9 +151,12 @@ void read_cameras(const SQLite::Database& database, SessionHeader& header) {
 }
 
 void read_design(const SQLite::Database& database, SessionHeader& header) {
-    for (Query row(database, "SELECT trial, task, object, material FROM schedule ORDER BY trial");
+    for (Query row(database,
+                   fmt::format("SELECT trial, task, object, material, {} FROM schedule ORDER BY trial",
+                               further_indices(database, "schedule"))
+                       .c_str());
          row.step();)
-        header.schedule.trials.push_back({row.small(), row.small(), {row.small(), row.small()}});
+        header.schedule.trials.push_back({row.small(), row.small(), read_stimulus(row)});
     read_blocks(database, header);
     read_slots(database, header);
     read_own_levels(database, header);
@@ -167,8 +179,11 @@ void read_objects(const SQLite::Database& database, SessionHeader& header) {
         header.objects[object].part_names.push_back(row.text());
     }
     read_cameras(database, header);
-    for (Query row(database, "SELECT object, material, source, frames_sha256 FROM stimulus"); row.step();)
-        header.stimuli.push_back({{row.small(), row.small()}, row.text(), row.text()});
+    for (Query row(database, fmt::format("SELECT object, material, {}, source, frames_sha256 FROM stimulus",
+                                         further_indices(database, "stimulus"))
+                                 .c_str());
+         row.step();)
+        header.stimuli.push_back({read_stimulus(row), row.text(), row.text()});
     // In version 1 all maps were of triangles.
     Query version(database, "PRAGMA user_version");
     const bool has_kind = version.step() && version.small() >= 2;
