@@ -22,24 +22,27 @@ template <class Entries> int index_of(const Entries& entries, const std::string&
     return found == entries.end() ? -1 : static_cast<int>(found - entries.begin());
 }
 
-ObservedEffect planted(const PowerEffect& effect, const Protocol& protocol) {
+ObservedEffect planted(const PowerEffect& effect, const Protocol& protocol, const ObservedScene& scene) {
     ObservedEffect planted;
+    SimulatedEffect holds;
     const auto hold_in = [&](const std::string& column, const std::string& level) {
+        const auto list = std::ranges::find(stimulus_lists, column, &StimulusList::name);
         if (column == "task")
             planted.task = index_of(protocol.tasks, level);
-        for (std::size_t list = 0; list < stimulus_lists.size(); ++list) {
-            if (column != stimulus_lists[list].name)
-                continue;
-            planted.entries[list].clear();
-            for (const ListEntry* entry : entries_of(protocol, list))
-                planted.entries[list].push_back(entry->id == level);
-        }
+        else if (list != stimulus_lists.end())
+            holds.entries[static_cast<std::size_t>(list - stimulus_lists.begin())] = level;
+        else
+            holds.where.push_back({column, level, {}});
     };
     hold_in(effect.column, effect.level);
     for (const StudyKey& key : effect.within)
         hold_in(key.column, key.value);
-    if (effect.measure == PowerMeasure::head)
-        planted.head_odds = effect.size;
+    planted.entries = chosen_by(protocol, holds);
+    if (effect.measure == PowerMeasure::area) {
+        planted.area = area_in(scene, effect.area);
+        OVERT_EXPECTS(planted.area >= 0);
+        planted.odds = effect.size;
+    }
     if (effect.measure == PowerMeasure::cc)
         planted.spot_share = effect.size;
     return planted;
@@ -56,12 +59,12 @@ ObservedScene planned_scene(const Experiment& experiment, std::span<const PowerE
     }
     ObservedScene scene = make_observed_scene(protocol, experiment.objects, screen_geometry_of(protocol));
     scene.effects.clear();
-    scene.head_share_sd = settings.head_share_sd;
+    scene.share_sd = settings.head_share_sd;
     for (const PowerEffect& effect : effects) {
-        scene.effects.push_back(planted(effect, protocol));
+        scene.effects.push_back(planted(effect, protocol, scene));
         if (effect.column == "task")
-            scene.tasks[static_cast<std::size_t>(index_of(protocol.tasks, effect.level))].head_share =
-                scene.tasks[static_cast<std::size_t>(index_of(protocol.tasks, effect.against))].head_share;
+            scene.tasks[static_cast<std::size_t>(index_of(protocol.tasks, effect.level))].shares =
+                scene.tasks[static_cast<std::size_t>(index_of(protocol.tasks, effect.against))].shares;
     }
     return scene;
 }
@@ -86,7 +89,7 @@ GazeStudies::GazeStudies(const Experiment& experiment, std::vector<PowerEffect> 
         StudyObject object;
         object.id = shown.id;
         object.part_names = shown.mesh.part_names;
-        object.head = HeadParts(shown.mesh.part_names);
+        object.areas = Areas(shown.mesh.part_names);
         object.camera = scene.view.camera;
         object.axis_point = scene.bounds.centre();
         object.screen = scene_.screen;
@@ -124,8 +127,8 @@ ObservedScene GazeStudies::scene_of(std::uint64_t observer_seed) const {
             continue;
         const double own = effects_[i].sd * RandomStream(observer_seed, "effect on an observer", i).normal();
         ObservedEffect& effect = scene.effects[i];
-        if (effects_[i].measure == PowerMeasure::head)
-            effect.head_odds *= std::exp(own);
+        if (effects_[i].measure == PowerMeasure::area)
+            effect.odds *= std::exp(own);
         else if (effects_[i].measure == PowerMeasure::wss)
             effect.spread += own * spread_of_log_[i];
         else

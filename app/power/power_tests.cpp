@@ -95,8 +95,8 @@ std::vector<StudyOutcome> tested(const GazeStudies& studies, const StudyResults&
     for (const std::vector<LevelComparison>& cell : cells) {
         for (const LevelComparison& one : cell) {
             const auto& scale = studies.surfaces()[static_cast<std::size_t>(one.object)].scale;
-            values.push_back({one.observer, effect.measure == PowerMeasure::head
-                                                ? head_difference(one, results)
+            values.push_back({one.observer, effect.measure == PowerMeasure::area
+                                                ? area_difference(one, results, effect.area)
                                                 : std::optional(wss_difference_deg2(one, *scale))});
         }
     }

@@ -14,10 +14,10 @@
 #include "experiment/maps/coordinate_maps.h"
 #include "experiment/record/no_stimulus.h"
 #include "experiment/record/preview_file.h"
+#include "experiment/study/read/area_evidence.h"
 #include "experiment/study/read/exposure.h"
 #include "experiment/study/read/gaze_quality.h"
 #include "experiment/study/read/open_sessions.h"
-#include "experiment/study/read/part_evidence.h"
 #include "experiment/study/read/trial_screen_areas.h"
 
 namespace overt {
@@ -228,7 +228,7 @@ class StudyReader {
     void add_evidence(int index) {
         const StudyObject& object = results().objects[static_cast<std::size_t>(index)];
         const ObjectSurface& surface = study_.surfaces[static_cast<std::size_t>(index)];
-        if (!object.mesh || !object.head || !surface.scale)
+        if (!object.mesh || object.areas.empty() || !surface.scale)
             return;
         std::vector<StudyFixation*> fixations;
         std::vector<MeasuredPlace> places;
@@ -260,9 +260,9 @@ class StudyReader {
         if (fixations.empty())
             return;
         const SceneView scene{{object.camera, object.screen.image_px}, object.mesh->bounds()};
-        const auto evidence = part_evidence(*object.mesh, object.head, scene, header->poses.angles, places);
+        auto evidence = area_evidence(*object.mesh, object.areas, scene, header->poses.angles, places);
         for (std::size_t i = 0; i < fixations.size(); ++i)
-            fixations[i]->evidence = evidence[i];
+            fixations[i]->evidence = std::move(evidence[i]);
     }
 
     bool is_of(std::size_t session, const TrialRecord& trial, int object) const {
@@ -333,7 +333,7 @@ class StudyReader {
             const double px_mm = screen.screen_mm.y / screen.screen_px.y / surface.scale->shown_size;
             for (ExposureRow& row :
                  exposure_rows({exposure, *object.mesh, surface.scale->mm_per_unit, px_mm * px_mm}, index,
-                               object.part_names))
+                               object.areas))
                 results().exposures.push_back(std::move(row));
         }
         object.seconds_visible = std::move(exposure.seconds_visible);
