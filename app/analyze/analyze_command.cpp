@@ -172,6 +172,7 @@ int run_shard(const AnalyzeOptions& options) {
 }
 
 int run_analyze(AnalyzeOptions options) {
+    options.study.is_by_asked = options.by != fmt::format("{}", fmt::join(StudyOptions().by, ","));
     options.study.by = listed(options.by);
     for (std::string& column : options.study.by)
         column = todays_factor(std::move(column));

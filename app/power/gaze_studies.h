@@ -70,6 +70,7 @@ class GazeStudies {
                                              Degrees angle) const;
 
     const Experiment& experiment_;
+    Factors factors_;
     std::vector<PowerEffect> effects_;
     GazeStudySettings settings_;
     ObserverSettings observer_;

@@ -83,8 +83,8 @@ ValueResult read_value(const TomlValue& value, const KeyRule& rule, Degrees& out
 }
 
 /// A point stands within, as in a number.
-bool has_points_within(const std::string& text) {
-    return text.front() != '.' && text.back() != '.' && text.find("..") == std::string::npos;
+bool has_points_within(std::string_view text) {
+    return text.front() != '.' && text.back() != '.' && text.find("..") == std::string_view::npos;
 }
 
 bool is_identifier_character(char character) {

@@ -420,9 +420,6 @@ Factors factors_of(const Protocol& protocol);
 /// The levels that its trials have of their own, by its tables and rules (own_factors.cpp).
 std::vector<NamedWord> own_levels_of(const Protocol& protocol);
 
-/// "muse, gold": the ids of a stimulus' entries, of lists with several, and always of object and material.
-std::string stimulus_in_words(const Protocol& protocol, const Stimulus& stimulus);
-
 /// For each list: whether a simulated effect holds for each of its entries.
 std::array<std::vector<bool>, stimulus_lists.size()> chosen_by(const Protocol& protocol,
                                                                const SimulatedEffect& effect);

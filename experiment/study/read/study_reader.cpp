@@ -95,12 +95,11 @@ class StudyReader {
             }
         };
         const auto id_of = [](const auto& item) { return item.id; };
-        take_levels("task", header.tasks, id_of);
-        take_levels("object", header.objects, id_of);
-        take_levels("material", header.materials, id_of);
+        const Factors factors = factors_of(header);
+        for (const Factor& factor : factors.all())
+            take_levels(factor.name, factor.levels, [](const FactorLevel& level) { return level.name; });
         if (header.slots.size() > 1)
             take_levels("slot", header.slots, id_of);
-        take_levels("block", header.blocks, [](const std::string& block) { return block; });
         for (int object = 0; object < static_cast<int>(header.objects.size()); ++object) {
             const std::size_t views = header.objects[static_cast<std::size_t>(object)].cameras.size();
             for (int view = 0; view < static_cast<int>(views); ++view)
