@@ -150,9 +150,10 @@ void read_design(const SQLite::Database& database, SessionHeader& header) {
     for (Query row(database, fmt::format("SELECT trial, task, {} FROM schedule ORDER BY trial",
                                          stimulus_columns_of(database, "schedule"))
                                  .c_str());
-         row.step();)
-        row.read(header.schedule.trials.emplace_back().index, header.schedule.trials.back().task,
-                 header.schedule.trials.back().stimulus);
+         row.step();) {
+        Trial& trial = header.schedule.trials.emplace_back();
+        row.read(trial.index, trial.task, trial.stimulus);
+    }
     read_blocks(database, header);
     read_slots(database, header);
     read_own_levels(database, header);
@@ -176,9 +177,10 @@ void read_objects(const SQLite::Database& database, SessionHeader& header) {
     for (Query row(database, fmt::format("SELECT {}, source, frames_sha256 FROM stimulus",
                                          stimulus_columns_of(database, "stimulus"))
                                  .c_str());
-         row.step();)
-        row.read(header.stimuli.emplace_back().stimulus, header.stimuli.back().source,
-                 header.stimuli.back().frames_sha256);
+         row.step();) {
+        RecordedStimulus& stimulus = header.stimuli.emplace_back();
+        row.read(stimulus.stimulus, stimulus.source, stimulus.frames_sha256);
+    }
     // In version 1 all maps were of triangles.
     Query version(database, "PRAGMA user_version");
     const bool has_kind = version.step() && version.small() >= 2;
@@ -209,8 +211,10 @@ void read_lists(const SQLite::Database& database, SessionHeader& header) {
                 if (has_table(database, name.c_str()))
                     for (Query row(database,
                                    fmt::format("SELECT id, title FROM {0} ORDER BY {0}", name).c_str());
-                         row.step();)
-                        row.read(entries.emplace_back().id, entries.back().title);
+                         row.step();) {
+                        ListEntry& entry = entries.emplace_back();
+                        row.read(entry.id, entry.title);
+                    }
             if (!has_table(database, "entry_column"))
                 return;
             for (Query row(database, fmt::format("SELECT entry, name, text, number FROM entry_column WHERE "

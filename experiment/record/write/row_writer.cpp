@@ -13,6 +13,7 @@
 #include "experiment/record/session_file.h"
 #include "experiment/record/session_schema.h"
 #include "experiment/record/sql.h"
+#include "experiment/record/stimulus_columns.h"
 
 namespace overt {
 namespace {
