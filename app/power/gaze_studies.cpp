@@ -77,8 +77,8 @@ GazeStudySettings gaze_study_settings(const Protocol& protocol) {
 
 GazeStudies::GazeStudies(const Experiment& experiment, std::vector<PowerEffect> effects,
                          const GazeStudySettings& settings)
-    : experiment_(experiment), effects_(std::move(effects)), settings_(settings),
-      scene_(planned_scene(experiment, effects_, settings)), turns_(turns_of(scene_)),
+    : experiment_(experiment), factors_(factors_of(experiment.protocol)), effects_(std::move(effects)),
+      settings_(settings), scene_(planned_scene(experiment, effects_, settings)), turns_(turns_of(scene_)),
       spread_of_log_(effects_.size(), 0.0) {
     const Protocol& protocol = experiment.protocol;
     for (const ViewedObject& viewed : all_viewed_objects(protocol)) {
@@ -103,15 +103,9 @@ GazeStudies::GazeStudies(const Experiment& experiment, std::vector<PowerEffect> 
         frame_.objects.push_back(std::move(object));
         surfaces_.push_back(std::move(surface));
     }
-    const auto ids_of = [](const auto& entries) {
-        std::vector<std::string> ids;
-        for (const auto& entry : entries)
-            ids.push_back(entry.id);
-        return ids;
-    };
-    levels_ = {{"task", ids_of(protocol.tasks)},
-               {"object", ids_of(protocol.objects)},
-               {"material", ids_of(protocol.materials)}};
+    for (const Factor& factor : factors_.all())
+        for (const FactorLevel& level : factor.levels)
+            levels_[factor.name].push_back(level.name);
 }
 
 void GazeStudies::plant_spread(std::size_t effect, double spread, double of_log) {
@@ -170,10 +164,12 @@ void GazeStudies::add_trial(const Trial& trial, std::uint64_t seed, const Observ
     shown.object = static_cast<int>(object);
     shown.number = trial.index + 1;
     shown.presentation_s = protocol.motion_of(trial.stimulus).duration_s;
-    shown.keys = {{"observer", results.sessions.back().observer},
-                  {"task", protocol.tasks[static_cast<std::size_t>(trial.task)].id},
-                  {"object", protocol.object_of(trial.stimulus).id},
-                  {"material", protocol.materials[static_cast<std::size_t>(trial.stimulus.material)].id}};
+    shown.keys = {{"observer", results.sessions.back().observer}};
+    for (const Factor& factor : factors_.all())
+        if (!factor.levels.empty())
+            shown.keys.push_back(
+                {factor.name,
+                 factor.levels[static_cast<std::size_t>(factors_.level_of(factor, trial))].name});
     shown.first_fixation = results.fixations.size();
 
     RandomStream random(seed, "calibration offset", static_cast<std::uint64_t>(trial.index));

@@ -21,19 +21,19 @@ namespace overt {
 namespace {
 
 std::string analysis_of(const PowerEffect& effect) {
-    const bool is_material = effect.column == "material";
+    const bool is_of_stimuli = effect.column != "task";
     const std::string place = effect.measure == PowerMeasure::area
                                   ? fmt::format("area_pairs, area {}", effect.area)
                                   : std::string("table1_pairs");
     const char* const column = effect.measure == PowerMeasure::area  ? "p"
                                : effect.measure == PowerMeasure::wss ? "wss_p"
                                                                      : "maps_p";
-    std::string row = is_material ? "the row over all tasks" : "the row";
+    std::string row = is_of_stimuli ? "the row over all tasks" : "the row";
     for (const StudyKey& key : effect.within)
         row = fmt::format("the row of {} {}", key.column, key.value);
     return fmt::format("overt analyze SESSION… --by {} --compare {}: {} of {} against {} in {}, {}",
-                       is_material ? "task,object,material" : "task,object", effect.column, row, effect.level,
-                       effect.against, place, column);
+                       is_of_stimuli ? "task,object," + effect.column : std::string("task,object"),
+                       effect.column, row, effect.level, effect.against, place, column);
 }
 
 std::string planted_words(const PowerEffect& effect) {
@@ -54,10 +54,10 @@ std::vector<StudyParameter> parameters_of(const Protocol& protocol, const PowerS
     const auto text = [](auto number) { return fmt::format("{}", number); };
     std::vector<std::string> shares;
     for (const Task& task : protocol.tasks) {
-        std::string text = task.id;
+        std::string of_task = task.id;
         for (const auto& [area, share] : simulated_shares(task))
-            text += share > 0.0 || area == head_area ? fmt::format(" {} {}", area, share) : std::string();
-        shares.push_back(std::move(text));
+            of_task += share > 0.0 || area == head_area ? fmt::format(" {} {}", area, share) : std::string();
+        shares.push_back(std::move(of_task));
     }
     return {
         {"observers", fmt::format("{}", fmt::join(settings.observers, ",")), "", "Of a study."},
@@ -173,7 +173,7 @@ void add_remarks(PowerResults& results, const Protocol& protocol, const PowerSet
                 "{} of {} studies with {} have nothing to test for {}: no observer sees an object in both "
                 "levels{}.",
                 most.without_test, settings.studies, counted(most.observers, "observer"), curve.effect.text(),
-                curve.effect.column == "material" ? " under one task" : ""));
+                curve.effect.column != "task" ? " under one task" : ""));
     }
     if (const int fewest = fewest_testable_observers(settings.alpha); settings.observers.front() < fewest)
         results.remarks.push_back(fmt::format(

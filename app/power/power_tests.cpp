@@ -56,7 +56,7 @@ std::vector<PairedMaps> paired_maps(const std::vector<std::vector<LevelCompariso
 std::vector<std::vector<LevelComparison>>
 compared_cells(const GazeStudies& studies, const StudyResults& results, const PowerEffect& effect) {
     std::vector<std::string> within;
-    if (effect.column == "material")
+    if (effect.column != "task")
         within.emplace_back("task");
     std::vector<std::vector<LevelComparison>> cells;
     for (const StudyGroup& group : make_groups(results, within, studies.levels())) {

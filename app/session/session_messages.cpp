@@ -8,6 +8,7 @@
 #include "experiment/base/counted.h"
 #include "experiment/base/error.h"
 #include "experiment/base/whole_file.h"
+#include "experiment/protocol/all_stimuli.h"
 #include "experiment/record/read/session_faults.h"
 
 namespace overt {

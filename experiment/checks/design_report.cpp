@@ -114,7 +114,8 @@ MemoryNeed memory_need(const Protocol& protocol) {
     need.pages_per_stimulus_bytes = most_pages(protocol) * page_bytes(protocol);
     need.next_fits = 2.0 * need.pages_per_stimulus_bytes <= 1e6 * protocol.display.frame_store_mb;
     const ViewSettings& view = protocol.views.front();
-    need.maps_per_object_bytes = bytes_per_map_px * poses_of(protocol).count() * view.width_px * view.height_px;
+    need.maps_per_object_bytes =
+        bytes_per_map_px * poses_of(protocol).count() * view.width_px * view.height_px;
     return need;
 }
 
@@ -162,8 +163,7 @@ void add_observers(DesignReport& report, const Protocol& protocol) {
 
 /// The observer who sits longest, among those who differ.
 SessionLength longest_session(const Protocol& protocol, ScheduleMaker& maker, std::uint64_t seed,
-                              std::span<const AnimationFacts> motions,
-                              const DesignAssumptions& assumptions) {
+                              std::span<const AnimationFacts> motions, const DesignAssumptions& assumptions) {
     SessionLength longest;
     const std::size_t different = std::max<std::size_t>(1, protocol.groups.size());
     std::vector<Observer> observers = planned_observers(protocol);
@@ -202,6 +202,7 @@ DesignReport make_design_report(const Protocol& protocol, const std::vector<Obse
     add_observers(report, protocol);
     report.practice_trials = static_cast<int>(protocol.practice.size());
     report.observers = protocol.schedule.observers;
+    report.slots = ids_of(protocol.slots);
     report.display = protocol.display;
     report.view = protocol.views.front();
     for (const MotionSettings& motion : protocol.motions)
@@ -213,6 +214,10 @@ DesignReport make_design_report(const Protocol& protocol, const std::vector<Obse
     const std::uint64_t seed = takes_seed ? example_seed : protocol.schedule.seed.value_or(example_seed);
     ScheduleMaker maker(protocol);
     report.session = longest_session(protocol, maker, seed, report.motions, assumptions);
+    const SessionLength& length = report.session;
+    report.trials = design_in_words(
+        protocol, (length.questions_s + length.drift_checks_s + length.animations_s + length.answers_s) /
+                      std::max(1, report.trials_per_observer));
     report.memory = memory_need(protocol);
     const Presentations presentations = count_presentations(protocol, maker, seed);
     report.incidence = presentations.cells;

@@ -9,11 +9,10 @@
 
 #include <fmt/format.h>
 
+#include "experiment/protocol/all_stimuli.h"
 #include "experiment/protocol/entry_ids.h"
 #include "experiment/protocol/protocol_keys.h"
-#include "experiment/protocol/all_stimuli.h"
 #include "experiment/scene/areas.h"
-#include "experiment/spectra/metal_table.h"
 #include "experiment/stimulus/object.h"
 
 namespace overt {
@@ -309,8 +308,8 @@ void check_choice_of_frames(ProtocolExamination& examination, std::size_t index,
         is_known(examination, path, fmt::format("[[{}]]", list), id, ids_of<std::string_view>(entries));
     } else if (entries.size() > 1) {
         examination.error({path, entry_path("frames", index)},
-                          fmt::format("the frames do not say of which [[{}]] they are, and there are {}", list,
-                                      entries.size()),
+                          fmt::format("the frames do not say of which [[{}]] they are, and there are {}",
+                                      list, entries.size()),
                           fmt::format("such as {} = \"{}\"", list, entries.front().id));
     }
 }

@@ -67,6 +67,9 @@ std::vector<BlockPlan> block_plans(const Protocol& protocol, int observer_number
 /// Puts the trial's stimulus into each of its task's slots: what a task without a rule of its own shows.
 void fill_slots(const Protocol& protocol, Trial& trial);
 
+/// More than anyone sits through, and a bound for all that is reckoned per trial.
+inline constexpr int most_trials_of_observer = 2000;
+
 /// How many trials a block has: its trials with their repetitions or weights, or its draws.
 int length_of(const Protocol& protocol, const BlockPlan& plan);
 

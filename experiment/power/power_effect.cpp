@@ -50,19 +50,31 @@ template <class Number> std::optional<Number> number_in(const std::string& text)
     return read.ec == std::errc() && read.ptr == end ? std::optional(number) : std::nullopt;
 }
 
+/// Names of levels; none where the protocol has no such factor.
 std::vector<std::string> levels_of_column(const Protocol& protocol, const std::string& column) {
-    std::vector<std::string> ids;
-    const auto take = [&](const auto& entries) {
-        for (const auto& entry : entries)
-            ids.push_back(entry.id);
-    };
-    if (column == "task")
-        take(protocol.tasks);
-    else if (column == "material")
-        take(protocol.materials);
-    else
-        take(protocol.objects);
-    return ids;
+    std::vector<std::string> names;
+    const Factors factors = factors_of(protocol);
+    if (const Factor* factor = factors.find(column))
+        for (const FactorLevel& level : factor->levels)
+            names.push_back(level.name);
+    return names;
+}
+
+/// Factors that can be named: all with levels, but for the block, in which trials are no other.
+std::vector<std::string> factors_of_effects(const Protocol& protocol) {
+    std::vector<std::string> names;
+    const Factors factors = factors_of(protocol);
+    for (const Factor& factor : factors.all())
+        if (!factor.levels.empty() && factor.source != Factor::Source::block)
+            names.push_back(factor.name);
+    return names;
+}
+
+/// Surfaces of two objects are not compared: their factors say only in which trials an effect is.
+bool is_of_objects(const Protocol& protocol, const std::string& column) {
+    const Factors factors = factors_of(protocol);
+    const Factor* factor = factors.find(column);
+    return factor && factor->is_of_list(0);
 }
 
 /// Areas of the objects of which some task says how often they are looked at.
@@ -147,18 +159,18 @@ class EffectReader {
             effect_.sd = number(key, value, 0.0, most_sd);
         } else if (key == "against") {
             effect_.against = value;
-        } else if (key == "task" || key == "material" || key == "object") {
+        } else if (const auto known = factors_of_effects(protocol_);
+                   std::ranges::find(known, key) != known.end()) {
             check_level(key, value);
-            if (effect_.column.empty() && key != "object") {
+            if (effect_.column.empty() && !is_of_objects(protocol_, key)) {
                 effect_.column = key;
                 effect_.level = value;
             } else {
                 effect_.within.push_back({key, value});
             }
         } else {
-            fail(fmt::format("\"{}\" is no key of {}, whose keys are task, material, object, {}, against "
-                             "and sd",
-                             key, measure.name, measure.size_key));
+            fail(fmt::format("\"{}\" is no key of {}, whose keys are {}, {}, against and sd", key,
+                             measure.name, fmt::join(known, ", "), measure.size_key));
         }
     }
 

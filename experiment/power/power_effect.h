@@ -22,7 +22,7 @@ enum class PowerMeasure : std::uint8_t {
 struct PowerEffect {
     PowerMeasure measure = PowerMeasure::area;
     std::string area;             ///< of an area's share
-    std::string column;           ///< "material" or "task"
+    std::string column;           ///< a factor: "material", "task", "roughness" …
     std::string level, against;   ///< ids of the protocol
     std::vector<StudyKey> within; ///< only in trials of these; empty: all
     /// area: odds of the area in `level` as a multiple of those in `against`. wss: WSS as a multiple. cc:

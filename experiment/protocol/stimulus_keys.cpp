@@ -107,7 +107,8 @@ std::vector<Key> motion() {
             {"amplitude_deg", member_of<M>(&A::amplitude), range(0, 180, "deg"),
              "Largest turn to each side of `angle_deg`; with `still` it has no effect."},
             {"angle_deg", member_of<M>(&A::angle), range(-360, 360, "deg"),
-             "Where a still object stands, or the middle of its turn: counter-clockwise from the front view, seen "
+             "Where a still object stands, or the middle of its turn: counter-clockwise from the front view, "
+             "seen "
              "from above."},
             {"light_amplitude_deg", member_of<M>(&A::light_amplitude), range(0, 180, "deg"),
              "Largest turn of the surroundings to each side of where `[light]` has them, in step with the "

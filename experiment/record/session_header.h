@@ -211,6 +211,9 @@ static_assert(std::tuple_size_v<decltype(recorded_lists)> == stimulus_lists.size
 /// The entries of a list, at least one; of objects what all lists have. `list`: index into `stimulus_lists`.
 std::vector<ListEntry> entries_of(const SessionHeader& header, std::size_t list);
 
+/// Puts the entries of a list into the header; of objects, which are described there already, the columns.
+void record_entries(SessionHeader& header, std::size_t list, const std::vector<const ListEntry*>& entries);
+
 /// How many entries each list has.
 std::array<std::size_t, stimulus_lists.size()> entry_counts(const SessionHeader& header);
 

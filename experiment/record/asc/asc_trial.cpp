@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "experiment/base/utf8_text.h"
+#include "experiment/factors.h"
 #include "experiment/record/asc/asc_survey.h"
 #include "experiment/record/asc/asc_words.h"
 #include "experiment/record/preview_file.h"
@@ -24,6 +25,12 @@ std::vector<std::pair<std::string, std::string>> variables_of(const SessionHeade
     std::vector<std::pair<std::string, std::string>> variables{{"task", id(header.tasks, trial.task)}};
     for (const StimulusColumn& column : stimulus_columns_of(header))
         variables.emplace_back(column.what.name, column.level_of(trial.stimulus).name);
+    for (const TrialLevel& of : trial.levels)
+        variables.emplace_back(of.factor, of.level);
+    if (!trial.correct.empty())
+        variables.emplace_back(correct_answer, trial.correct);
+    if (trial.role != TrialRole::trial)
+        variables.emplace_back("role", name_of(trial.role));
     return variables;
 }
 
@@ -249,6 +256,10 @@ void AscTrial::write_down(const SessionRecord& record, const TrialRecord& trial,
     if (clock_map)
         for (const auto& [word, screen] : screens_of(trial))
             add(at(screen), std::string(word));
+    if (clock_map)
+        for (const RecordedStep* const step : further_steps(trial))
+            add(at(*step->begin),
+                fmt::format("STEP {}{}{}", step->kind, step->id.empty() ? "" : " ", step->id));
     if (span) {
         if (const std::string answer = answer_text(trial); !answer.empty())
             add(span->second, answer);

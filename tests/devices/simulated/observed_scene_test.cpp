@@ -69,7 +69,7 @@ TEST_CASE("a row's light comes after the vertical blank by the latency and its s
     CHECK(scene.light_delay(-5.0) == 2ms);
     CHECK(to_seconds(scene.light_delay(540.0)) == Approx(0.002 + 0.5 / 120.0));
     CHECK(scene.light_delay(2000.0) == scene.light_delay(1080.0));
-    CHECK(to_seconds(scene.frame_period()) == Approx(1.0 / 30.0));
+    CHECK(to_seconds(scene.frame_period(0)) == Approx(1.0 / 30.0));
     scene.refresh_hz = 119.88; // four refreshes to a frame all the same
-    CHECK(to_seconds(scene.frame_period()) == Approx(4.0 / 119.88));
+    CHECK(to_seconds(scene.frame_period(0)) == Approx(4.0 / 119.88));
 }

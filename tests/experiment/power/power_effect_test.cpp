@@ -62,6 +62,21 @@ TEST_CASE("an effect is read with its measure, its levels and its size", "[unit]
         CHECK(effect_of(effect_of(text).text()).text() == effect_of(text).text());
 }
 
+TEST_CASE("an effect is in a level of any factor of the protocol", "[unit]") {
+    Protocol protocol = small_plan();
+    protocol.materials[1].columns = {{"gloss", "0.2", 0.2}};
+    protocol.lights.resize(2);
+    protocol.lights[0].id = "sky";
+    protocol.lights[1].id = "hall";
+    const PowerEffect light = power_effects({"head:light=hall:odds=2:gloss=0.2"}, protocol, areas).at(0);
+    CHECK(light.column == "light");
+    CHECK(light.against == "sky");
+    CHECK(light.within == std::vector<StudyKey>{{"gloss", "0.2"}});
+    CHECK(power_effects({"wss:gloss=0.2:ratio=2"}, protocol, areas).at(0).against == "n/a");
+    CHECK_THROWS_WITH(power_effects({"head:motion=motion:odds=2"}, protocol, areas),
+                      Contains("the protocol has only one motion"));
+}
+
 TEST_CASE("no effect is tested between the first materials and the first tasks", "[unit]") {
     const std::vector<PowerEffect> none = power_effects({"none"}, small_plan(), areas);
     REQUIRE(none.size() == 4);
