@@ -107,7 +107,8 @@ MemoryNeed memory_need(const Protocol& protocol, int poses) {
     constexpr double bytes_per_map_px = 4.0; // a triangle's number
     MemoryNeed need;
     need.pages_per_stimulus_bytes = most_pages(protocol) * page_bytes(protocol);
-    need.next_fits = 2.0 * need.pages_per_stimulus_bytes <= 1e6 * protocol.display.frame_store_mb;
+    const int at_once = protocol.slots.size() > 1 ? most_stimuli_at_once(protocol) : 1;
+    need.next_fits = 2.0 * at_once * need.pages_per_stimulus_bytes <= 1e6 * protocol.display.frame_store_mb;
     need.maps_per_object_bytes = bytes_per_map_px * poses * protocol.view.width_px * protocol.view.height_px;
     return need;
 }

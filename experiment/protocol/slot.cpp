@@ -87,6 +87,14 @@ ScreenGeometry slot_geometry(const Protocol& protocol, const Slot& slot) {
     return geometry;
 }
 
+std::vector<glm::ivec2> slot_places(const Protocol& protocol) {
+    std::vector<glm::ivec2> places;
+    for (const Slot& slot : protocol.slots)
+        if (slot.entry >= 0)
+            places.push_back(slot_geometry(protocol, slot).image_origin_px);
+    return places;
+}
+
 void fit_view_to_slots(Protocol& protocol) {
     ViewSettings& view = protocol.view;
     const glm::ivec2 size = slot_geometry(protocol, protocol.slots.front()).image_px;
