@@ -73,7 +73,7 @@ class GazePath {
 
 std::vector<BenchRecording> bench_recordings(const Protocol& protocol, const ScreenGeometry& screen,
                                              const CoordinateMaps& maps, GazeKind kind, int presentations) {
-    const PageCycle plan = make_page_cycle(protocol.animation, protocol.display.refresh_hz);
+    const PageCycle plan = make_page_cycle(protocol.motions.front(), protocol.display.refresh_hz);
     const ScanOut scan_out{from_seconds(0.0015), protocol.display.refresh_hz,
                            static_cast<double>(screen.screen_px.y)};
     // The tracker's clock reads 7 s more and goes 20 millionths faster.

@@ -135,7 +135,7 @@ void measure_maps(BenchFigures& figures, const Object& object, const PoseTable& 
 
 BenchFigures bench_lut(const BenchOptions& options) {
     const BenchScene scene = bench_scene(options);
-    const PoseTable poses = distinct_poses(scene.protocol.animation);
+    const PoseTable poses = distinct_poses(scene.protocol.motions.front());
     BenchFigures figures;
     for (const Object& object : scene.objects) {
         DrawnMaps drawn;

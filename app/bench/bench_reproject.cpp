@@ -224,7 +224,7 @@ void Reprojection::measure_cone() {
 
 BenchFigures bench_reproject(const BenchOptions& options) {
     const BenchScene scene = bench_scene(options);
-    const PoseTable poses = distinct_poses(scene.protocol.animation);
+    const PoseTable poses = distinct_poses(scene.protocol.motions.front());
     BenchFigures figures;
     const auto context = make_headless_context(options.context);
     for (const Object& object : scene.objects) {

@@ -133,7 +133,7 @@ std::vector<ForecastLine> forecast_of(const FrameCost& cost, const Protocol& pro
     lines.push_back({"a page", fmt::format("{:.1f} ms to pack and load", cost.page_ms)});
     if (cost.worst_map_ms) {
         // As the rig decides: live where a graphics processor draws.
-        const double frame_ms = 1e3 / protocol.animation.frame_rate_hz;
+        const double frame_ms = 1e3 / protocol.motions.front().frame_rate_hz;
         lines.push_back(
             {"hidden map",
              fmt::format("{:.1f} ms of the {:.1f} ms of a frame; {}", *cost.worst_map_ms, frame_ms,

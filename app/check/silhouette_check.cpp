@@ -83,7 +83,7 @@ struct MatchedFrames {
 MatchedFrames match_sequence(const Experiment& experiment, const FrameSequenceSettings& sequence, int object,
                              const StimulusLibrary& library) {
     const Protocol& protocol = experiment.protocol;
-    const int count = protocol.animation.frame_count;
+    const int count = protocol.motions.front().frame_count;
     const bool has_mesh = experiment.objects[static_cast<std::size_t>(object)].has_mesh();
     MatchedFrames matched;
     matched.result.stimulus = sequence.object + "/" + sequence.material;
@@ -98,7 +98,7 @@ MatchedFrames match_sequence(const Experiment& experiment, const FrameSequenceSe
         }
         matches[static_cast<std::size_t>(frame)] = match_silhouettes(
             *pixels, silhouette_of_map(library, object, has_mesh, library.cache().poses().pose_of({frame})),
-            protocol.view.width_px);
+            protocol.views.front().width_px);
     });
     std::size_t both = 0, either = 0;
     for (int frame = 0; frame < count; ++frame) {

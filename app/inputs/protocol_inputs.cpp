@@ -6,7 +6,7 @@
 #include "app/inputs/protocol_file.h"
 #include "experiment/base/error.h"
 #include "experiment/checks/checked_protocol.h"
-#include "experiment/scene/metal_table.h"
+#include "experiment/spectra/metal_table.h"
 #include "experiment/stimulus/object_size.h"
 #include "render/image/light_probe.h"
 #include "render/image/linear_image.h"
@@ -36,13 +36,13 @@ void examine(const Protocol& protocol, Place place, Diagnostics& diagnostics, co
 
 void examine_camera(const Protocol& protocol, const Object& object, Diagnostics& diagnostics) {
     // A camera that overt places itself has the object in its picture.
-    if (!protocol.view.camera_position)
+    if (!protocol.views.front().camera_position)
         return;
-    for (const Degrees angle : distinct_poses(protocol.animation).angles) {
+    for (const Degrees angle : distinct_poses(protocol.motions.front()).angles) {
         if (is_in_picture(object, angle))
             continue;
         diagnostics.error(
-            protocol.file.string(), protocol.places.of("view.camera_position"),
+            protocol.file.string(), protocol.places.of("view[0].camera_position"),
             fmt::format("object \"{}\" is nowhere in the picture at {:.3g} degrees", object.id, angle.value),
             "the camera looks at view.camera_target; lengths are in the unit of the mesh");
         return;
@@ -91,13 +91,16 @@ void examine_given_maps(const Protocol& protocol, Diagnostics& diagnostics) {
 }
 
 void examine_surroundings(const Protocol& protocol, Diagnostics& diagnostics) {
-    const Place probe = protocol.places.of("light.probe");
-    if (protocol.light.is_file()) {
+    for (std::size_t i = 0; i < protocol.lights.size(); ++i) {
+        const LightSettings& light = protocol.lights[i];
+        if (!light.is_file())
+            continue;
+        const Place probe = protocol.places.of(fmt::format("light[{}].probe", i));
         examine(protocol, probe, diagnostics, [&] {
-            if (const int negative = load_light_probe(protocol.light).negative_texels; negative > 0) {
+            if (const int negative = load_light_probe(light).negative_texels; negative > 0) {
                 diagnostics.warning(protocol.file.string(), probe,
                                     fmt::format("{} texels of {} hold negative light, which counts as none",
-                                                negative, protocol.light.probe));
+                                                negative, light.probe));
             }
         });
     }
@@ -114,8 +117,8 @@ void examine_frames(const Protocol& protocol, Diagnostics& diagnostics) {
         const FrameSequenceSettings& sequence = protocol.frames[static_cast<std::size_t>(i)];
         bar.update("reading ready-made frames", i, count);
         examine(protocol, protocol.places.of(fmt::format("frames[{}].files", i)), diagnostics, [&] {
-            check_frame_pixels(sequence, protocol.animation.frame_count,
-                               {protocol.view.width_px, protocol.view.height_px});
+            check_frame_pixels(sequence, protocol.motions.front().frame_count,
+                               {protocol.views.front().width_px, protocol.views.front().height_px});
             if (sequence.colour_space == FrameColours::display &&
                 has_other_primaries(frame_file(sequence, {0})))
                 diagnostics.warning(

@@ -159,7 +159,7 @@ void GazeStudies::add_trial(const Trial& trial, std::uint64_t seed, const Observ
     shown.session = static_cast<int>(results.sessions.size()) - 1;
     shown.object = trial.stimulus.object;
     shown.number = trial.index + 1;
-    shown.presentation_s = protocol.animation.duration_s;
+    shown.presentation_s = protocol.motions.front().duration_s;
     shown.keys = {{"observer", results.sessions.back().observer},
                   {"task", protocol.tasks[static_cast<std::size_t>(trial.task)].id},
                   {"object", protocol.objects[object].id},

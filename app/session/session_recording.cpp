@@ -9,7 +9,7 @@
 #include "experiment/protocol/protocol_keys.h"
 #include "experiment/record/header_rows.h"
 #include "experiment/record/session_schema.h"
-#include "experiment/scene/ply_writer.h"
+#include "experiment/scene/files/ply_writer.h"
 
 namespace overt {
 
@@ -126,7 +126,7 @@ SessionHeader make_session_header(const Protocol& protocol, const Schedule& sche
         header.slots.push_back({slot.id, slot.title, at.image_origin_px, at.image_px});
     }
     header.characterisation = recorded(protocol.display.characterisation);
-    header.animation = protocol.animation;
+    header.animation = protocol.motions.front();
     header.poses = library.cache().poses();
     for (const Task& task : protocol.tasks)
         header.tasks.push_back({task.id, task.question});

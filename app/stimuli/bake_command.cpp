@@ -86,7 +86,7 @@ BakeJob job_of(const BakeOptions& options, const Protocol& protocol, const Stimu
     BakeJob job;
     job.quality = quality_asked_for(options, protocol.bake);
     job.stimuli = stimuli_asked_for(options, protocol, library);
-    job.output.frames = frame_range_called(options.frames, protocol.animation);
+    job.output.frames = frame_range_called(options.frames, protocol.motions.front());
     job.output.folder = options.out;
     job.output.as = options.as == "xyz"       ? ExportedLight::xyz
                     : options.as == "spectra" ? ExportedLight::spectra

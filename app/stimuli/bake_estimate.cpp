@@ -50,7 +50,7 @@ double seconds_per_path(const BakeScene& scene, const SpectralLight& light, cons
 PathProbe::PathProbe(const Protocol& protocol, std::span<const Object> objects)
     : protocol_(&protocol), seconds_per_path_(protocol.materials.size(), 0.0),
       traced_share_(objects.size(), 0.0) {
-    const SpectralLight light(protocol.light);
+    const SpectralLight light(protocol.lights.front());
     bool measured = false;
     for (std::size_t i = 0; i < objects.size(); ++i) {
         const Object& object = objects[i];
@@ -77,7 +77,8 @@ double PathProbe::seconds_of_frame(const Stimulus& stimulus, const FrameQuality&
     const auto material = static_cast<std::size_t>(stimulus.material);
     const BakeSettings settings =
         bake_settings(quality, protocol_->bake, protocol_->materials[material].kind);
-    const double pixels = static_cast<double>(protocol_->view.width_px) * protocol_->view.height_px;
+    const double pixels =
+        static_cast<double>(protocol_->views.front().width_px) * protocol_->views.front().height_px;
     const double paths = pixels * traced_share_[static_cast<std::size_t>(stimulus.object)] *
                          settings.samples / (settings.pixel_step * settings.pixel_step);
     return paths * seconds_per_path_[material] + pixels * writing_s_per_px;

@@ -102,7 +102,7 @@ ContentHash FrameExport::key_of(const BakeUnit& unit) const {
     hasher.add(export_version).add(std::string_view(library_->cache().frame_key(unit.stimulus, *quality_)));
     hasher.add(library_->cache().poses().angles[static_cast<std::size_t>(unit.pose.value)].value);
     hasher.add(static_cast<int>(options_->as)).add(static_cast<int>(options_->file));
-    hasher.add(protocol_->light.exposure);
+    hasher.add(protocol_->lights.front().exposure);
     if (options_->is_png())
         hasher.add(protocol_->display.background);
     const auto& light = protocol_->display.characterisation;
@@ -154,7 +154,7 @@ ChannelPicture FrameExport::picture_of(const BakeUnit& unit, const SpectralFrame
         picture.size_px = traced->size_px;
         picture.values.reserve(traced->alpha.size() * picture.channels.size());
         for (std::size_t i = 0; i < traced->alpha.size(); ++i) {
-            const float factor = static_cast<float>(protocol_->light.exposure) * traced->alpha[i];
+            const float factor = static_cast<float>(protocol_->lights.front().exposure) * traced->alpha[i];
             for (std::size_t bin = 0; bin < spectral_bins; ++bin)
                 picture.values.push_back(factor * traced->radiance[i * spectral_bins + bin]);
             picture.values.push_back(traced->alpha[i]);
@@ -165,7 +165,8 @@ ChannelPicture FrameExport::picture_of(const BakeUnit& unit, const SpectralFrame
         read_linear_image(library_->cache().frame_file_of(unit.stimulus, *quality_, unit.pose));
     transform(image, options_->as == ExportedLight::display
                          ? library_->cache().display_from_frame(*quality_)
-                         : protocol_->light.exposure * xyz_from(rendered_colours(protocol_->bake.observer)));
+                         : protocol_->lights.front().exposure *
+                               xyz_from(rendered_colours(protocol_->bake.observer)));
     picture.size_px = image.size_px;
     for (const glm::vec4& pixel : image.pixels)
         picture.values.insert(picture.values.end(), {pixel.x, pixel.y, pixel.z, pixel.w});
@@ -179,7 +180,7 @@ ImageAttributes FrameExport::attributes_of(const BakeUnit& unit) const {
         *protocol_, objects_[static_cast<std::size_t>(unit.stimulus.object)], material, angle);
     for (auto& attribute : describe_tracing(*quality_, *protocol_, material.kind))
         attributes.push_back(std::move(attribute));
-    attributes.emplace_back("overt:exposure", fmt::format("{}", protocol_->light.exposure));
+    attributes.emplace_back("overt:exposure", fmt::format("{}", protocol_->lights.front().exposure));
     const auto& light = protocol_->display.characterisation;
     if (options_->as == ExportedLight::display) {
         attributes.emplace_back("overt:display",

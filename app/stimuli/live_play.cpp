@@ -92,9 +92,10 @@ void play_until_closed(OpenDisplay& opened, LiveView& view, const Protocol& prot
         view.choose(wishes.stimulus);
         Orbit orbit = wishes.orbit;
         if (wishes.is_turning) {
-            const int step =
-                static_cast<int>(to_seconds(opened.clock().now() - begin) * protocol.animation.frame_rate_hz);
-            orbit.turn_deg += protocol.animation.angle_of(protocol.animation.frame_at_step(step)).value;
+            const int step = static_cast<int>(to_seconds(opened.clock().now() - begin) *
+                                              protocol.motions.front().frame_rate_hz);
+            orbit.turn_deg +=
+                protocol.motions.front().angle_of(protocol.motions.front().frame_at_step(step)).value;
         }
         picture.show(view.draw(orbit), keys_text);
     }
@@ -107,7 +108,7 @@ int play_live(const Protocol& protocol, std::span<const Object> objects, const S
     if (options.picture.empty()) {
         if (!display_is_available())
             throw InputError("there is no display to play on: write a frame with --picture FILE instead");
-        const glm::ivec2 image_px = picture_window_size(protocol.view);
+        const glm::ivec2 image_px = picture_window_size(protocol.views.front());
         fmt::print("{}\n", keys_text);
         OpenDisplay window({.context = ContextKind::window,
                             .size_px = image_px,
@@ -120,10 +121,11 @@ int play_live(const Protocol& protocol, std::span<const Object> objects, const S
     }
     const auto context =
         make_headless_context(options.context == ContextKind::window ? std::nullopt : options.context);
-    LiveView view(*context, protocol, objects, {protocol.view.width_px, protocol.view.height_px});
+    LiveView view(*context, protocol, objects,
+                  {protocol.views.front().width_px, protocol.views.front().height_px});
     view.choose(stimulus);
     Orbit orbit;
-    orbit.turn_deg = protocol.animation.angle_of({options.frame.value_or(0)}).value;
+    orbit.turn_deg = protocol.motions.front().angle_of({options.frame.value_or(0)}).value;
     write_srgb_png(options.picture, view.draw(orbit));
     fmt::print("{}\n", options.picture.string());
     return 0;

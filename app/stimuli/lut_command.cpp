@@ -149,7 +149,7 @@ int run_lut(const LutOptions& options) {
 
     const auto context = make_headless_context(options.context);
     StimulusLibrary library(*context, protocol, objects, cache_folder());
-    const auto frames = frames_by_pose(protocol.animation, library.cache().poses(), options.frame);
+    const auto frames = frames_by_pose(protocol.motions.front(), library.cache().poses(), options.frame);
     const MapFiles files(options, object.id);
     // A check alone leaves nothing behind.
     const bool writes = !options.check || !options.out.empty();

@@ -18,9 +18,9 @@ namespace overt {
 namespace {
 
 void refuse(const ReconstructOptions& options, const Protocol& protocol) {
-    if (options.frame && *options.frame >= protocol.animation.frame_count) {
+    if (options.frame && *options.frame >= protocol.motions.front().frame_count) {
         throw InputError(fmt::format("--frame {}: the animation has frames 0 to {}", *options.frame,
-                                     protocol.animation.frame_count - 1));
+                                     protocol.motions.front().frame_count - 1));
     }
     const auto extension = options.out.extension();
     if (extension != ".ply" && extension != ".obj")
@@ -35,13 +35,13 @@ void refuse(const ReconstructOptions& options, const Protocol& protocol) {
 class StimulusMaps {
   public:
     StimulusMaps(const Protocol& protocol, int index, const ContextChoice& context, ProgressBar& bar)
-        : poses_(distinct_poses(protocol.animation)), objects_(protocol.objects.size()) {
+        : poses_(distinct_poses(protocol.motions.front())), objects_(protocol.objects.size()) {
         const auto place = static_cast<std::size_t>(index);
         const ObjectSettings& settings = protocol.objects[place];
         objects_[place] = load_object(settings, protocol, cache_folder());
         const Object& object = objects_[place];
         part_names_ = object.mesh.part_names;
-        size_px_ = {protocol.view.width_px, protocol.view.height_px};
+        size_px_ = {protocol.views.front().width_px, protocol.views.front().height_px};
         if (object.has_mesh()) {
             const auto headless = make_headless_context(context);
             StimulusLibrary library(*headless, protocol, objects_, cache_folder());

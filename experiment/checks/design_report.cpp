@@ -20,7 +20,7 @@ namespace overt {
 namespace {
 
 AnimationFacts animation_facts(const Protocol& protocol) {
-    const Animation& animation = protocol.animation;
+    const Animation& animation = protocol.motions.front();
     const PageCycle cycle = make_page_cycle(animation, protocol.display.refresh_hz);
     AnimationFacts facts;
     facts.frames = animation.frame_count;
@@ -56,7 +56,7 @@ VisualAngles visual_angles(const Protocol& protocol) {
     angles.image_up_deg = std::copysign(geometry.angle_between(centre, {centre.x_px, middle.y_px}).value,
                                         centre.y_px - middle.y_px);
     // The camera stands before the middle of its picture, wherever that is shown.
-    angles.camera_fov_deg = protocol.view.vertical_fov_deg.value_or(size_deg(centre, image_px).y);
+    angles.camera_fov_deg = protocol.views.front().vertical_fov_deg.value_or(size_deg(centre, image_px).y);
     angles.px_per_deg = geometry.px_per_deg_at_centre();
     return angles;
 }
@@ -109,16 +109,17 @@ MemoryNeed memory_need(const Protocol& protocol, int poses) {
     need.pages_per_stimulus_bytes = most_pages(protocol) * page_bytes(protocol);
     const int at_once = protocol.slots.size() > 1 ? most_stimuli_at_once(protocol) : 1;
     need.next_fits = 2.0 * at_once * need.pages_per_stimulus_bytes <= 1e6 * protocol.display.frame_store_mb;
-    need.maps_per_object_bytes = bytes_per_map_px * poses * protocol.view.width_px * protocol.view.height_px;
+    need.maps_per_object_bytes =
+        bytes_per_map_px * poses * protocol.views.front().width_px * protocol.views.front().height_px;
     return need;
 }
 
 std::string order_in_words(const BlockSettings& block) {
     std::string words(name_of(block.order));
     if (block.order == OrderMethod::blocked)
-        words += fmt::format(" by {}, levels {}", name_of(block.by), name_of(block.levels));
+        words += fmt::format(" by {}, levels {}", block.by, name_of(block.levels));
     if (block.order == OrderMethod::weighted)
-        words += fmt::format(" by {}{}", name_of(block.by), block.draws ? ", drawn with replacement" : "");
+        words += fmt::format(" by {}{}", block.by, block.draws ? ", drawn with replacement" : "");
     if (block.repetitions > 1)
         words += fmt::format(", {} times{}", block.repetitions,
                              block.repetition_order == RepetitionOrder::mixed ? ", mixed" : "");
@@ -192,12 +193,13 @@ DesignReport make_design_report(const Protocol& protocol, const std::vector<Obse
     report.tasks = ids_of(protocol.tasks);
     report.objects = ids_of(protocol.objects);
     report.materials = ids_of(protocol.materials);
+    report.factors = factors_of(protocol);
     add_observers(report, protocol);
     report.practice_trials = static_cast<int>(protocol.practice.size());
     report.observers = protocol.schedule.observers;
     report.display = protocol.display;
-    report.view = protocol.view;
-    report.motion = protocol.animation;
+    report.view = protocol.views.front();
+    report.motion = protocol.motions.front();
     report.animation = animation_facts(protocol);
     report.angles = visual_angles(protocol);
     report.assumptions = assumptions;
@@ -215,6 +217,8 @@ DesignReport make_design_report(const Protocol& protocol, const std::vector<Obse
             report.schedule_groups.push_back(protocol.groups[static_cast<std::size_t>(group)].id);
     }
     report.warnings = balance_warnings(protocol, presentations);
+    for (std::string& warning : aliased_factor_warnings(report.factors, presentations))
+        report.warnings.push_back(std::move(warning));
     report.rotations = rotation_facts(protocol);
     for (std::string& warning : rotation_warnings(report.rotations))
         report.warnings.push_back(std::move(warning));

@@ -98,10 +98,11 @@ struct SurfaceFacts {
 struct DesignReport {
     std::string name, title;
     std::vector<std::string> tasks, objects, materials; ///< ids
-    int trials_per_observer = 0;                        ///< of the planned observer who has most
-    int fewest_trials = 0;                              ///< of the one who has fewest
-    int observers = 0;                                  ///< planned
-    std::vector<std::string> blocks;                    ///< ids; empty if the protocol has none
+    Factors factors;
+    int trials_per_observer = 0;     ///< of the planned observer who has most
+    int fewest_trials = 0;           ///< of the one who has fewest
+    int observers = 0;               ///< planned
+    std::vector<std::string> blocks; ///< ids; empty if the protocol has none
     std::vector<BlockFacts> block_facts;
     std::vector<GroupFacts> groups;
     int practice_trials = 0;
@@ -119,7 +120,7 @@ struct DesignReport {
     std::vector<SurfaceFacts> surfaces; ///< of objects with a mesh
     std::optional<RecordingSize> recording;
 
-    std::vector<IncidenceCell> incidence; ///< task by task, object by object, material by material
+    std::vector<IncidenceCell> incidence; ///< task by task, stimulus by stimulus
     std::vector<RotationFacts> rotations; ///< of each group in which anything goes round
     std::vector<Schedule> schedules;
     std::vector<std::string> schedule_groups; ///< of each of their observers; empty without groups

@@ -1,5 +1,5 @@
 #include "experiment/checks/protocol_checks.h"
-#include "experiment/scene/metal_table.h"
+#include "experiment/spectra/metal_table.h"
 
 #include <system_error>
 
@@ -18,7 +18,7 @@ bool is_file(const std::filesystem::path& path) {
 template <class FileOf>
 void check_sequence(ProtocolExamination& examination, const std::string& path, const char* what,
                     const FileOf& file_of) {
-    const int count = examination.protocol.animation.frame_count;
+    const int count = examination.protocol.motions.front().frame_count;
     int missing = 0;
     std::filesystem::path first_missing;
     for (int frame = 0; frame < count; ++frame) {
@@ -29,7 +29,7 @@ void check_sequence(ProtocolExamination& examination, const std::string& path, c
             first_missing = file;
     }
     if (missing > 0) {
-        examination.error({path, "animation.frame_count"},
+        examination.error({path, "motion[0].frame_count"},
                           fmt::format("{} of {} {} are missing", missing, count, what),
                           fmt::format("the first is {}", first_missing.string()));
     }
@@ -40,9 +40,13 @@ void check_sequence(ProtocolExamination& examination, const std::string& path, c
 void check_files(ProtocolExamination& examination) {
     const Protocol& protocol = examination.protocol;
     const std::string remedy = "paths count from the folder of the protocol file";
-    if (protocol.light.is_file() && !is_file(protocol.light.probe))
-        examination.error({"light.probe"}, fmt::format("there is no file {}", protocol.light.probe),
-                          remedy + "; \"gallery\" and \"overcast\" need none");
+    for (std::size_t i = 0; i < protocol.lights.size(); ++i) {
+        const LightSettings& light = protocol.lights[i];
+        if (light.is_file() && !is_file(light.probe))
+            examination.error({fmt::format("light[{}].probe", i)},
+                              fmt::format("there is no file {}", light.probe),
+                              remedy + "; \"gallery\" and \"overcast\" need none");
+    }
     for (std::size_t i = 0; i < protocol.objects.size(); ++i) {
         const ObjectSettings& object = protocol.objects[i];
         for (const auto& [key, file] :

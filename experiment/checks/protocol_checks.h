@@ -14,7 +14,7 @@ void check_image_fits(ProtocolExamination& examination);
 void check_sizes(ProtocolExamination& examination);
 /// What the video signal can carry, and where on the screen.
 void check_output(ProtocolExamination& examination);
-void check_animation(ProtocolExamination& examination);
+void check_motions(ProtocolExamination& examination);
 void check_screens(ProtocolExamination& examination);
 void check_schedule(ProtocolExamination& examination);
 /// Limits that are written in [schedule] and do not hold in a block, because of its order.

@@ -26,7 +26,7 @@ constexpr double bytes_per_vertex = 12.0, bytes_per_triangle = 14.0;
 
 RecordingSize recording_size(const Protocol& protocol, std::span<const Object> objects, int trials,
                              double answer_s) {
-    const PageCycle cycle = make_page_cycle(protocol.animation, protocol.display.refresh_hz);
+    const PageCycle cycle = make_page_cycle(protocol.motions.front(), protocol.display.refresh_hz);
     const double recorded_s =
         cycle.total_refreshes / protocol.display.refresh_hz + 2.0 * protocol.screens.recording_lead_s;
     // Each tracker's record has the flips as well.
@@ -48,16 +48,17 @@ RecordingSize recording_size(const Protocol& protocol, std::span<const Object> o
     double mapped = 0.0;
     for (std::size_t i = 0; i < objects.size(); ++i)
         mapped += objects[i].has_mesh() || (i < protocol.objects.size() && !protocol.objects[i].lut.empty());
-    const double picture_bytes = bytes_per_px * protocol.view.width_px * protocol.view.height_px;
+    const double picture_bytes =
+        bytes_per_px * protocol.views.front().width_px * protocol.views.front().height_px;
     RecordingSize size;
     // SQLite's log holds a trial's rows until they are in the file.
     size.rows = records * bytes_at_first + (trials + 1) * trial_bytes;
-    const auto poses = static_cast<double>(distinct_poses(protocol.animation).angles.size());
+    const auto poses = static_cast<double>(distinct_poses(protocol.motions.front()).angles.size());
     const auto materials = static_cast<double>(protocol.materials.size());
     size.maps = picture_bytes * mapped * poses;
-    const LightPictures light{.image_px = {protocol.view.width_px, protocol.view.height_px},
-                              .square_px =
-                                  light_square_px({protocol.view.width_px, protocol.view.height_px})};
+    const LightPictures light{
+        .image_px = {protocol.views.front().width_px, protocol.views.front().height_px},
+        .square_px = light_square_px({protocol.views.front().width_px, protocol.views.front().height_px})};
     size.pictures = picture_bytes * object_count * materials +
                     bytes_per_px * static_cast<double>(light.squares()) * mapped * poses * materials;
     for (const Object& object : objects)

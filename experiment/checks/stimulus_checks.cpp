@@ -1,10 +1,11 @@
 #include "experiment/checks/protocol_checks.h"
-#include "experiment/scene/metal_table.h"
+#include "experiment/spectra/metal_table.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -19,15 +20,33 @@ std::string entry_path(std::string_view list, std::size_t index, std::string_vie
     return key.empty() ? fmt::format("{}[{}]", list, index) : fmt::format("{}[{}].{}", list, index, key);
 }
 
-template <class Entry>
-void check_list(ProtocolExamination& examination, std::string_view list, const std::vector<Entry>& entries) {
+void check_list(ProtocolExamination& examination, std::string_view list,
+                const std::vector<std::string_view>& ids) {
     // Indices into the lists travel as bytes in records and textures, 255 meaning none.
     constexpr std::size_t most_entries = 254;
-    if (entries.size() > most_entries) {
+    if (ids.size() > most_entries) {
         examination.error({entry_path(list, most_entries)},
                           fmt::format("more than {} entries of [[{}]]", most_entries, list));
     }
-    check_ids_differ(examination, list, ids_of<std::string_view>(entries));
+    check_ids_differ(examination, list, ids);
+}
+
+/// One of the lists that stimuli are made of. An entry may be without an id where it is the only one.
+void check_entries(ProtocolExamination& examination, std::size_t list) {
+    const std::string_view name = stimulus_lists[list].name;
+    std::vector<std::string_view> ids;
+    for (const ListEntry* entry : entries_of(std::as_const(examination.protocol), list)) {
+        const std::string id = entry_path(name, ids.size(), "id");
+        if (examination.is_written(id) || examination.faulty.contains(id)) {
+            ids.push_back(entry->id);
+            continue;
+        }
+        ids.push_back({});
+        if (entries_of(std::as_const(examination.protocol), list).size() > 1)
+            examination.error({id}, fmt::format("one of several [[{}]] has no \"id\"", name),
+                              "each entry of a list needs its own, by which tables name it");
+    }
+    check_list(examination, name, ids);
 }
 
 bool is_covered_by_frames(const Protocol& protocol, std::size_t object) {
@@ -109,9 +128,9 @@ void check_frame_colours(ProtocolExamination& examination, std::size_t index) {
 } // namespace
 
 void check_ids(ProtocolExamination& examination) {
-    check_list(examination, "task", examination.protocol.tasks);
-    check_list(examination, "object", examination.protocol.objects);
-    check_list(examination, "material", examination.protocol.materials);
+    check_list(examination, "task", ids_of<std::string_view>(examination.protocol.tasks));
+    for (std::size_t list = 0; list < stimulus_lists.size(); ++list)
+        check_entries(examination, list);
 }
 
 void check_objects(ProtocolExamination& examination, std::span<const std::string_view> shipped_sculptures) {

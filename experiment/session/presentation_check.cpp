@@ -32,9 +32,9 @@ std::string quantiles_of(std::vector<double> values) {
 PresentationCheck check_presentation(const Protocol& protocol, const Trial& trial,
                                      const PresentationCheckPorts& ports) {
     PresentationCheck check;
-    PageCycle cycle = make_page_cycle(protocol.animation, protocol.display.refresh_hz);
+    PageCycle cycle = make_page_cycle(protocol.motions.front(), protocol.display.refresh_hz);
     cycle.total_refreshes = std::min(cycle.total_refreshes, static_cast<int>(cycle.entry_of_refresh.size()));
-    RefreshLedger ledger(cycle, protocol.animation.when_late);
+    RefreshLedger ledger(cycle, protocol.motions.front().when_late);
     std::vector<TrackerFeed> feeds;
     for (const CheckedTracker& checked : ports.trackers)
         feeds.emplace_back(checked.tracker);

@@ -35,8 +35,8 @@ void tell_of_flip(PresentationListener& listener, const FlipRecord& flip,
 TrialRun::TrialRun(SessionState& state, OperatorControl& control, const ScreenPoint& screen_centre)
     : state_(state), control_(control), drift_checks_(state, control, screen_centre),
       answers_(state, control),
-      cycle_(make_page_cycle(state.protocol.animation, state.protocol.display.refresh_hz)),
-      ledger_(cycle_, state.protocol.animation.when_late) {
+      cycle_(make_page_cycle(state.protocol.motions.front(), state.protocol.display.refresh_hz)),
+      ledger_(cycle_, state.protocol.motions.front().when_late) {
     for (UsedTracker& used : state.trackers())
         feeds_.push_back({used, TrackerFeed(used.tracker)});
 }

@@ -35,11 +35,11 @@ double page_bytes(const Protocol& protocol) {
 
 int most_pages(const Protocol& protocol) {
     int most = 0;
-    const int poses = static_cast<int>(distinct_poses(protocol.animation).angles.size());
+    const int poses = static_cast<int>(distinct_poses(protocol.motions.front()).angles.size());
     for (int object = 0; object < static_cast<int>(protocol.objects.size()); ++object) {
         for (int material = 0; material < static_cast<int>(protocol.materials.size()); ++material)
-            most = std::max(most,
-                            find_frames(protocol, object, material) ? protocol.animation.frame_count : poses);
+            most = std::max(
+                most, find_frames(protocol, object, material) ? protocol.motions.front().frame_count : poses);
     }
     return most;
 }

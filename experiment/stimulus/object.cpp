@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include "experiment/base/error.h"
-#include "experiment/scene/mesh_reader.h"
-#include "experiment/scene/ply_writer.h"
+#include "experiment/scene/files/mesh_reader.h"
+#include "experiment/scene/files/ply_writer.h"
 #include "experiment/scene/ray_caster.h"
 #include "experiment/scene/sculptures/sculptures.h"
 #include "experiment/scene/triangle_order.h"
@@ -67,7 +67,7 @@ Camera camera_of(const ViewSettings& settings, const Protocol& protocol, const M
         to_degrees({2.0 * std::atan(0.5 * image_px.y * mm_per_px / protocol.display.viewing_distance_mm)});
     const Degrees field = settings.vertical_fov_deg ? Degrees{*settings.vertical_fov_deg} : natural;
     if (!settings.camera_position)
-        return fit_camera(mesh, field, image_px, protocol.animation.amplitude, settings.margin);
+        return fit_camera(mesh, field, image_px, protocol.motions.front().amplitude, settings.margin);
     return {*settings.camera_position - origin,
             settings.camera_target ? *settings.camera_target - origin : mesh.bounds().centre(), field};
 }
@@ -114,9 +114,9 @@ Object load_object(const ObjectSettings& settings, const Protocol& protocol,
         return object;
     }
     object.mesh_hash = hash_of_mesh(object.mesh);
-    object.scene.view.image_px = {protocol.view.width_px, protocol.view.height_px};
+    object.scene.view.image_px = {protocol.views.front().width_px, protocol.views.front().height_px};
     object.scene.bounds = object.mesh.bounds();
-    object.scene.view.camera = camera_of(protocol.view, protocol, object.mesh, object.origin);
+    object.scene.view.camera = camera_of(protocol.views.front(), protocol, object.mesh, object.origin);
     try {
         depth_range(object.scene.bounds, object.scene.view);
     } catch (const InputError& error) {

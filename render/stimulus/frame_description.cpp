@@ -53,8 +53,8 @@ ImageAttributes describe_stimulus(const Protocol& protocol, const Object& object
             {"overt:camera_position", text_of(camera.position)},
             {"overt:camera_target", text_of(camera.target)},
             {"overt:camera_vertical_fov_deg", fmt::format("{}", camera.vertical_fov.value)},
-            {"overt:light", protocol.light.probe},
-            {"overt:light_rotation_deg", fmt::format("{}", protocol.light.rotation_deg)}};
+            {"overt:light", protocol.lights.front().probe},
+            {"overt:light_rotation_deg", fmt::format("{}", protocol.lights.front().rotation_deg)}};
 }
 
 ImageAttributes describe_tracing(const FrameQuality& quality, const Protocol& protocol,

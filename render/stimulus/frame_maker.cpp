@@ -79,7 +79,7 @@ void FrameMaker::draw_live_frame(const Stimulus& stimulus, PoseIndex pose, const
     const std::filesystem::path file = cache_->frame_file_of(stimulus, quality, pose);
     std::filesystem::create_directories(file.parent_path());
     if (!renderer_)
-        renderer_.emplace(*context_, cache_->protocol().light, object.scene.view.image_px);
+        renderer_.emplace(*context_, cache_->protocol().lights.front(), object.scene.view.image_px);
     if (live_material_ != stimulus.material)
         renderer_->set_material(material);
     live_material_ = stimulus.material;
@@ -102,7 +102,7 @@ SpectralFrame FrameMaker::trace(const Stimulus& stimulus, PoseIndex pose, const 
     const Object& object = cache_->object_of(stimulus);
     const MaterialSettings& material = cache_->material_of(stimulus);
     if (!light_)
-        light_.emplace(cache_->protocol().light);
+        light_.emplace(cache_->protocol().lights.front());
     if (!scene_ || scene_of_ != stimulus) {
         scene_.reset(); // the memory of one at a time
         scene_.emplace(object.mesh, material);

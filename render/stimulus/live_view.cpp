@@ -29,7 +29,7 @@ void put_over(LinearImage& picture, const LinearImage& text, float grey, glm::iv
 LiveView::LiveView(const GlContext& context, const Protocol& protocol, std::span<const Object> objects,
                    glm::ivec2 image_px)
     : context_(&context), protocol_(&protocol), objects_(objects), image_px_(image_px),
-      renderer_(context, protocol.light, image_px),
+      renderer_(context, protocol.lights.front(), image_px),
       label_grey_(protocol.display.background > 0.3 ? 0.0f : 0.6f) {}
 
 void LiveView::choose(const Stimulus& stimulus) {

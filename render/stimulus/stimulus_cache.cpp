@@ -18,7 +18,8 @@ namespace overt {
 StimulusCache::StimulusCache(const Protocol& protocol, std::span<const Object> objects,
                              std::filesystem::path folder)
     : protocol_(&protocol), objects_(objects), folder_(std::move(folder)),
-      poses_(distinct_poses(protocol.animation)), surroundings_(hash_of_surroundings(protocol.light)) {}
+      poses_(distinct_poses(protocol.motions.front())),
+      surroundings_(hash_of_surroundings(protocol.lights.front())) {}
 
 std::vector<Stimulus> StimulusCache::rendered_stimuli() const {
     std::vector<Stimulus> stimuli;
@@ -90,15 +91,15 @@ ContentHash StimulusCache::frame_key(const Stimulus& stimulus, const FrameQualit
     const Object& object = object_of(stimulus);
     const MaterialSettings& material = material_of(stimulus);
     if (quality.is_live())
-        return live_key(object, material, surroundings_, protocol_->light.exposure);
-    return traced_key(object, material, surroundings_, protocol_->light.exposure,
+        return live_key(object, material, surroundings_, protocol_->lights.front().exposure);
+    return traced_key(object, material, surroundings_, protocol_->lights.front().exposure,
                       bake_settings(quality, protocol_->bake, material.kind), protocol_->bake.observer);
 }
 
 glm::dmat3 StimulusCache::display_from_frame(const FrameQuality& quality) const {
     if (quality.is_live())
         return display_from(PictureColours::rec709, protocol_->display);
-    return protocol_->light.exposure *
+    return protocol_->lights.front().exposure *
            display_from(rendered_colours(protocol_->bake.observer), protocol_->display);
 }
 
@@ -131,7 +132,7 @@ std::filesystem::path StimulusCache::map_file(int object, PoseIndex pose) const 
 SceneView StimulusCache::scene_of_given_maps(int object) const {
     SceneView scene;
     scene.view.camera.vertical_fov.value = 0.0;
-    scene.view.image_px = {protocol_->view.width_px, protocol_->view.height_px};
+    scene.view.image_px = {protocol_->views.front().width_px, protocol_->views.front().height_px};
     const MapDescription first = read_map_description(map_file(object, {0}));
     if (first.camera)
         scene.view.camera = *first.camera;

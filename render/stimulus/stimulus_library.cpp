@@ -20,8 +20,8 @@ StimulusLibrary::StimulusLibrary(const GlContext& context, const Protocol& proto
 
 void StimulusLibrary::prepare_frames(const Progress& progress, BakeQuality least) {
     for (const FrameSequenceSettings& sequence : protocol_->frames)
-        check_frame_sizes(sequence, protocol_->animation.frame_count,
-                          {protocol_->view.width_px, protocol_->view.height_px});
+        check_frame_sizes(sequence, protocol_->motions.front().frame_count,
+                          {protocol_->views.front().width_px, protocol_->views.front().height_px});
     const std::vector<Stimulus> stimuli = cache_.rendered_stimuli();
     for (const Stimulus& stimulus : stimuli)
         cache_.require_mesh(stimulus);
@@ -52,8 +52,8 @@ void StimulusLibrary::prepare_frames(const Progress& progress, BakeQuality least
 void StimulusLibrary::prepare_frames(const Stimulus& stimulus, const Progress& progress,
                                      std::optional<AnimationFrameIndex> only) {
     if (const FrameSequenceSettings* sequence = cache_.sequence_of(stimulus)) {
-        check_frame_sizes(*sequence, protocol_->animation.frame_count,
-                          {protocol_->view.width_px, protocol_->view.height_px});
+        check_frame_sizes(*sequence, protocol_->motions.front().frame_count,
+                          {protocol_->views.front().width_px, protocol_->views.front().height_px});
         return;
     }
     cache_.require_mesh(stimulus);
@@ -74,7 +74,7 @@ const FrameQuality& StimulusLibrary::quality_of_frames(const Stimulus& stimulus)
 
 std::vector<int> StimulusLibrary::page_of_frame(const Stimulus& stimulus) const {
     std::vector<int> pages;
-    for (int frame = 0; frame < protocol_->animation.frame_count; ++frame) {
+    for (int frame = 0; frame < protocol_->motions.front().frame_count; ++frame) {
         // Each ready-made frame is shown itself, even where two share a pose.
         pages.push_back(cache_.is_ready_made(stimulus) ? frame : cache_.poses().pose_of({frame}).value);
     }
@@ -126,7 +126,7 @@ ContentHash StimulusLibrary::frames_hash(const Stimulus& stimulus) const {
     ContentHasher hasher;
     const auto& light = protocol_->display.characterisation;
     if (const FrameSequenceSettings* sequence = cache_.sequence_of(stimulus)) {
-        for (int frame = 0; frame < protocol_->animation.frame_count; ++frame) {
+        for (int frame = 0; frame < protocol_->motions.front().frame_count; ++frame) {
             hasher.add(std::string_view(hash_of_file(frame_file(*sequence, {frame}))));
         }
         if (sequence->exposure != 1.0)
@@ -136,7 +136,7 @@ ContentHash StimulusLibrary::frames_hash(const Stimulus& stimulus) const {
         hasher.add(static_cast<int>(sequence->colour_space));
     } else {
         hasher.add(std::string_view(cache_.frame_key(stimulus, qualities_[index_of(stimulus)])));
-        hasher.add(protocol_->light.exposure);
+        hasher.add(protocol_->lights.front().exposure);
     }
     if (light)
         hasher.add(std::string_view(light->sha256));
@@ -145,7 +145,7 @@ ContentHash StimulusLibrary::frames_hash(const Stimulus& stimulus) const {
 
 LightPictures StimulusLibrary::light_of(const Stimulus& stimulus) const {
     LightPictures light;
-    light.image_px = {protocol_->view.width_px, protocol_->view.height_px};
+    light.image_px = {protocol_->views.front().width_px, protocol_->views.front().height_px};
     light.square_px = light_square_px(light.image_px);
     light.poses = static_cast<int>(cache_.poses().angles.size());
     light.luminance.resize(light.squares() * static_cast<std::size_t>(light.poses));

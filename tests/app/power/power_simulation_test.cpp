@@ -33,7 +33,7 @@ Experiment busts(int tasks) {
         protocol.tasks.push_back(task);
     }
     protocol.schedule.max_object_run = 0;
-    protocol.view.width_px = protocol.view.height_px = 512;
+    protocol.views.front().width_px = protocol.views.front().height_px = 512;
     Object bust;
     bust.id = "bust";
     bust.mesh = test::bust();
