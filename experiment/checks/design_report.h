@@ -25,9 +25,12 @@ struct DesignAssumptions {
     double answer_s = 10.0;       ///< answering aloud, kept within response_min_s … response_max_s
 };
 
+/// Of a motion.
 struct AnimationFacts {
+    std::string id;
+    Animation motion;
     int frames = 0;
-    int distinct_poses = 0;
+    int distinct_poses = 0; ///< pictures that differ, by the object's turn or the light's
     int shown_frames = 0;
     int refreshes_per_frame = 0;
     int refreshes = 0; ///< of one presentation
@@ -109,8 +112,7 @@ struct DesignReport {
 
     DisplaySettings display;
     ViewSettings view;
-    Animation motion;
-    AnimationFacts animation;
+    std::vector<AnimationFacts> motions;
     VisualAngles angles;
     DesignAssumptions assumptions;
     SessionLength session;

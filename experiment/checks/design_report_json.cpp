@@ -91,10 +91,25 @@ Json rotations_json(const DesignReport& report) {
     return groups;
 }
 
+Json motion_json(const AnimationFacts& motion) {
+    return {{"id", motion.id},
+            {"kind", name_of(motion.motion.kind)},
+            {"frames", motion.frames},
+            {"distinct_poses", motion.distinct_poses},
+            {"shown_frames", motion.shown_frames},
+            {"refreshes_per_frame", motion.refreshes_per_frame},
+            {"refreshes", motion.refreshes},
+            {"duration_s", motion.duration_s},
+            {"periods", motion.periods},
+            {"amplitude_deg", motion.motion.amplitude.value},
+            {"angle_deg", motion.motion.angle.value},
+            {"light_amplitude_deg", motion.motion.light_amplitude.value},
+            {"playback", name_of(motion.motion.playback)}};
+}
+
 } // namespace
 
 Json to_json(const DesignReport& report) {
-    const AnimationFacts& animation = report.animation;
     const VisualAngles& angles = report.angles;
     const SessionLength& session = report.session;
     Json json{{"name", report.name},
@@ -109,15 +124,10 @@ Json to_json(const DesignReport& report) {
     json["factors"] = factors_json(report.factors);
     json["blocks"] = blocks_json(report);
     json["groups"] = groups_json(report);
-    json["animation"] = {{"frames", animation.frames},
-                         {"distinct_poses", animation.distinct_poses},
-                         {"shown_frames", animation.shown_frames},
-                         {"refreshes_per_frame", animation.refreshes_per_frame},
-                         {"refreshes", animation.refreshes},
-                         {"duration_s", animation.duration_s},
-                         {"periods", animation.periods},
-                         {"amplitude_deg", report.motion.amplitude.value},
-                         {"playback", name_of(report.motion.playback)}};
+    json["animation"] = motion_json(report.motions.front());
+    json["motions"] = Json::array();
+    for (const AnimationFacts& motion : report.motions)
+        json["motions"].push_back(motion_json(motion));
     json["angles"] = {
         {"screen_width_deg", angles.screen_width_deg}, {"screen_height_deg", angles.screen_height_deg},
         {"image_width_deg", angles.image_width_deg},   {"image_height_deg", angles.image_height_deg},

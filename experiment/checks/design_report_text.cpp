@@ -15,9 +15,9 @@ namespace overt {
 namespace {
 
 /// What the display makes of a frame rate that it only comes near to; nothing where it is exact.
-std::string difference_of_rates(const DesignReport& report) {
-    const double asked = report.motion.frame_rate_hz;
-    const double shown = report.display.refresh_hz / report.animation.refreshes_per_frame;
+std::string difference_of_rates(const DesignReport& report, const AnimationFacts& animation) {
+    const double asked = animation.motion.frame_rate_hz;
+    const double shown = report.display.refresh_hz / animation.refreshes_per_frame;
     const double percent = 100.0 * (shown / asked - 1.0);
     if (std::abs(percent) < 1e-3)
         return "";
@@ -105,10 +105,36 @@ void add_rotations(std::string& text, const DesignReport& report) {
     }
 }
 
+/// How object and light move, in words.
+std::string movement_of(const Animation& motion) {
+    const double light = motion.light_amplitude.value;
+    std::string words = motion.kind == MotionKind::still
+                            ? fmt::format("still at {} deg", motion.angle.value)
+                            : fmt::format("{} deg to each side", motion.amplitude.value);
+    if (motion.kind == MotionKind::turn && motion.angle.value != 0.0)
+        words += fmt::format(" of {}", motion.angle.value);
+    if (light != 0.0)
+        words += fmt::format(", the light {} deg to each side", light);
+    return words;
+}
+
+void add_motion(std::string& text, const DesignReport& report, const AnimationFacts& animation) {
+    add_facts(
+        text, report.motions.size() > 1 ? "Motion " + animation.id : "Animation",
+        {fmt::format("{} ({}), {}, {}", counted(animation.frames, "frame"), name_of(animation.motion.playback),
+                     counted(animation.distinct_poses, "distinct pose"), movement_of(animation.motion)),
+         fmt::format("shown: {} at {:.6g} Hz = {:.3f} s = {:.4g} swings to and fro",
+                     counted(animation.shown_frames, "frame"), animation.shown_frames / animation.duration_s,
+                     animation.duration_s, animation.periods),
+         fmt::format("each frame is lit for {} at {} Hz: {} refreshes{}",
+                     counted(animation.refreshes_per_frame, "refresh", "refreshes"),
+                     report.display.refresh_hz, animation.refreshes,
+                     difference_of_rates(report, animation))});
+}
+
 void add_overview(std::string& text, const DesignReport& report) {
     const int tasks = static_cast<int>(report.tasks.size());
     const int stimuli = static_cast<int>(report.factors.stimulus_count());
-    const AnimationFacts& animation = report.animation;
     const VisualAngles& angles = report.angles;
     add_facts(
         text, "Design",
@@ -122,17 +148,8 @@ void add_overview(std::string& text, const DesignReport& report) {
     add_columns(text, report);
     add_blocks(text, report);
     add_rotations(text, report);
-    add_facts(
-        text, "Animation",
-        {fmt::format("{} ({}), {}, {} deg to each side", counted(animation.frames, "frame"),
-                     name_of(report.motion.playback), counted(animation.distinct_poses, "distinct pose"),
-                     report.motion.amplitude.value),
-         fmt::format("shown: {} at {:.6g} Hz = {:.3f} s = {:.4g} swings to and fro",
-                     counted(animation.shown_frames, "frame"), animation.shown_frames / animation.duration_s,
-                     animation.duration_s, animation.periods),
-         fmt::format("each frame is lit for {} at {} Hz: {} refreshes{}",
-                     counted(animation.refreshes_per_frame, "refresh", "refreshes"),
-                     report.display.refresh_hz, animation.refreshes, difference_of_rates(report))});
+    for (const AnimationFacts& animation : report.motions)
+        add_motion(text, report, animation);
     add_facts(
         text, "Screen",
         {fmt::format("{} x {} px, {} x {} mm, seen from {} mm: {:.2f} x {:.2f} deg", report.display.width_px,
