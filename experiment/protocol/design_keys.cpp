@@ -72,8 +72,13 @@ std::vector<Key> task() {
         {"slots", &T::slots, identifier().left_out("the only slot there is"),
          "Ids of the `[[slot]]`s in which the task's stimuli are shown, all at once; of a circle or a grid, "
          "all its places. Each shows the stimulus that the trial has for it."},
-        {"simulated_head_share", &T::simulated_head_share, range(0, 1),
+        {"simulated_head_share", &T::simulated_head_share,
+         range(0, 1).left_out("0.4; 0 with `simulated_area_shares`"),
          "Share of a simulated observer's fixations that go to the head."},
+        {"simulated_area_shares", &T::simulated_area_shares,
+         range(0, 1).left_out("none but the head has one"),
+         "Shares that go to other areas, such as { rim = 0.2, base = 0.3 }: the rest goes to the rest of the "
+         "surface. Areas that have shares must not overlap."},
     };
 }
 

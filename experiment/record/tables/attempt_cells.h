@@ -38,16 +38,8 @@ inline auto question_of(const SessionHeader& header) {
         return plain_line_of(item(header.tasks, attempt.trial.task).question);
     };
 }
-inline auto object_of(const SessionHeader& header) {
-    return [&header](const TrialRecord& attempt) -> std::string_view {
-        return item(header.objects, attempt.trial.stimulus.object).id;
-    };
-}
-inline auto material_of(const SessionHeader& header) {
-    return [&header](const TrialRecord& attempt) -> std::string_view {
-        return item(header.materials, attempt.trial.stimulus.material).id;
-    };
-}
+/// The stimulus of an attempt.
+inline const Stimulus& shown_in(const TrialRecord& attempt) { return attempt.trial.stimulus; }
 /// Nothing where no vertical blanks prove which refreshes were missed.
 inline auto missed_refreshes_of(const SessionHeader& header) {
     return [&header](const TrialRecord& attempt) {

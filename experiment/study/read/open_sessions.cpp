@@ -150,7 +150,7 @@ StudyObject describe_object(const SessionHeader& header, const ViewedObject& vie
     if (recorded.cameras.size() > 1)
         object.title += fmt::format(", view {}", viewed.view + 1);
     object.part_names = recorded.part_names;
-    object.head = HeadParts(recorded.part_names);
+    object.areas = Areas(recorded.part_names);
     object.camera = recorded.camera(viewed.view);
     object.axis_point = recorded.axis_point;
     object.unit = recorded.unit;

@@ -186,13 +186,13 @@ TEST_CASE("nothing of the page is cut or lies on something else, in windows of a
     };
     for (StudyGroup& group : study.groups)
         rename(group.keys);
-    for (HeadFractionRow& row : study.head_fractions)
+    for (AreaRow& row : study.area_rows)
         rename(row.keys);
     for (StudyTrial& trial : study.trials)
         rename(trial.keys);
     for (int i = 0; i < 12; ++i) {
-        study.head_fractions.push_back(study.head_fractions.back());
-        study.head_fractions.back().keys = {{"task", fmt::format("{} and a task with a long name", i)}};
+        study.area_rows.push_back(study.area_rows.back());
+        study.area_rows.back().keys = {{"task", fmt::format("{} and a task with a long name", i)}};
         for (int second = 0; second < 8; ++second) {
             study.time_course.push_back(study.time_course.front());
             study.time_course.back().key.value = fmt::format("{} and a task with a long name", i);
