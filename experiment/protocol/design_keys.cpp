@@ -63,6 +63,11 @@ std::vector<Key> task() {
         {"stimuli", &T::stimuli,
          "Asked for every object in every material, or once per object with the material changing from "
          "observer to observer."},
+        {"steps", &T::steps,
+         left_out("the question until a key is pressed, the drift check, the stimulus for the motion's "
+                  "duration, the spoken answer"),
+         "What a trial does, one step after another, such as `[{ fixation = 0.5 }, { show = \"centre\" }, "
+         "{ answer = \"spoken\" }]`; see [design.md](design.md)."},
         {"simulated_head_share", &T::simulated_head_share, range(0, 1),
          "Share of a simulated observer's fixations that go to the head."},
     };

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "experiment/base/enum_names.h"
+#include "experiment/protocol/step_settings.h"
 
 namespace overt {
 
@@ -21,6 +22,7 @@ struct Task {
     std::string id;
     std::string question;
     TaskCoverage stimuli = TaskCoverage::every_stimulus;
+    std::vector<StepSettings> steps; ///< none: the question, a drift check, the stimulus, the answer
     double simulated_head_share =
         0.4; ///< share of a simulated observer's fixations that go to the part "head"
 };

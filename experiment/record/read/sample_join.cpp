@@ -20,7 +20,7 @@ SampleJoin::SampleJoin(const SessionRecord& record, const TrialRecord& trial, co
 
 SampleJoin::SampleJoin(const SessionRecord& record, const TrialRecord& trial,
                        const std::optional<TrialLedger>& ledger, const SurfaceLookup* lookup)
-    : SampleJoin(record.header().display.screen, record.clock_map(trial), record.flip_history(ledger),
+    : SampleJoin(record.header().display.screen, record.clock_map(trial), record.flip_history(trial, ledger),
                  lookup) {}
 
 SampleJoin::SampleJoin(const ScreenGeometry& screen, std::optional<ClockMap> clock_map, FlipHistory history,

@@ -175,14 +175,25 @@ std::optional<TrialLedger> SessionRecord::ledger(const TrialRecord& trial) const
     return TrialLedger{std::move(recorded), std::move(fit)};
 }
 
-FlipHistory SessionRecord::flip_history(const std::optional<TrialLedger>& ledger) const {
+PageCycle planned_cycle(const SessionHeader& header, const TrialRecord& trial) {
+    PageCycle motion = make_page_cycle(header.animation, header.display.refresh_hz);
+    for (const RecordedStep& step : trial.outcome.steps)
+        if (step.kind == "show")
+            return cut_to(std::move(motion), step.planned_refreshes,
+                          step.still_frame ? std::optional(AnimationFrameIndex{*step.still_frame})
+                                           : std::nullopt);
+    return motion;
+}
+
+FlipHistory SessionRecord::flip_history(const TrialRecord& trial,
+                                        const std::optional<TrialLedger>& ledger) const {
     const RecordedDisplay& display = header_.display;
     // Of an imported session not even the refresh rate may be known.
     if (!ledger)
         return FlipHistory({}, {{}, 1.0, 1.0}, {});
     return FlipHistory(ledger->fit.flips(),
                        {display.latency, display.refresh_hz, static_cast<double>(display.screen.screen_px.y)},
-                       make_page_cycle(header_.animation, display.refresh_hz));
+                       planned_cycle(header_, trial));
 }
 
 } // namespace overt

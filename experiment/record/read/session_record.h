@@ -78,6 +78,13 @@ struct TrialLedger {
     LedgerFit fit;
 };
 
+/// The steps of an attempt that its outcome does not tell by a time of its own: fixations, blanks, masks,
+/// feedback, texts after the first, and drift checks but that of the task without steps.
+std::vector<const RecordedStep*> further_steps(const TrialRecord& trial);
+
+/// What an attempt's presentation was to show: the motion, cut to what the trial's steps said.
+PageCycle planned_cycle(const SessionHeader& header, const TrialRecord& trial);
+
 /// A SessionEvent that owns its words.
 struct RecordedEvent {
     int sitting = 1;
@@ -220,7 +227,7 @@ class SessionRecord {
     std::optional<TrialLedger> ledger(const TrialRecord& trial) const;
 
     /// A trial's frames as they were lit on this session's display, at the times of the ledger's line.
-    FlipHistory flip_history(const std::optional<TrialLedger>& ledger) const;
+    FlipHistory flip_history(const TrialRecord& trial, const std::optional<TrialLedger>& ledger) const;
 
     /// The latest session time that any row names: from here on a resumed session's clock may go on.
     SessionTime last_time() const;
