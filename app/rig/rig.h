@@ -122,7 +122,7 @@ class Rig {
     /// The simulated faults that struck since the last call: after each attempt.
     std::vector<StruckFault> take_struck_faults();
     /// Of the object that a stimulus shows; see SeenAreas.
-    std::shared_ptr<const AreaView> area_of(const Stimulus& stimulus, const std::string& area) {
+    std::shared_ptr<const AreaView> area_of(const PlacedStimulus& stimulus, const std::string& area) {
         return areas_.area_of(stimulus, area);
     }
     LiveMaps* live_maps() { return live_maps_.get(); } ///< null unless maps_are_live()

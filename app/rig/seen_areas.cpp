@@ -40,8 +40,9 @@ class CastArea final : public AreaView {
 SeenAreas::SeenAreas(const Protocol& protocol, std::span<const Object> objects, const PoseTable& poses)
     : protocol_(&protocol), objects_(objects), poses_(&poses) {}
 
-std::shared_ptr<const AreaView> SeenAreas::area_of(const Stimulus& stimulus, const std::string& area) {
-    const auto [made, is_new] = made_.try_emplace({stimulus, area});
+std::shared_ptr<const AreaView> SeenAreas::area_of(const PlacedStimulus& placed, const std::string& area) {
+    const Stimulus& stimulus = placed.stimulus;
+    const auto [made, is_new] = made_.try_emplace({stimulus, placed.slot, area});
     if (!is_new)
         return made->second;
     const Object& object = objects_[static_cast<std::size_t>(stimulus.object)];
@@ -52,8 +53,10 @@ std::shared_ptr<const AreaView> SeenAreas::area_of(const Stimulus& stimulus, con
         has_any = has_any || is_in_area.back();
     }
     if (object.has_mesh() && has_any)
-        made->second = std::make_shared<CastArea>(object.mesh, object.scene, screen_geometry_of(*protocol_),
-                                                  *poses_, std::move(is_in_area));
+        made->second = std::make_shared<CastArea>(
+            object.mesh, object.scene(stimulus.view),
+            slot_geometry(*protocol_, protocol_->slots[static_cast<std::size_t>(placed.slot)]), *poses_,
+            std::move(is_in_area));
     return made->second;
 }
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <span>
 #include <string>
-#include <utility>
+#include <tuple>
 #include <vector>
 
 #include "experiment/animation.h"
@@ -23,15 +23,15 @@ class SeenAreas {
     /// All must outlive this, and the views that it gives.
     SeenAreas(const Protocol& protocol, std::span<const Object> objects, const PoseTable& poses);
 
-    /// An area of the stimulus's object, as its camera sees it; null where the object has no mesh or no such
-    /// area. An object's first takes some milliseconds, for its rays are made ready.
-    std::shared_ptr<const AreaView> area_of(const Stimulus& stimulus, const std::string& area);
+    /// An area of the stimulus's object, as its camera sees it in its slot; null where the object has no mesh
+    /// or no such area. An object's first takes some milliseconds, for its rays are made ready.
+    std::shared_ptr<const AreaView> area_of(const PlacedStimulus& placed, const std::string& area);
 
   private:
     const Protocol* protocol_;
     std::span<const Object> objects_;
     const PoseTable* poses_;
-    std::map<std::pair<Stimulus, std::string>, std::shared_ptr<const AreaView>> made_;
+    std::map<std::tuple<Stimulus, int, std::string>, std::shared_ptr<const AreaView>> made_; ///< and by slot
 };
 
 } // namespace overt

@@ -58,7 +58,7 @@ class WatchedSitting {
             .further_trackers = record_.further_ports(),
             .on_beep = [this](SetupBeep beep) { equipment_.sounds().play(beep); },
             .on_camera = [this](const CameraImage& image) { show(image); },
-            .area_of = [this](const Stimulus& stimulus,
+            .area_of = [this](const PlacedStimulus& stimulus,
                               const std::string& area) { return equipment_.rig().area_of(stimulus, area); },
             .on_phase = [this](SessionPhase phase, int trial) { enter(phase, trial); }};
     }

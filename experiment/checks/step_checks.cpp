@@ -1,8 +1,10 @@
 #include "experiment/checks/protocol_checks.h"
 
+#include <algorithm>
 #include <map>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "experiment/design/trial_plan.h"
 
@@ -80,13 +82,51 @@ class StepChecks {
     }
 
     void check_place(const StepSettings& step) {
-        for (const std::string& slot : step.slots)
-            if (slot != "centre")
-                error(step.place, fmt::format("unknown slot \"{}\"", slot), "slots are centre");
-        if (step.frame && *step.frame >= examination_.protocol.animation.frame_count)
-            error(step.frame_place, fmt::format("frame: there is no frame {}", *step.frame),
-                  fmt::format("the motion has frames 0 to {}",
-                              examination_.protocol.animation.frame_count - 1));
+        if (step.kind == StepKind::show)
+            check_slots(step);
+        for (const MotionSettings& motion : examination_.protocol.motions)
+            if (step.frame && *step.frame >= motion.frame_count) {
+                error(step.frame_place, fmt::format("frame: there is no frame {}", *step.frame),
+                      fmt::format("the motion has frames 0 to {}", motion.frame_count - 1));
+                return;
+            }
+    }
+
+    /// A step shows all that the trial has: what it names are the task's slots.
+    void check_slots(const StepSettings& step) {
+        const Protocol& protocol = examination_.protocol;
+        std::vector<std::string> all, shown;
+        for (const Slot& slot : protocol.slots)
+            all.push_back(slot.id);
+        for (const int slot : slots_of_task(protocol, static_cast<int>(&task_ - protocol.tasks.data())))
+            shown.push_back(all[static_cast<std::size_t>(slot)]);
+        const auto entry_of = [&](const std::string& id) -> std::string {
+            for (const Slot& slot : protocol.slots)
+                if (slot.id == id && slot.entry >= 0)
+                    return protocol.slot_entries[static_cast<std::size_t>(slot.entry)].id;
+            return id;
+        };
+        bool is_known = true;
+        for (const std::string& slot : step.slots) {
+            const auto is_it = [&](const std::string& id) { return slot == id || slot == entry_of(id); };
+            if (std::ranges::any_of(all, is_it))
+                continue;
+            is_known = false;
+            error(step.place, fmt::format("unknown slot \"{}\"", slot),
+                  fmt::format("slots are {}", fmt::join(all, ", ")));
+        }
+        const auto is_named = [&](const std::string& id) {
+            return std::ranges::any_of(
+                step.slots, [&](const std::string& slot) { return slot == id || slot == entry_of(id); });
+        };
+        const bool is_all = std::ranges::all_of(all, [&](const std::string& id) {
+            return is_named(id) == (std::ranges::find(shown, id) != shown.end());
+        });
+        if (is_known && !is_all)
+            error(step.place,
+                  fmt::format("task {} shows stimuli in {}, and this step in {}", task_.id,
+                              fmt::join(shown, ", "), fmt::join(step.slots, ", ")),
+                  "a step shows all slots of its task: name them here, or change `slots` of the task");
     }
 
     void check_gaze(const StepSettings& step, bool is_watched) {

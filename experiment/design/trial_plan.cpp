@@ -7,6 +7,7 @@
 
 #include "experiment/base/counted.h"
 #include "experiment/base/random.h"
+#include "experiment/protocol/all_stimuli.h"
 
 namespace overt {
 
@@ -46,19 +47,14 @@ WatchedSteps watched_steps(const std::vector<StepSettings>& steps) {
 
 namespace {
 
-/// Of `show`, the motion's where it has none of its own.
-std::optional<double> fixed_duration_s(const Protocol& protocol, StepKind kind) {
-    return kind == StepKind::show ? std::optional(protocol.animation.duration_s) : std::nullopt;
-}
-
-TrialPlan plan_of_one_question(const Protocol& protocol) {
+TrialPlan plan_of_one_question(const Protocol& protocol, const Stimulus& stimulus) {
     TrialPlan plan;
     for (const StepKind kind : {StepKind::text, StepKind::drift_check, StepKind::show, StepKind::answer}) {
         PlannedStep step;
         step.kind = kind;
         if (kind == StepKind::show) {
-            step.drawn_s = protocol.animation.duration_s;
-            step.refreshes = make_page_cycle(protocol.animation, protocol.display.refresh_hz).total_refreshes;
+            step.drawn_s = protocol.motion_of(stimulus).duration_s;
+            step.refreshes = page_cycles(protocol)[static_cast<std::size_t>(stimulus.motion)].total_refreshes;
             step.is_watched = true;
         }
         plan.steps.push_back(std::move(step));
@@ -71,7 +67,7 @@ TrialPlan plan_of_one_question(const Protocol& protocol) {
 TrialPlan plan_trial(const Protocol& protocol, std::uint64_t seed, const Trial& trial, bool is_practice) {
     const std::vector<StepSettings>& steps = protocol.tasks[static_cast<std::size_t>(trial.task)].steps;
     if (steps.empty())
-        return plan_of_one_question(protocol);
+        return plan_of_one_question(protocol, trial.stimulus);
     const double refresh_hz = protocol.display.refresh_hz;
     const WatchedSteps watched = watched_steps(steps);
     TrialPlan plan;
@@ -82,7 +78,8 @@ TrialPlan plan_trial(const Protocol& protocol, std::uint64_t seed, const Trial& 
         step.kind = settings.kind;
         step.id = settings.id;
         step.is_watched = i >= watched.begin && i < watched.end;
-        step.drawn_s = fixed_duration_s(protocol, settings.kind);
+        if (settings.kind == StepKind::show)
+            step.drawn_s = protocol.motion_of(trial.stimulus).duration_s;
         if (settings.duration) {
             RandomStream stream(seed, fmt::format("{}step {}", is_practice ? "practice " : "", i),
                                 static_cast<std::uint64_t>(trial.index));
@@ -120,7 +117,16 @@ std::string duration_text(const StepDuration& duration, double refresh_hz) {
     std::string text;
     for (const double one : duration.choices_s)
         text += fmt::format("{}{}", text.empty() ? "" : " or ", said(one));
-    return duration.choices_s.size() > 1 ? text + ", drawn" : text;
+    return duration.law == StepDuration::Law::one_of ? text + ", drawn" : text;
+}
+
+/// Each once.
+StepDuration durations_of_motions(const Protocol& protocol) {
+    StepDuration durations;
+    for (const MotionSettings& motion : protocol.motions)
+        if (std::ranges::find(durations.choices_s, motion.duration_s) == durations.choices_s.end())
+            durations.choices_s.push_back(motion.duration_s);
+    return durations;
 }
 
 std::string gaze_text(const GazeWait& wait) {
@@ -147,14 +153,17 @@ std::string describe_steps(const Protocol& protocol, const Task& task) {
     for (std::size_t i = 0; i < task.steps.size(); ++i) {
         const StepSettings& step = task.steps[i];
         std::vector<std::string> ends;
-        const double whole_s = fixed_duration_s(protocol, step.kind).value_or(0.0);
-        double shortest_s = whole_s, longest_s = whole_s;
+        const StepDuration motions = durations_of_motions(protocol);
+        const bool is_motion = step.kind == StepKind::show && !step.duration;
+        double shortest_s = is_motion ? motions.shortest_s() : 0.0;
+        double longest_s = is_motion ? motions.longest_s() : 0.0;
         if (step.duration) {
             ends.push_back(duration_text(*step.duration, refresh_hz));
             shortest_s = step.duration->shortest_s();
             longest_s = step.duration->longest_s();
-        } else if (whole_s > 0.0) {
-            ends.push_back(seconds_and_refreshes(whole_s, refresh_hz));
+        } else if (is_motion) {
+            ends.push_back(duration_text({StepDuration::Law::fixed, motions.choices_s}, refresh_hz) +
+                           (motions.choices_s.size() > 1 ? ", by the motion" : ""));
         }
         if (step.gaze) {
             ends.push_back(gaze_text(*step.gaze));

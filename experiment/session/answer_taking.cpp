@@ -17,7 +17,7 @@ constexpr SessionDuration between_looks = std::chrono::milliseconds(4);
 
 } // namespace
 
-OperatorControl::How AnswerTaking::take(const Trial& trial, const std::optional<Stimulus>& next,
+OperatorControl::How AnswerTaking::take(const Trial& trial, const std::optional<Trial>& next,
                                         bool is_practice, std::optional<double> limit_s,
                                         TrialOutcome& outcome) {
     const ScreenSettings& screens = state_.protocol.screens;
@@ -31,7 +31,7 @@ OperatorControl::How AnswerTaking::take(const Trial& trial, const std::optional<
     if (recording)
         recording->response_screen_lit(outcome.response_screen_onset);
     if (next)
-        ports.presenter.expect_frames(*next);
+        ports.presenter.expect_slots(next->all_shown());
     Waiting waiting{.screen = screen,
                     .onset = outcome.response_screen_onset,
                     .min_s = screens.response_min_s,

@@ -13,7 +13,7 @@ class AnswerTaking {
     /// Shows the trial's response screen until it is answered or its time is up, which is `limit_s`, or the
     /// protocol's where that is nothing. `next`: whose frames are loaded meanwhile. In practice no voice is
     /// recorded. Gives how it ended.
-    OperatorControl::How take(const Trial& trial, const std::optional<Stimulus>& next, bool is_practice,
+    OperatorControl::How take(const Trial& trial, const std::optional<Trial>& next, bool is_practice,
                               std::optional<double> limit_s, TrialOutcome& outcome);
 
   private:

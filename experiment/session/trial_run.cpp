@@ -8,6 +8,7 @@
 #include "experiment/base/counted.h"
 #include "experiment/ports/event_kinds.h"
 #include "experiment/ports/trial_mark.h"
+#include "experiment/protocol/all_stimuli.h"
 #include "experiment/session/session_screens.h"
 
 namespace overt {
@@ -23,27 +24,32 @@ constexpr double shortest_sleep_s = 0.005;
 /// half is that, more is a step.
 constexpr double smallest_wall_step_s = 0.1;
 
+void tell_of_flip(PresentationListener& listener, const FlipRecord& flip,
+                  std::span<const SlotFlip> beside) noexcept {
+    listener.flipped(flip);
+    for (const SlotFlip& of_slot : beside)
+        listener.slot_flipped(of_slot);
+}
+
 } // namespace
 
 TrialRun::TrialRun(SessionState& state, OperatorControl& control, const ScreenPoint& screen_centre,
                    std::uint64_t seed)
     : state_(state), control_(control), drift_checks_(state, control, screen_centre),
-      answers_(state, control), seed_(seed),
-      cycle_(make_page_cycle(state.protocol.animation, state.protocol.display.refresh_hz)), shown_(cycle_),
-      ledger_(shown_, state.protocol.animation.when_late),
-      watch_(screen_geometry_of(state.protocol), state.protocol.display) {
+      answers_(state, control), seed_(seed), cycles_(page_cycles(state.protocol)), shown_(cycles_.front()),
+      ledger_(shown_, WhenLate::drop), watch_(screen_geometry_of(state.protocol), state.protocol.display) {
     for (UsedTracker& used : state.trackers())
         feeds_.push_back({used, TrackerFeed(used.tracker)});
 }
 
-TrialRun::Attempt TrialRun::run(const Trial& trial, const std::optional<Stimulus>& next, bool is_practice) {
+TrialRun::Attempt TrialRun::run(const Trial& trial, const std::optional<Trial>& next, bool is_practice) {
     Attempt attempt;
     attempt.outcome.status = TrialOutcome::Status::aborted;
     control_.begin_trial();
     state_.write_down();
     state_.markers.begin_trial(trial, is_practice);
     state_.enter(SessionPhase::trial, is_practice ? -1 : trial.index);
-    state_.ports.presenter.load_frames(trial.stimulus);
+    state_.ports.presenter.load_slots(trial.all_shown());
     state_.log().trial_started(trial, state_.now());
     // Practice has numbers of its own.
     mark(MarkedEvent::trial, state_.now(),
@@ -77,15 +83,21 @@ void TrialRun::present(Running& running, std::size_t number) {
     SessionLog& log = state_.log();
     const SessionPorts& ports = state_.ports;
     TrackerFeed& own = feeds_.front().items;
-    shown_ = cut_to(cycle_, step.refreshes, step.still());
+    shown_ = cut_to(cycles_[static_cast<std::size_t>(trial.stimulus.motion)], step.refreshes, step.still());
     for (PresentationListener* listener : ports.listeners)
         listener->presentation_begins(trial);
+    std::vector<PageCycle> cycles_beside;
+    for (const PlacedStimulus& further : trial.beside)
+        cycles_beside.push_back(
+            cut_to(cycles_[static_cast<std::size_t>(further.stimulus.motion)], step.refreshes, step.still()));
+    slots_.begin(trial.index, std::move(cycles_beside));
     ports.presenter.take_swap_modes(); // those before are not the presentation's
     await_gaze(running, step, state_.now());
     add_row(running, step);
     const int patience = step.patience_refreshes.value_or(shown_.total_refreshes);
 
     // From here to the last flip nothing allocates, opens, throws or formats.
+    ledger_ = RefreshLedger(shown_, state_.protocol.motion_of(trial.stimulus).when_late);
     ledger_.begin(trial.index);
     state_.markers.begin_presentation();
     while (!ledger_.is_complete() && ledger_.next_refresh() < patience && !is_cut_short() &&
@@ -96,16 +108,20 @@ void TrialRun::present(Running& running, std::size_t number) {
             break;
         // Show the frame that the plan has next, and learn when it was lit.
         state_.markers.before_flip(ledger_.next_refresh(), ledger_.next().frame, ports.presenter);
-        const FlipRecord& flip = ledger_.enter(ports.presenter.flip(ledger_.next().frame));
+        const FlipRecord& flip = ledger_.enter(
+            ports.presenter.flip_slots(slots_.frames(ledger_.next().frame, ledger_.next_refresh())));
         // Record what was shown at each refresh, and tell the listeners.
         for (int i = 0; i < ledger_.missed_count(); ++i)
             log.missed(ledger_.missed(i));
         log.flip(flip);
+        const std::span<const SlotFlip> beside = slots_.enter(flip);
+        for (const SlotFlip& of_slot : beside)
+            log.slot_flip(of_slot);
         mark_flip(flip);
         state_.markers.flipped(flip);
         watch_.flipped(flip);
-        for (PresentationListener* listener : ports.listeners)
-            listener->flipped(flip);
+        for (PresentationListener* const listener : ports.listeners)
+            tell_of_flip(*listener, flip, beside);
         // Remember what the operator pressed, here or at the tracker's host.
         look_at_keys();
         own.look_at_state();

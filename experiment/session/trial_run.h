@@ -12,6 +12,7 @@
 #include "experiment/session/gaze_watch.h"
 #include "experiment/session/tracker_feed.h"
 #include "experiment/timing/refresh_ledger.h"
+#include "experiment/timing/slot_cycles.h"
 
 namespace overt {
 
@@ -26,16 +27,16 @@ class TrialRun {
         TrialOutcome outcome; ///< status is aborted until the session has judged the attempt
         AttemptResult result;
     };
-    /// `next`: the stimulus that probably comes after it. `is_practice`: its events are noted outside of
+    /// `next`: what probably comes after it. `is_practice`: its events are noted outside of
     /// trials, and no answer is recorded. Throws GraphicsError or RecordError for what breaks between its
     /// presentations; what happens in one, or to the tracker, is in the outcome.
-    Attempt run(const Trial& trial, const std::optional<Stimulus>& next, bool is_practice);
+    Attempt run(const Trial& trial, const std::optional<Trial>& next, bool is_practice);
 
   private:
     /// Which attempt it is, and what comes after it.
     struct Running {
         const Trial& trial;
-        const std::optional<Stimulus>& next;
+        const std::optional<Trial>& next;
         bool is_practice = false;
         Attempt& attempt;
         TrialPlan plan = {};
@@ -84,8 +85,8 @@ class TrialRun {
     DriftChecks drift_checks_;
     AnswerTaking answers_;
     std::uint64_t seed_;
-    PageCycle cycle_;
-    PageCycle shown_; ///< what the step that shows the stimulus lights
+    std::vector<PageCycle> cycles_; ///< by motion
+    PageCycle shown_;               ///< what the step that shows the stimulus lights
     RefreshLedger ledger_;
     GazeWatch watch_;
     bool has_shown_ = false;          ///< flips were recorded in this attempt
@@ -93,6 +94,7 @@ class TrialRun {
     bool awaits_key_ = false;         ///< of the observer, to end the step under way
     bool was_next_pressed_ = false;   ///< it came
     int gaze_checks_ = 0;             ///< drift checks in this attempt because gaze did not come
+    SlotCycles slots_;
     /// Of one tracker of the session.
     struct Feed {
         UsedTracker& used;

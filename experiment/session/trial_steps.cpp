@@ -262,7 +262,7 @@ void TrialRun::await_gaze(Running& running, const PlannedStep& step, SessionTime
         return;
     GazeAim aim{target_of(*step.settings, screen_geometry_of(state_.protocol)), nullptr};
     if (!wait->area.empty() && state_.ports.area_of)
-        aim.area = state_.ports.area_of(running.trial.stimulus, wait->area);
+        aim.area = state_.ports.area_of(running.trial.shown(0), wait->area);
     if (wait->area.empty() || aim.area)
         watch_.begin(*wait, std::move(aim), since, feeds_.front().items.readings(),
                      state_.ports.tracker.description());

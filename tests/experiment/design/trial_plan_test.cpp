@@ -78,7 +78,7 @@ TEST_CASE("durations are drawn by seed, trial and step, and by nothing else", "[
         CHECK((*plan.steps[0].drawn_s >= 0.5 && *plan.steps[0].drawn_s < 1.0));
         CHECK(plan.steps[0].drawn_s != plan_trial(protocol, 8, trial, false).steps[0].drawn_s);
         CHECK(plan.steps[0].drawn_s != plan_trial(protocol, 7, trial, true).steps[0].drawn_s);
-        CHECK(plan.steps[1].drawn_s == protocol.animation.duration_s);
+        CHECK(plan.steps[1].drawn_s == protocol.motions.front().duration_s);
         sum_s += *plan.steps[0].drawn_s;
         count[*plan.steps[2].drawn_s == 0.5 ? 0 : *plan.steps[2].drawn_s == 2.0 ? 1 : 2]++;
     }
@@ -100,7 +100,7 @@ TEST_CASE("a task without steps is the question, the drift check, the stimulus a
     CHECK(plan.steps[1].kind == StepKind::drift_check);
     CHECK(plan.steps[2].kind == StepKind::show);
     CHECK(plan.steps[2].refreshes ==
-          make_page_cycle(protocol.animation, protocol.display.refresh_hz).total_refreshes);
+          make_page_cycle(protocol.motions.front(), protocol.display.refresh_hz).total_refreshes);
     CHECK(plan.steps[3].kind == StepKind::answer);
     for (const PlannedStep& step : plan.steps) {
         CHECK_FALSE(step.settings);
