@@ -336,8 +336,8 @@ ValueResult read_steps(const TomlValue& value, const KeyRule& rule, void* out) {
 nlohmann::ordered_json steps_schema(const KeyRule&) {
     nlohmann::ordered_json kinds = nlohmann::ordered_json::array();
     for (const StepKindRow& row : step_kinds)
-        kinds.push_back({{"required", {row.name}}});
-    return {{"type", "array"}, {"minItems", 1}, {"items", {{"type", "object"}, {"oneOf", kinds}}}};
+        kinds.push_back({{"required", nlohmann::ordered_json::array({row.name})}});
+    return {{"type", "array"}, {"minItems", 1}, {"items", {{"type", "object"}, {"anyOf", kinds}}}};
 }
 
 constexpr ValueType steps_type{"a list of steps", read_steps, steps_schema, nullptr};
