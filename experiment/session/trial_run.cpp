@@ -133,7 +133,7 @@ void TrialRun::present(Running& running, std::size_t number) {
     running.attempt.result.missed_refreshes = outcome.missed_refreshes;
     if (ledger_.shown_refreshes() > 0)
         begin_row(running, ledger_.onset());
-    RecordedStep& row = outcome.steps.back();
+    AttemptStep& row = outcome.steps.back();
     row.ended_by = ledger_.is_complete() ? StepEnd::time
                    : watch_.has_come()   ? StepEnd::gaze
                    : was_next_pressed_   ? StepEnd::key

@@ -257,7 +257,7 @@ void AscTrial::write_down(const SessionRecord& record, const TrialRecord& trial,
         for (const auto& [word, screen] : screens_of(trial))
             add(at(screen), std::string(word));
     if (clock_map)
-        for (const RecordedStep* const step : further_steps(trial))
+        for (const AttemptStep* const step : further_steps(trial))
             add(at(*step->begin),
                 fmt::format("STEP {}{}{}", step->kind, step->id.empty() ? "" : " ", step->id));
     if (span) {

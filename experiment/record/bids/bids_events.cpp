@@ -181,7 +181,7 @@ void add_events(std::vector<BidsEvent>& to, const TrialRecord& trial, SessionTim
         to.push_back(
             {&trial, "response", outcome.response_screen_onset, outcome.responded_at, response_time});
     }
-    for (const RecordedStep* const step : further_steps(trial))
+    for (const AttemptStep* const step : further_steps(trial))
         to.push_back({.attempt = &trial,
                       .what = step->kind,
                       .from = *step->begin,

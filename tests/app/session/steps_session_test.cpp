@@ -45,7 +45,7 @@ constexpr std::string_view every_kind = R"(
 
 std::vector<std::string> kinds_of(const TrialRecord& trial) {
     std::vector<std::string> kinds;
-    for (const RecordedStep& step : trial.outcome.steps)
+    for (const AttemptStep& step : trial.outcome.steps)
         kinds.push_back(step.kind);
     return kinds;
 }
@@ -53,7 +53,7 @@ std::vector<std::string> kinds_of(const TrialRecord& trial) {
 constexpr double refresh_s = 1.0 / 120.0;
 
 /// From the step's begin to its end, in refreshes.
-double refreshes_lit(const RecordedStep& step) {
+double refreshes_lit(const AttemptStep& step) {
     return to_seconds(step.end.value() - step.begin.value()) / refresh_s;
 }
 
@@ -71,7 +71,7 @@ TEST_CASE("each kind of step is recorded as it was planned and as it was lit", "
         CHECK(trial.counts);
         CHECK(kinds_of(trial) == std::vector<std::string>{"text", "fixation", "fixation", "show", "mask",
                                                           "blank", "answer", "feedback"});
-        const std::vector<RecordedStep>& steps = trial.outcome.steps;
+        const std::vector<AttemptStep>& steps = trial.outcome.steps;
         CHECK(steps[0].id == "words");
         CHECK(steps[0].planned_refreshes == 60);
         for (std::size_t i = 0; i < steps.size(); ++i) {
@@ -158,7 +158,7 @@ TEST_CASE("gaze on the head ends the presentation, and the record says the same 
     const SessionRecord record(experiment.session());
     int by_gaze = 0;
     for (const TrialRecord& trial : record.trials()) {
-        const RecordedStep& show = trial.outcome.steps[1];
+        const AttemptStep& show = trial.outcome.steps[1];
         CHECK(trial.outcome.shown_refreshes == static_cast<int>(record.flips(trial).size()));
         if (show.ended_by != StepEnd::gaze) {
             CHECK(show.ended_by == StepEnd::patience);
