@@ -28,7 +28,7 @@ class Plans {
         : protocol_(&experiment.protocol),
           scene_(make_observed_scene(experiment.protocol, experiment.objects,
                                      screen_geometry_of(experiment.protocol))),
-          turn_(scene_) {
+          turns_(turns_of(scene_)) {
         for (const ObservedObject& object : scene_.objects) {
             areas_.emplace_back();
             targets_.emplace_back();
@@ -48,7 +48,7 @@ class Plans {
         if (!known)
             return std::nullopt;
         const Stimulus& stimulus = known->stimulus;
-        const auto object = static_cast<std::size_t>(stimulus.object);
+        const std::size_t object = scene_.index_of(stimulus);
         const std::optional<std::size_t> own = areas_[object].find(area);
         const GazePlan plan = gaze_plan(scene_, seed, known->task, stimulus);
         double elsewhere = 1.0, spots = 0.0;
@@ -68,13 +68,13 @@ class Plans {
         std::vector<glm::dvec3> places;
         const std::optional<Known> known = known_of(trial);
         const GazeTargets* const targets =
-            known ? targets_[static_cast<std::size_t>(known->stimulus.object)].get() : nullptr;
+            known ? targets_[scene_.index_of(known->stimulus)].get() : nullptr;
         if (!targets)
             return places;
         GazeScript script(scene_, observer_);
-        const SessionDuration end = from_seconds(scene_.animation.duration_s);
+        const SessionDuration end = from_seconds(scene_.animation_of(known->stimulus.motion).duration_s);
         for (int repeat = 0; repeat < repeats; ++repeat) {
-            script.compose(scene_, targets, turn_, observer_,
+            script.compose(scene_, targets, turns_[static_cast<std::size_t>(known->stimulus.motion)], observer_,
                            RandomStream(seed, "meant places", static_cast<std::uint64_t>(repeat)).next_bits(),
                            trial.number, gaze_plan(scene_, seed, known->task, known->stimulus));
             // The first was under way at the onset.
@@ -101,10 +101,10 @@ class Plans {
 
     const Protocol* protocol_;
     ObservedScene scene_;
-    PursuedTurn turn_;
+    std::vector<PursuedTurn> turns_; ///< by motion
     ObserverSettings observer_;
-    std::vector<std::unique_ptr<GazeTargets>> targets_; ///< by object; null without a mesh
-    std::vector<Areas> areas_;                          ///< by object
+    std::vector<std::unique_ptr<GazeTargets>> targets_; ///< as the scene has objects; null without a mesh
+    std::vector<Areas> areas_;                          ///< likewise
 };
 
 bool is_of(const StudyTrial& trial, const std::vector<StudyKey>& keys) {

@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <chrono>
-#include <numeric>
 
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include "experiment/scene/areas.h"
 #include "experiment/surface/coarse_surface.h"
 #include "experiment/surface/surface_smoother.h"
 
@@ -30,8 +28,7 @@ std::uint32_t nearest_corner(const Mesh& mesh, const RayHit& hit) {
 /// What a map is made with; of a large mesh only the coarse surface is kept.
 struct LiveSaliency::Surface {
     explicit Surface(const WatchedObject& object)
-        : sigma(kernel_deg * object.degree_on_surface()), areas(object.mesh().part_names),
-          session_part_s(object.mesh().part_names.size()), trial_part_s(session_part_s.size()) {
+        : sigma(kernel_deg * object.degree_on_surface()), areas(object.mesh().part_names) {
         const SurfaceGeometry fine(object.mesh());
         const CoarseSurface coarse(fine, most_nodes);
         mesh = std::make_shared<Mesh>(coarse.mesh());
@@ -49,31 +46,17 @@ struct LiveSaliency::Surface {
     void add(int in_trial, std::uint32_t vertex, PartIndex part, double seconds) {
         if (in_trial != trial) {
             std::ranges::fill(trial_s, 0.0);
-            std::ranges::fill(trial_part_s, 0.0);
             trial = in_trial;
         }
         const std::uint32_t near = vertex_near[vertex];
         session_s[near] += seconds;
         trial_s[near] += seconds;
-        session_part_s[part] += seconds;
-        trial_part_s[part] += seconds;
-    }
-
-    std::vector<SaliencyMap::AreaShare> shares(const std::vector<double>& part_s) const {
-        const double all = std::accumulate(part_s.begin(), part_s.end(), 0.0);
-        std::vector<SaliencyMap::AreaShare> found;
-        for (std::size_t area = 0; area < areas.size(); ++area) {
-            double own = 0.0;
-            for (std::size_t part = 0; part < part_s.size(); ++part)
-                own += areas.holds(area, static_cast<PartIndex>(part)) ? part_s[part] : 0.0;
-            found.push_back({areas.names()[area], all > 0.0 ? own / all : 0.0});
-        }
-        return found;
+        areas.add(in_trial, part, seconds);
     }
 
     SaliencyMap map(Of of, const std::string& object) const {
         const std::vector<double>& seconds = of == Of::session ? session_s : trial_s;
-        SaliencyMap map{object, mesh, {}, 0.0, shares(of == Of::session ? session_part_s : trial_part_s)};
+        SaliencyMap map{object, mesh, {}, 0.0, areas.shares(of == Of::trial)};
         std::vector<SurfaceWeight> weights;
         for (std::size_t v = 0; v < seconds.size(); ++v)
             if (seconds[v] > 0.0) {
@@ -98,8 +81,7 @@ struct LiveSaliency::Surface {
     std::unique_ptr<SurfaceGeometry> geometry;
     std::unique_ptr<SurfaceSmoother> smoother;
     std::vector<double> session_s, trial_s; ///< by vertex of `mesh`
-    Areas areas;
-    std::vector<double> session_part_s, trial_part_s; ///< by PartIndex of the object's mesh
+    AreaTally areas;
     int trial = -1;
 };
 

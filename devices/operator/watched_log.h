@@ -21,6 +21,7 @@ class WatchedLog final : public SessionLog {
         : record_(record), server_(server), panel_(panel), clock_(clock), gaze_(gaze) {}
 
     void flip(const FlipRecord& flip) noexcept override;
+    void slot_flip(const SlotFlip& flip) noexcept override { record_.slot_flip(flip); }
     void missed(const MissedRefresh& refresh) noexcept override;
     void sample(int trial, const GazeSample& sample) noexcept override;
     void tracker_item(int trial, const TrackerItem& item) noexcept override {

@@ -49,9 +49,12 @@ GazeTargets::GazeTargets(const ObservedObject& object, const ObservedScene& scen
         regions_[region_of_part[mesh_->triangle_parts[i]]].add(i, weight);
     }
     find_middle();
-    for (int step = 0; step < scene.animation.steps_per_period(); ++step)
-        eyes_.push_back(turned_back(scene_.view.camera.position, scene_.pose_at(scene.animation.angle_of(
-                                                                     scene.animation.frame_at_step(step)))));
+    for (const Animation& motion : scene.animations) {
+        std::vector<glm::dvec3>& eyes = eyes_.emplace_back();
+        for (int step = 0; step < motion.steps_per_period(); ++step)
+            eyes.push_back(turned_back(scene_.view.camera.position,
+                                       scene_.pose_at(motion.angle_of(motion.frame_at_step(step)))));
+    }
     for (std::size_t effect = 0; effect < scene.effects.size(); ++effect) {
         RandomStream random(effect, "spot of an effect");
         const std::size_t region = random.uniform() < 0.5 ? 0 : elsewhere();
@@ -59,8 +62,10 @@ GazeTargets::GazeTargets(const ObservedObject& object, const ObservedScene& scen
         for (int tries = 0; tries < most_tries; ++tries) {
             middle = draw(random, region);
             bool is_seen = true;
-            for (int step = 0; step < scene.animation.steps_per_period() && is_seen; ++step)
-                is_seen = is_visible(middle, step);
+            for (std::size_t motion = 0; motion < eyes_.size(); ++motion) {
+                for (std::size_t step = 0; step < eyes_[motion].size() && is_seen; ++step)
+                    is_seen = is_visible(middle, static_cast<int>(motion), static_cast<int>(step));
+            }
             if (is_seen)
                 break;
         }
@@ -125,21 +130,6 @@ const GazeTargets::WeightedTriangles& GazeTargets::region_or_other(std::size_t r
     return regions_[region];
 }
 
-std::optional<double> GazeTargets::share_within(std::size_t region, std::string_view area) const {
-    const Areas areas(mesh_->part_names);
-    const std::optional<std::size_t> own = areas.find(area);
-    const WeightedTriangles& from = region_or_other(region);
-    if (!own)
-        return std::nullopt;
-    double inside = 0.0, before = 0.0;
-    for (std::size_t i = 0; i < from.triangles.size(); ++i) {
-        if (areas.holds(*own, mesh_->triangle_parts[from.triangles[i]]))
-            inside += from.cumulative[i] - before;
-        before = from.cumulative[i];
-    }
-    return inside / from.cumulative.back();
-}
-
 SurfacePoint GazeTargets::draw(RandomStream& random, std::size_t region, double spread) const noexcept {
     const WeightedTriangles& from = region_or_other(region);
     SurfacePoint point = draw_from(random, from);
@@ -181,8 +171,9 @@ SurfacePoint GazeTargets::draw_from(RandomStream& random, const WeightedTriangle
     return point;
 }
 
-bool GazeTargets::is_visible(const SurfacePoint& point, int step) const noexcept {
-    const glm::dvec3& eye = eyes_[static_cast<std::size_t>(step) % eyes_.size()];
+bool GazeTargets::is_visible(const SurfacePoint& point, int motion, int step) const noexcept {
+    const std::vector<glm::dvec3>& eyes = eyes_[static_cast<std::size_t>(motion)];
+    const glm::dvec3& eye = eyes[static_cast<std::size_t>(step) % eyes.size()];
     const glm::dvec3 normal = corners_of(*mesh_, point.triangle).normal_times_area();
     const glm::dvec3 to_eye = eye - point.position;
     const double facing = std::abs(glm::dot(normal, to_eye)) / (glm::length(normal) * glm::length(to_eye));

@@ -12,7 +12,12 @@ SessionDuration ObservedScene::light_delay(double y_px) const {
     return display_latency + from_seconds(std::clamp(y_px, 0.0, rows) / (rows * refresh_hz));
 }
 
-SessionDuration ObservedScene::frame_period() const {
+double ObservedScene::longest_s() const {
+    return std::ranges::max(animations, {}, &Animation::duration_s).duration_s;
+}
+
+SessionDuration ObservedScene::frame_period(int motion) const {
+    const Animation& animation = animation_of(motion);
     const int refreshes = refreshes_per_frame(animation.frame_rate_hz, refresh_hz);
     return from_seconds(refreshes > 0 ? refreshes / refresh_hz : 1.0 / animation.frame_rate_hz);
 }
@@ -21,11 +26,14 @@ ObservedScene make_observed_scene(const Protocol& protocol, std::span<const Obje
                                   const ScreenGeometry& screen) {
     ObservedScene scene;
     scene.screen = screen;
-    scene.animation = protocol.animation;
+    scene.animations.assign(protocol.motions.begin(), protocol.motions.end());
+    scene.views = static_cast<int>(protocol.views.size());
     scene.refresh_hz = protocol.display.refresh_hz;
     scene.display_latency = from_seconds(1e-3 * protocol.display.latency_ms);
-    for (const Object& object : objects)
-        scene.objects.push_back({object.has_mesh() ? &object.mesh : nullptr, object.scene});
+    for (const Object& object : objects) {
+        for (const SceneView& view : object.scenes)
+            scene.objects.push_back({object.has_mesh() ? &object.mesh : nullptr, view});
+    }
     for (const Task& task : protocol.tasks) {
         for (const auto& [area, share] : simulated_shares(task)) {
             if (area_in(scene, area) < 0)
@@ -45,12 +53,14 @@ ObservedScene make_observed_scene(const Protocol& protocol, std::span<const Obje
     };
     for (const SimulatedEffect& effect : protocol.simulated_effects) {
         const bool is_of_area = !effect.area.empty();
-        scene.effects.push_back(
-            {number_of(effect.task, protocol.tasks), number_of(effect.object, protocol.objects),
-             number_of(effect.material, protocol.materials),
-             is_of_area ? std::max(area_in(scene, effect.area), 0) : 0,
-             is_of_area ? effect.area_odds : effect.head_odds, effect.spot_share, effect.spread});
+        scene.effects.push_back({number_of(effect.task, protocol.tasks), chosen_by(protocol, effect),
+                                 is_of_area ? std::max(area_in(scene, effect.area), 0) : 0,
+                                 is_of_area ? effect.area_odds : effect.head_odds, effect.spot_share,
+                                 effect.spread});
     }
+    if (!protocol.slot_entries.empty())
+        for (const Slot& slot : protocol.slots)
+            scene.slots.push_back(slot_geometry(protocol, slot));
     scene.share_sd = protocol.simulated_observers.head_share_sd;
     return scene;
 }

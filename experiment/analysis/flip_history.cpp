@@ -99,7 +99,9 @@ bool FlipHistory::is_off_plan(std::ptrdiff_t picture, SessionTime blank) const {
 Lighting FlipHistory::lighting_at(SessionTime time, double row_px) const {
     const SessionTime blank = blank_lighting(time, row_px);
     const std::ptrdiff_t picture = picture_at(blank);
-    return {picture < 0 ? std::nullopt : std::optional(pictures_[static_cast<std::size_t>(picture)]),
+    // A slot may be empty for a while.
+    const bool is_lit = picture >= 0 && pictures_[static_cast<std::size_t>(picture)].frame != no_frame;
+    return {is_lit ? std::optional(pictures_[static_cast<std::size_t>(picture)]) : std::nullopt,
             is_off_plan(picture, blank)};
 }
 

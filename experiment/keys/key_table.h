@@ -3,6 +3,7 @@
 /// goes through the rows, and needs to know neither the structs nor the types.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -27,6 +28,10 @@ class MemberPlace {
     template <class Struct, class Member>
     explicit MemberPlace(Member Struct::*member)
         : struct_(&as_left_out<Struct>()), member_(&(as_left_out<Struct>().*member)) {}
+    /// An element of a member that is an array.
+    template <class Struct, class Value, std::size_t count>
+    MemberPlace(std::array<Value, count> Struct::*member, std::size_t index)
+        : struct_(&as_left_out<Struct>()), member_(&(as_left_out<Struct>().*member).at(index)) {}
     /// The object as a whole.
     template <class Struct> static MemberPlace whole() {
         return {&as_left_out<Struct>(), &as_left_out<Struct>()};
@@ -67,6 +72,11 @@ struct Key {
     template <class Struct, class Value>
     Key(std::string_view name, Value Struct::*member, std::string_view explanation)
         : Key(name, member, KeyLimits{}, explanation) {}
+    /// Of an element of a member that is an array.
+    template <class Struct, class Value, std::size_t count>
+    Key(std::string_view name, std::array<Value, count> Struct::*member, std::size_t index,
+        const KeyLimits& limits, std::string_view explanation)
+        : rule{limits, name, explanation}, type(&value_type(TypeTag<Value>())), place(member, index) {}
 
     /// The member of an object of the key's struct, if it is a Value; else null.
     template <class Value> const Value* get_if(const void* object) const {
@@ -93,7 +103,8 @@ class SectionHome {
     SectionHome(std::vector<Struct> Root::*list)
         : place_(list), left_out_(&as_left_out<Struct>()), add_([](void* entries) -> void* {
               return &static_cast<std::vector<Struct>*>(entries)->emplace_back();
-          }) {}
+          }),
+          clear_([](void* entries) { static_cast<std::vector<Struct>*>(entries)->clear(); }) {}
     /// Of a table within a section whose keys are names, such as `areas = { rim = { … }, base = { … } }`:
     /// each is an entry of a list in the section's struct, which has its name in `name`.
     template <class Struct, class Entry>
@@ -128,6 +139,8 @@ class SectionHome {
     }
     /// The section's struct in `root`; of a list, a new entry of it.
     void* open(void* root) const { return is_list() ? add_(place_->in(root)) : place_->in(root); }
+    /// Takes out the entries of a list.
+    void clear(void* root) const { clear_(place_->in(root)); }
 
     const void* left_out_root() const { return place_ ? place_->left_out_struct() : nullptr; }
     const void* left_out_struct() const { return left_out_; }
@@ -138,6 +151,7 @@ class SectionHome {
     void* (*add_)(void* list) = nullptr;
     std::optional<MemberPlace> name_; ///< of entries by name
     bool is_one_ = false;
+    void (*clear_)(void* list) = nullptr;
 };
 
 /// A [section], the entries of a [[list]], or a table within one of them (`head = { … }` of an object).
@@ -147,9 +161,16 @@ struct Section {
     std::vector<Key> keys;
     std::string_view explanation = {};
     std::vector<Section> tables = {};
+    /// Of a list that is never empty: its only entry may be written as a [section] of this name.
+    std::string_view alone = {};
 
     bool is_list() const { return home.is_list(); }
-    std::string heading() const; ///< "[name]" or "[[name]]"
+    bool is_never_empty() const { return !alone.empty(); }
+    bool is_called(std::string_view heading) const {
+        return heading == name || (!alone.empty() && heading == alone);
+    }
+    std::string heading() const;      ///< "[name]" or "[[name]]"; "[alone]" of a list that may be one
+    std::string list_heading() const; ///< "[[name]]"
     /// The key of its own, and not of a table within it, that is called so; or null.
     const Key* find_key(std::string_view key) const;
 };

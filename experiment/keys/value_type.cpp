@@ -259,11 +259,11 @@ ValueResult read_value(const TomlValue& value, const KeyRule& rule, Boxes& out) 
     return std::nullopt;
 }
 
-using NamedNumbers = std::vector<std::pair<std::string, double>>;
+using NamedShares = std::vector<std::pair<std::string, double>>;
 
-ValueResult read_value(const TomlValue& value, const KeyRule& rule, NamedNumbers& out) {
+ValueResult read_value(const TomlValue& value, const KeyRule& rule, NamedShares& out) {
     if (!value.table())
-        return wrong_kind<NamedNumbers>(value, rule);
+        return wrong_kind<NamedShares>(value, rule);
     for (const TomlEntry& entry : *value.table()) {
         if (ValueResult fault = check_name(entry.key, entry.key_place, rule.name))
             return fault;
@@ -271,6 +271,56 @@ ValueResult read_value(const TomlValue& value, const KeyRule& rule, NamedNumbers
         if (ValueResult fault = read_value(entry.value, rule, number))
             return fault;
         out.emplace_back(entry.key, number);
+    }
+    return std::nullopt;
+}
+
+/// A word that goes into the cells of tables.
+ValueResult check_word(const TomlValue& value, const KeyRule& rule, std::string_view name,
+                       const std::string& word) {
+    const bool is_blank = word.find_first_not_of(' ') == std::string::npos;
+    if (!is_blank &&
+        std::none_of(word.begin(), word.end(), [](unsigned char character) { return character < 0x20; }))
+        return std::nullopt;
+    return ValueFault{
+        value.place,
+        fmt::format("{}.{}: {}", rule.name, name,
+                    is_blank ? "the word is empty" : "the word does not go into one cell of a table"),
+        "take letters, digits and signs on one line"};
+}
+
+ValueResult read_value(const TomlValue& value, const KeyRule& rule, NamedNumbers& out) {
+    if (!value.table())
+        return wrong_kind<NamedNumbers>(value, rule);
+    for (const TomlEntry& entry : *value.table()) {
+        NamedNumber& named = out.emplace_back(NamedNumber{entry.key});
+        if (ValueResult fault = read_value(entry.value, rule, named.number))
+            return fault;
+    }
+    return std::nullopt;
+}
+
+ValueResult read_value(const TomlValue& value, const KeyRule& rule, NamedWords& out) {
+    if (!value.table())
+        return wrong_kind<NamedWords>(value, rule);
+    for (const TomlEntry& entry : *value.table()) {
+        NamedWord& named = out.emplace_back(NamedWord{entry.key, {}, {}});
+        if (const auto* word = std::get_if<std::string>(&entry.value.content)) {
+            if (ValueResult fault = check_word(entry.value, rule, entry.key, *word))
+                return fault;
+            named.text = *word;
+            continue;
+        }
+        double number = 0.0;
+        const bool is_number = std::holds_alternative<double>(entry.value.content) ||
+                               std::holds_alternative<std::int64_t>(entry.value.content);
+        if (!is_number)
+            return ValueFault{entry.value.place, fmt::format("{}.{}: expected a word or a number, found {}",
+                                                             rule.name, entry.key, entry.value.kind())};
+        if (ValueResult fault = read_value(entry.value, rule, number))
+            return fault;
+        named.text = fmt::format("{}", number);
+        named.number = number;
     }
     return std::nullopt;
 }
@@ -312,9 +362,16 @@ Json three(const KeyRule& rule) { return list_of(number(rule), 3, 3); }
 Json spheres(const KeyRule& rule) { return list_of(list_of(number(rule), 4, 4), 0, 0); }
 Json planes(const KeyRule& rule) { return list_of(list_of(three(rule), 2, 2), 0, 0); }
 Json named_numbers(const KeyRule& rule) {
+    return {{"type", "object"}, {"additionalProperties", whole(rule)}};
+}
+Json named_shares(const KeyRule& rule) {
     return {{"type", "object"},
             {"propertyNames", {{"pattern", identifier_pattern}}},
             {"additionalProperties", number(rule)}};
+}
+Json named_words(const KeyRule& rule) {
+    return {{"type", "object"},
+            {"additionalProperties", {{"anyOf", {Json{{"type", "string"}}, number(rule)}}}}};
 }
 Json numbers(const KeyRule& rule) { return {{"anyOf", {number(rule), list_of(number(rule), 0, 0)}}}; }
 
@@ -389,8 +446,12 @@ constexpr ValueType truth_type = plain<bool>("true or false", truth), whole_type
                     planes_type = optional<std::vector<std::array<double, 6>>>(
                         "a list of planes [[x, y, z], [nx, ny, nz]]", planes),
                     boxes_type = optional<Boxes>("a list of boxes [[x, y, z], [x, y, z]]", planes),
+                    named_shares_type =
+                        optional<NamedShares>("a table of names with a number each", named_shares),
                     named_numbers_type =
-                        optional<NamedNumbers>("numbers by names { NAME = 0.5 }", named_numbers);
+                        optional<NamedNumbers>("a table of names with a whole number each", named_numbers),
+                    named_words_type =
+                        optional<NamedWords>("a table of names with a word or a number each", named_words);
 
 } // namespace
 
@@ -410,7 +471,7 @@ const ValueType& value_type(TypeTag<std::vector<std::string>>) { return texts_ty
 const ValueType& value_type(TypeTag<std::vector<std::array<double, 4>>>) { return spheres_type; }
 const ValueType& value_type(TypeTag<std::vector<std::array<double, 6>>>) { return planes_type; }
 const ValueType& value_type(TypeTag<Boxes>) { return boxes_type; }
-const ValueType& value_type(TypeTag<NamedNumbers>) { return named_numbers_type; }
+const ValueType& value_type(TypeTag<NamedShares>) { return named_shares_type; }
 
 ValueResult check_name(const std::string& name, Place place, std::string_view what) {
     constexpr std::size_t longest = 40;
@@ -420,6 +481,9 @@ ValueResult check_name(const std::string& name, Place place, std::string_view wh
     return ValueFault{place, fmt::format("{}: \"{}\" cannot be used in file names", what, name),
                       fmt::format("take 1 to {} of the letters a to z and A to Z, digits, - and _", longest)};
 }
+
+const ValueType& value_type(TypeTag<NamedNumbers>) { return named_numbers_type; }
+const ValueType& value_type(TypeTag<NamedWords>) { return named_words_type; }
 
 ValueResult read_choice(const TomlValue& value, const KeyRule& rule, std::size_t& index) {
     std::string name;

@@ -15,6 +15,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "experiment/base/enum_names.h"
+#include "experiment/base/named_words.h"
 #include "experiment/keys/key_rule.h"
 #include "experiment/keys/toml_tree.h"
 #include "experiment/units.h"
@@ -64,6 +65,9 @@ const ValueType& value_type(TypeTag<std::vector<std::pair<std::string, double>>>
 
 /// A name that the file gives to something: letters, digits, - and _, 40 at most. `what`: of which it is.
 ValueResult check_name(const std::string& name, Place place, std::string_view what);
+/// Tables of names that no table of keys knows. The rule holds for each value.
+const ValueType& value_type(TypeTag<NamedNumbers>);
+const ValueType& value_type(TypeTag<NamedWords>);
 
 /// A text that is one of the rule's choices: which.
 ValueResult read_choice(const TomlValue& value, const KeyRule& rule, std::size_t& index);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -71,12 +72,17 @@ class Presenter {
 
     virtual DisplayTiming timing() const = 0;
 
-    /// Puts the frames of a stimulus into the frame store, replacing those loaded before. Throws
-    /// GraphicsError or InputError.
-    virtual void load_frames(const Stimulus& stimulus) = 0;
+    /// Puts the frames of these stimuli into the frame store, replacing those loaded before; each will be
+    /// shown in its slot. Throws GraphicsError or InputError.
+    virtual void load_slots(std::span<const PlacedStimulus> shown) = 0;
+    /// The same of one stimulus, in the first slot.
+    void load_frames(const Stimulus& stimulus) {
+        const PlacedStimulus only{stimulus};
+        load_slots({&only, 1});
+    }
 
-    /// The stimulus that will be loaded next: a presenter may begin with it now, in the background.
-    virtual void expect_frames(const Stimulus& /*stimulus*/) noexcept {}
+    /// What will be loaded next: a presenter may begin with it now, in the background.
+    virtual void expect_slots(std::span<const PlacedStimulus> /*shown*/) noexcept {}
     /// Called repeatedly while the screen stands still: a presenter may use a few milliseconds for work that
     /// it has put off.
     virtual void use_spare_time() noexcept {}
@@ -89,9 +95,12 @@ class Presenter {
     /// between a presentation's first and last flip.
     virtual void show_level(const LevelBar& /*bar*/) {}
 
-    /// Shows a frame of the loaded stimulus at the next refresh and returns when that refresh has begun.
-    /// Allocates, opens and throws nothing.
-    virtual FlipReport flip(AnimationFrameIndex frame) noexcept = 0;
+    /// Shows a frame of each loaded stimulus in its slot at the next refresh, of all at the same one, and
+    /// returns when that refresh has begun; no_frame leaves a slot empty. `frames` are as many as were
+    /// loaded, in their order. Allocates, opens and throws nothing.
+    virtual FlipReport flip_slots(std::span<const AnimationFrameIndex> frames) noexcept = 0;
+    /// The same of the only stimulus.
+    FlipReport flip(AnimationFrameIndex frame) noexcept { return flip_slots({&frame, 1}); }
 
     /// Raises these digital outputs of the display box, a bit each, with the refresh that the next flip()
     /// lights, for this long; in the modes that carry them, else nothing. Allocates and throws nothing.

@@ -17,7 +17,7 @@ constexpr SessionDuration between_looks = std::chrono::milliseconds(4);
 
 } // namespace
 
-void AnswerTaking::take(const Trial& trial, const std::optional<Stimulus>& next, bool is_practice,
+void AnswerTaking::take(const Trial& trial, const std::optional<Trial>& next, bool is_practice,
                         TrialOutcome& outcome) {
     const ScreenSettings& screens = state_.protocol.screens;
     SessionPorts& ports = state_.ports;
@@ -30,7 +30,7 @@ void AnswerTaking::take(const Trial& trial, const std::optional<Stimulus>& next,
     if (recording)
         recording->response_screen_lit(outcome.response_screen_onset);
     if (next)
-        ports.presenter.expect_frames(*next);
+        ports.presenter.expect_slots(next->all_shown());
     Waiting waiting{.screen = screen,
                     .onset = outcome.response_screen_onset,
                     .min_s = screens.response_min_s,

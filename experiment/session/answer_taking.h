@@ -12,8 +12,7 @@ class AnswerTaking {
 
     /// Shows the trial's response screen until it is answered or its time is up. `next`: whose frames are
     /// loaded meanwhile. In practice no voice is recorded.
-    void take(const Trial& trial, const std::optional<Stimulus>& next, bool is_practice,
-              TrialOutcome& outcome);
+    void take(const Trial& trial, const std::optional<Trial>& next, bool is_practice, TrialOutcome& outcome);
 
   private:
     void keep(AnswerRecording& recording);

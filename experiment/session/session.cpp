@@ -141,14 +141,14 @@ void Session::run_instructions(const SessionStep& step) {
     read_text(state_, control_, block.instructions, "instructions of block " + block.id);
 }
 
-void Session::run_practice(const SessionStep& step, const std::optional<Stimulus>& next) {
+void Session::run_practice(const SessionStep& step, const std::optional<Trial>& next) {
     const Trial& trial = step.trial;
     const PracticeSettings& practice = state_.protocol.practice[static_cast<std::size_t>(trial.index)];
     TrialRun::Attempt attempt;
     do {
         state_.record().event({state_.now(), -1, practice_event,
-                               fmt::format("{}: {}, {}, {}", trial.index + 1, practice.task, practice.object,
-                                           practice.material)});
+                               fmt::format("{}: {}, {}", trial.index + 1, practice.task,
+                                           stimulus_in_words(state_.protocol, trial.stimulus))});
         state_.set_practice(true);
         attempt = trials_.run(trial, next, true);
         state_.set_practice(false);

@@ -8,6 +8,7 @@
 #include "experiment/base/counted.h"
 #include "experiment/ports/event_kinds.h"
 #include "experiment/ports/trial_mark.h"
+#include "experiment/protocol/all_stimuli.h"
 #include "experiment/session/session_screens.h"
 
 namespace overt {
@@ -23,25 +24,31 @@ constexpr double shortest_sleep_s = 0.005;
 /// half is that, more is a step.
 constexpr double smallest_wall_step_s = 0.1;
 
+void tell_of_flip(PresentationListener& listener, const FlipRecord& flip,
+                  std::span<const SlotFlip> beside) noexcept {
+    listener.flipped(flip);
+    for (const SlotFlip& of_slot : beside)
+        listener.slot_flipped(of_slot);
+}
+
 } // namespace
 
 TrialRun::TrialRun(SessionState& state, OperatorControl& control, const ScreenPoint& screen_centre)
     : state_(state), control_(control), drift_checks_(state, control, screen_centre),
       answers_(state, control),
-      cycle_(make_page_cycle(state.protocol.animation, state.protocol.display.refresh_hz)),
-      ledger_(cycle_, state.protocol.animation.when_late) {
+      cycles_(page_cycles(state.protocol)), ledger_(cycles_.front(), WhenLate::drop) {
     for (UsedTracker& used : state.trackers())
         feeds_.push_back({used, TrackerFeed(used.tracker)});
 }
 
-TrialRun::Attempt TrialRun::run(const Trial& trial, const std::optional<Stimulus>& next, bool is_practice) {
+TrialRun::Attempt TrialRun::run(const Trial& trial, const std::optional<Trial>& next, bool is_practice) {
     Attempt attempt;
     attempt.outcome.status = TrialOutcome::Status::aborted;
     control_.begin_trial();
     state_.write_down();
     state_.markers.begin_trial(trial, is_practice);
     state_.enter(SessionPhase::trial, is_practice ? -1 : trial.index);
-    state_.ports.presenter.load_frames(trial.stimulus);
+    state_.ports.presenter.load_slots(trial.all_shown());
     state_.log().trial_started(trial, state_.now());
     // Practice has numbers of its own.
     mark(MarkedEvent::trial, state_.now(),
@@ -104,10 +111,16 @@ void TrialRun::present(const Trial& trial, Attempt& attempt) {
     wait_and_take_items(trial.index, state_.now() + lead);
     for (PresentationListener* listener : ports.listeners)
         listener->presentation_begins(trial);
+    std::vector<PageCycle> cycles_beside;
+    for (const PlacedStimulus& further : trial.beside)
+        cycles_beside.push_back(cycles_[static_cast<std::size_t>(further.stimulus.motion)]);
+    slots_.begin(trial.index, std::move(cycles_beside));
     ports.presenter.take_swap_modes(); // those before are not the presentation's
 
     const auto is_broken_off = [&] { return pressed_ && pressed_->key == ResponsePress::Key::abort; };
     // From here to the last flip nothing allocates, opens, throws or formats.
+    ledger_ = RefreshLedger(cycles_[static_cast<std::size_t>(trial.stimulus.motion)],
+                            state_.protocol.motion_of(trial.stimulus).when_late);
     ledger_.begin(trial.index);
     state_.markers.begin_presentation();
     while (!ledger_.is_complete() && !state_.went_away() && !is_broken_off() &&
@@ -116,15 +129,19 @@ void TrialRun::present(const Trial& trial, Attempt& attempt) {
         take_items(trial.index);
         // Show the frame that the plan has next, and learn when it was lit.
         state_.markers.before_flip(ledger_.next_refresh(), ledger_.next().frame, ports.presenter);
-        const FlipRecord& flip = ledger_.enter(ports.presenter.flip(ledger_.next().frame));
+        const FlipRecord& flip = ledger_.enter(
+            ports.presenter.flip_slots(slots_.frames(ledger_.next().frame, ledger_.next_refresh())));
         // Record what was shown at each refresh, and tell the listeners.
         for (int i = 0; i < ledger_.missed_count(); ++i)
             log.missed(ledger_.missed(i));
         log.flip(flip);
+        const std::span<const SlotFlip> beside = slots_.enter(flip);
+        for (const SlotFlip& of_slot : beside)
+            log.slot_flip(of_slot);
         mark_flip(flip);
         state_.markers.flipped(flip);
-        for (PresentationListener* listener : ports.listeners)
-            listener->flipped(flip);
+        for (PresentationListener* const listener : ports.listeners)
+            tell_of_flip(*listener, flip, beside);
         // Remember what the operator pressed, here or at the tracker's host.
         look_at_keys();
         own.look_at_state();

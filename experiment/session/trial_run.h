@@ -10,6 +10,7 @@
 #include "experiment/session/drift_checks.h"
 #include "experiment/session/tracker_feed.h"
 #include "experiment/timing/refresh_ledger.h"
+#include "experiment/timing/slot_cycles.h"
 
 namespace overt {
 
@@ -23,10 +24,10 @@ class TrialRun {
         TrialOutcome outcome; ///< status is aborted until the session has judged the attempt
         AttemptResult result;
     };
-    /// `next`: the stimulus that probably comes after it. `is_practice`: its events are noted outside of
+    /// `next`: what probably comes after it. `is_practice`: its events are noted outside of
     /// trials, and no answer is recorded. Throws GraphicsError or RecordError for what breaks between its
     /// presentations; what happens in one, or to the tracker, is in the outcome.
-    Attempt run(const Trial& trial, const std::optional<Stimulus>& next, bool is_practice);
+    Attempt run(const Trial& trial, const std::optional<Trial>& next, bool is_practice);
 
   private:
     void ask(const Trial& trial, Attempt& attempt);
@@ -52,8 +53,9 @@ class TrialRun {
     OperatorControl& control_;
     DriftChecks drift_checks_;
     AnswerTaking answers_;
-    PageCycle cycle_;
+    std::vector<PageCycle> cycles_; ///< by motion
     RefreshLedger ledger_;
+    SlotCycles slots_;
     /// Of one tracker of the session.
     struct Feed {
         UsedTracker& used;

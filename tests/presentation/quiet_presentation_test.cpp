@@ -30,14 +30,14 @@ class NotingPresenter final : public Presenter {
     int flips = 0;
 
     DisplayTiming timing() const override { return refresh_->timing(); }
-    void load_frames(const Stimulus&) override {}
+    void load_slots(std::span<const PlacedStimulus>) override {}
     FlipReport show(const Screen&) override {
         if (in_presentation_)
             presentations.push_back(test::calls - at_first_flip_);
         in_presentation_ = false;
         return refresh_->next();
     }
-    FlipReport flip(AnimationFrameIndex) noexcept override {
+    FlipReport flip_slots(std::span<const AnimationFrameIndex>) noexcept override {
         if (!in_presentation_)
             at_first_flip_ = test::calls;
         in_presentation_ = true;
@@ -77,8 +77,8 @@ void run_quietly(const DisplayFaults& faults) {
     Schedule schedule;
     schedule.trials = {{0, 0, {}}, {1, 1, {}}, {2, 0, {}}};
     SessionHeader header = testing::example_header();
-    header.animation = protocol.animation;
-    header.poses = distinct_poses(protocol.animation);
+    header.animations[0] = protocol.motions.front();
+    header.poses = distinct_poses(protocol.motions.front());
     const auto session = testing::make_session(root.path(), header);
     {
         SessionStore store(session / session_file_name, testing::patient());

@@ -186,7 +186,7 @@ void WatchPanels::draw_saliency(const ViewText& text, const WatchedSession& sess
     draws.AddText({at.x + room.x - ImGui::CalcTextSize(total.c_str()).x - 6.0f, at.y + room.y - 22.0f},
                   IM_COL32(160, 160, 160, 255), total.c_str());
     float down = at.y + 6.0f;
-    for (const SaliencyMap::AreaShare& area : map->areas) {
+    for (const AreaTally::Share& area : map->areas) {
         if (down > at.y + room.y - 50.0f)
             break;
         const std::string words = fmt::format("{} {:.0f} %", area.area, 100.0 * area.share);

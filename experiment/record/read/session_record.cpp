@@ -24,12 +24,18 @@ void check_indices(const SessionHeader& header, const std::vector<TrialRecord>& 
     };
     for (const TrialRecord& record : trials) {
         const Trial& trial = record.trial;
-        if (!within(trial.task, header.tasks.size()) ||
-            !within(trial.stimulus.object, header.objects.size()) ||
-            !within(trial.stimulus.material, header.materials.size()))
-            throw RecordError(fmt::format("{}: table trial, trial_id {}: it names a task, object or material "
-                                          "that the session does not have: the file is damaged.",
-                                          file.string(), record.id));
+        bool is_known = within(trial.task, header.tasks.size());
+        for (std::size_t i = 0; i < trial.shown_count(); ++i) {
+            const auto [stimulus, slot] = trial.shown(i);
+            is_known = is_known && within(stimulus.object, header.objects.size()) &&
+                       within(stimulus.material, header.materials.size()) &&
+                       within(slot, header.slots.size());
+        }
+        if (!is_known)
+            throw RecordError(
+                fmt::format("{}: table trial, trial_id {}: it names a task, object, material or "
+                            "slot that the session does not have: the file is damaged.",
+                            file.string(), record.id));
     }
 }
 
@@ -55,6 +61,31 @@ SessionRecord::SessionRecord(const std::filesystem::path& session)
 SessionRecord::~SessionRecord() = default;
 SessionRecord::SessionRecord(SessionRecord&&) noexcept = default;
 SessionRecord& SessionRecord::operator=(SessionRecord&&) noexcept = default;
+
+TrialRecord TrialRecord::seen_in(std::size_t i) const {
+    OVERT_EXPECTS(place == 0 && i < trial.shown_count());
+    TrialRecord seen = *this;
+    seen.place = static_cast<int>(i);
+    seen.trial.beside.clear();
+    for (std::size_t k = 0; k < trial.shown_count(); ++k) {
+        const PlacedStimulus shown = trial.shown(k);
+        if (k != i) {
+            seen.trial.beside.push_back(shown);
+        } else {
+            seen.trial.stimulus = shown.stimulus;
+            seen.trial.slot = shown.slot;
+        }
+    }
+    return seen;
+}
+
+std::vector<TrialRecord> SessionRecord::presentations() const {
+    std::vector<TrialRecord> all;
+    for (const TrialRecord& trial : trials_)
+        for (std::size_t i = 0; i < trial.trial.shown_count(); ++i)
+            all.push_back(trial.seen_in(i));
+    return all;
+}
 
 std::vector<RecordedEvent> SessionRecord::events() const {
     std::vector<RecordedEvent> events;

@@ -63,6 +63,12 @@ struct TrialRecord {
     /// programs.
     std::string response_key = {};
 
+    /// Which of what the trial showed this is about; the others are in trial.beside. See seen_in().
+    int place = 0;
+
+    /// The attempt as the presentation of one stimulus in its slot, 0 <= i < trial.shown_count(): that
+    /// stimulus is the trial's, in its slot, and the others are beside it. Its flips are that slot's.
+    TrialRecord seen_in(std::size_t i) const;
     /// It came to its end, in order or not.
     bool has_outcome() const { return status == Status::completed || status == Status::aborted; }
     /// It got to the screen, or the answer, that its outcome has at this time: those that it did not get to,
@@ -105,6 +111,9 @@ class SessionRecord {
 
     /// All attempts, in the order in which they were made.
     const std::vector<TrialRecord>& trials() const { return trials_; }
+
+    /// All presentations of stimuli, a row for each slot of an attempt, in the order of trials().
+    std::vector<TrialRecord> presentations() const;
 
     /// In the order in which they were written. Which refreshes were missed is told by ledger(): the record's
     /// rows of them are what the presenting program knew at once.
@@ -220,7 +229,7 @@ class SessionRecord {
     std::optional<TrialLedger> ledger(const TrialRecord& trial) const;
 
     /// A trial's frames as they were lit on this session's display, at the times of the ledger's line.
-    FlipHistory flip_history(const std::optional<TrialLedger>& ledger) const;
+    FlipHistory flip_history(const TrialRecord& trial, const std::optional<TrialLedger>& ledger) const;
 
     /// The latest session time that any row names: from here on a resumed session's clock may go on.
     SessionTime last_time() const;

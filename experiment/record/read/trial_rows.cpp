@@ -86,6 +86,30 @@ void add_response_keys(const SQLite::Database& database, std::vector<TrialRecord
     }
 }
 
+/// Which slots it shows stimuli in. Sessions of earlier programs have one.
+void add_slots(const SQLite::Database& database, std::vector<TrialRecord>& trials) {
+    if (!has_table(database, "presentation"))
+        return;
+    auto trial = trials.begin(); // both by trial_id
+    for (Query row(database,
+                   "SELECT trial_id, place, slot, object, material, light, motion, view FROM presentation "
+                   "WHERE place > 0 OR slot <> 0 ORDER BY trial_id, place");
+         row.step();) {
+        const std::int64_t id = row.integer();
+        const int place = row.small();
+        PlacedStimulus shown;
+        row.read(shown.slot, shown.stimulus.object, shown.stimulus.material, shown.stimulus.light,
+                 shown.stimulus.motion, shown.stimulus.view);
+        trial = std::ranges::find(trial, trials.end(), id, &TrialRecord::id);
+        if (trial == trials.end())
+            return;
+        if (place == 0)
+            trial->trial.slot = shown.slot;
+        else
+            trial->trial.beside.push_back(shown);
+    }
+}
+
 void add_gaze(const SQLite::Database& database, std::vector<TrialRecord>& trials) {
     if (!has_table(database, "trial_gaze"))
         return;
@@ -138,6 +162,7 @@ std::vector<TrialRecord> read_trials(const SQLite::Database& database) {
     add_swap_modes(database, trials);
     add_response_keys(database, trials);
     add_gaze(database, trials);
+    add_slots(database, trials);
     return trials;
 }
 

@@ -36,7 +36,7 @@ void add_maps(std::string& text, const StudyResults& results, const StudyOptions
 std::string words_of_areas(const std::vector<std::string>& areas) {
     if (areas.size() == 1)
         return areas.front() == head_area ? "the head" : fmt::format("the area {}", areas.front());
-    return fmt::format("the areas {}", listed(areas));
+    return fmt::format("the areas {}", joined_words(areas));
 }
 
 void add_areas(std::string& text, const StudyResults& results) {
