@@ -82,9 +82,14 @@ ValueResult read_value(const TomlValue& value, const KeyRule& rule, Degrees& out
     return read_value(value, rule, out.value);
 }
 
+/// A point stands within, as in a number.
+bool has_points_within(const std::string& text) {
+    return text.front() != '.' && text.back() != '.' && text.find("..") == std::string::npos;
+}
+
 bool is_identifier_character(char character) {
     return (character >= 'a' && character <= 'z') || (character >= 'A' && character <= 'Z') ||
-           (character >= '0' && character <= '9') || character == '-' || character == '_';
+           (character >= '0' && character <= '9') || character == '-' || character == '_' || character == '.';
 }
 
 ValueResult read_value(const TomlValue& value, const KeyRule& rule, std::string& out) {
@@ -325,11 +330,19 @@ ValueResult read_value(const TomlValue& value, const KeyRule& rule, NamedWords& 
     return std::nullopt;
 }
 
+ValueResult read_value(const TomlValue& value, const KeyRule& rule, Series& out) {
+    if (!value.table())
+        return wrong_kind<Series>(value, rule);
+    for (const TomlEntry& entry : *value.table())
+        out.keys.push_back(entry.key);
+    return std::nullopt;
+}
+
 // JSON Schema.
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* identifier_pattern = "^[A-Za-z0-9_-]{1,40}$";
+constexpr const char* identifier_pattern = "^(?=.{1,40}$)[A-Za-z0-9_-]+(\\.[A-Za-z0-9_-]+)*$";
 
 /// A bound without a point where it has none, as whole numbers have to be written.
 Json bound(double value) {
@@ -372,6 +385,9 @@ Json named_shares(const KeyRule& rule) {
 Json named_words(const KeyRule& rule) {
     return {{"type", "object"},
             {"additionalProperties", {{"anyOf", {Json{{"type", "string"}}, number(rule)}}}}};
+}
+Json series(const KeyRule&) {
+    return {{"type", "object"}, {"additionalProperties", {{"type", "array"}, {"minItems", 1}}}};
 }
 Json numbers(const KeyRule& rule) { return {{"anyOf", {number(rule), list_of(number(rule), 0, 0)}}}; }
 
@@ -451,7 +467,8 @@ constexpr ValueType truth_type = plain<bool>("true or false", truth), whole_type
                     named_numbers_type =
                         optional<NamedNumbers>("a table of names with a whole number each", named_numbers),
                     named_words_type =
-                        optional<NamedWords>("a table of names with a word or a number each", named_words);
+                        optional<NamedWords>("a table of names with a word or a number each", named_words),
+                    series_type = optional<Series>("a table of keys with a list each", series);
 
 } // namespace
 
@@ -476,14 +493,17 @@ const ValueType& value_type(TypeTag<NamedShares>) { return named_shares_type; }
 ValueResult check_name(const std::string& name, Place place, std::string_view what) {
     constexpr std::size_t longest = 40;
     if (!name.empty() && name.size() <= longest &&
-        std::all_of(name.begin(), name.end(), is_identifier_character))
+        std::all_of(name.begin(), name.end(), is_identifier_character) && has_points_within(name))
         return std::nullopt;
-    return ValueFault{place, fmt::format("{}: \"{}\" cannot be used in file names", what, name),
-                      fmt::format("take 1 to {} of the letters a to z and A to Z, digits, - and _", longest)};
+    return ValueFault{
+        place, fmt::format("{}: \"{}\" cannot be used in file names", what, name),
+        fmt::format("take 1 to {} of the letters a to z and A to Z, digits, - and _, with points within",
+                    longest)};
 }
 
 const ValueType& value_type(TypeTag<NamedNumbers>) { return named_numbers_type; }
 const ValueType& value_type(TypeTag<NamedWords>) { return named_words_type; }
+const ValueType& value_type(TypeTag<Series>) { return series_type; }
 
 ValueResult read_choice(const TomlValue& value, const KeyRule& rule, std::size_t& index) {
     std::string name;

@@ -68,6 +68,7 @@ ValueResult check_name(const std::string& name, Place place, std::string_view wh
 /// Tables of names that no table of keys knows. The rule holds for each value.
 const ValueType& value_type(TypeTag<NamedNumbers>);
 const ValueType& value_type(TypeTag<NamedWords>);
+const ValueType& value_type(TypeTag<Series>);
 
 /// A text that is one of the rule's choices: which.
 ValueResult read_choice(const TomlValue& value, const KeyRule& rule, std::size_t& index);

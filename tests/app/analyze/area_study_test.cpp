@@ -108,7 +108,8 @@ TEST_CASE("four areas of a protocol go through a whole study, planted shares com
     CHECK(TsvFile(study / "groups/area_transitions.tsv").size() > 0);
     const auto text = [&](const char* file) { return overt::read_whole_file(study / "groups" / file); };
     for (const char* const file : {"dictionary.json", "study.json", "trials.tsv", "fixations.tsv"})
-        CHECK(text(file).find("head") == std::string::npos);
+        CHECK(text(file).find("on the head") == std::string::npos);
+    CHECK(text("trials.tsv").find("head") == std::string::npos);
     CHECK(text("report.html").find("No object has") == std::string::npos);
     const ProgramRun refused =
         experiment.overt({"analyze", "--area", "nose", "--out", (study / "x").string(), arguments.back()});

@@ -209,7 +209,8 @@ TEST_CASE("objects without areas have no shares of any, no text speaks of heads,
          {"figure4_area_share", "areas", "area_transitions", "area_pairs", "time_course"})
         CHECK_FALSE(fs::exists(out / (std::string(table) + ".tsv")));
     for (const char* const file : {"dictionary.json", "study.json", "trials.tsv", "fixations.tsv"})
-        CHECK(text_of(out / file).find("head") == std::string::npos);
+        CHECK(text_of(out / file).find("on the head") == std::string::npos);
+    CHECK(text_of(out / "trials.tsv").find("head") == std::string::npos);
     CHECK(TsvFile(out / "maps.tsv").size() > 0);
 }
 

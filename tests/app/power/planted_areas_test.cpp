@@ -9,7 +9,7 @@
 #include "app/power/power_simulation.h"
 #include "devices/simulated/gaze_plan.h"
 #include "experiment/study/area_shares.h"
-#include "experiment/study/area_transitions.h"
+#include "experiment/study/surface_transitions.h"
 #include "tests/support/figures.h"
 
 using namespace overt;
@@ -40,7 +40,7 @@ Experiment four_balls() {
         task.simulated_area_shares.emplace_back(area.name, area.share);
     protocol.tasks = {task};
     protocol.schedule.max_object_run = 0;
-    protocol.view.width_px = protocol.view.height_px = 512;
+    protocol.views.front().width_px = protocol.views.front().height_px = 512;
     Object balls;
     balls.id = "balls";
     test::add_part(balls.mesh, test::box({-20.0, -10.0, 0.0}, {20.0, 10.0, 300.0}), "body");
@@ -48,7 +48,7 @@ Experiment four_balls() {
         test::add_part(balls.mesh, test::ball({i % 2 ? 80.0 : -80.0, -10.0, i < 2 ? 220.0 : 80.0}, 55.0),
                        planted[i].name);
     const View view{fit_camera(balls.mesh, {11.9}, {512, 512}, {25.0}, 0.06), {512, 512}};
-    balls.scene = {view, balls.mesh.bounds()};
+    balls.scenes = {{view, balls.mesh.bounds()}};
     experiment.objects.push_back(std::move(balls));
     return experiment;
 }
@@ -80,14 +80,14 @@ TEST_CASE(
     for (int number = 0; number < count; ++number) {
         const StudyResults results = study_of(studies, static_cast<std::uint64_t>(number), observers);
         const auto rows = area_rows(results, {}, options);
-        const auto moves = area_transitions(results, {}, options);
+        const auto moves = surface_transitions(results, {}, options);
         for (std::size_t i = 0; i < std::size(planted); ++i) {
             const auto row = std::ranges::find(rows, planted[i].name, &AreaRow::area);
             REQUIRE(row != rows.end());
             shares += row->by_count.interval->contains(planted[i].share);
             means[i] += *row->by_count.value / count;
             for (const PlantedArea& from : planted) {
-                const auto move = std::ranges::find_if(moves, [&](const AreaTransitionRow& of) {
+                const auto move = std::ranges::find_if(moves, [&](const SurfaceTransitionRow& of) {
                     return of.from == from.name && of.to == planted[i].name;
                 });
                 REQUIRE(move != moves.end());
@@ -140,7 +140,10 @@ TEST_CASE("odds on one area take from all else in proportion", "[unit]") {
     ObservedScene scene;
     scene.areas = {"head", "rim", "base"};
     scene.tasks = {{"free", {0.0, 0.4, 0.2}}};
-    scene.effects = {{.material = 1, .area = 1, .odds = 3.0}};
+    scene.effects.resize(1);
+    scene.effects[0].entries[1] = {false, true};
+    scene.effects[0].area = 1;
+    scene.effects[0].odds = 3.0;
     const GazePlan plain = gaze_plan(scene, 1, 0, {0, 0}), changed = gaze_plan(scene, 1, 0, {0, 1});
     CHECK(plain.shares[1] == 0.4);
     CHECK(plain.shares[2] == 0.2);

@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -18,6 +19,18 @@ ObservedScene scene_with(std::vector<ObservedEffect> effects, double sd = 0.0) {
     scene.effects = std::move(effects);
     scene.share_sd = sd;
     return scene;
+}
+
+/// For each list, the entries of a scene of three that an effect holds in; -1: all.
+std::array<std::vector<bool>, stimulus_lists.size()> entries(int object, int material) {
+    std::array<std::vector<bool>, stimulus_lists.size()> chosen;
+    for (const auto& [list, entry] : {std::pair{0, object}, {1, material}}) {
+        if (entry >= 0) {
+            chosen[static_cast<std::size_t>(list)].assign(3, false);
+            chosen[static_cast<std::size_t>(list)][static_cast<std::size_t>(entry)] = true;
+        }
+    }
+    return chosen;
 }
 
 /// The middle of a mesh by area, a plinth's counting a tenth, and the mean square distance from it.
@@ -48,8 +61,8 @@ double logit(double share) { return std::log(share / (1.0 - share)); }
 } // namespace
 
 TEST_CASE("effects multiply the odds of the head in their trials, and in no others", "[unit]") {
-    const ObservedScene scene =
-        scene_with({{.task = 0, .material = 1, .odds = 2.0}, {.object = 2, .odds = 3.0}});
+    const ObservedScene scene = scene_with(
+        {{.task = 0, .entries = entries(-1, 1), .odds = 2.0}, {.entries = entries(2, -1), .odds = 3.0}});
     const auto share = [&](int task, Stimulus stimulus) {
         return gaze_plan(scene, 7, task, stimulus).shares[0];
     };
@@ -88,7 +101,7 @@ TEST_CASE("an effect's spot gets its share of the fixations, the same spot of ev
     for (const std::uint64_t seed : {1u, 2u}) {
         const Sitting plain(seed);
         ObservedScene scene = plain.observer.scene();
-        scene.effects = {{.material = 0, .spot_share = 0.3}};
+        scene.effects = {{.entries = entries(-1, 0), .spot_share = 0.3}};
         const double radius = GazeTargets::spot_radius * plain.mesh.bounds().extent().z;
         SimulatedObserver observer(scene, seed);
         // Where fixations of a plan that goes nowhere else lie.
