@@ -9,7 +9,7 @@
 #include "devices/simulated/gaze_targets.h"
 #include "experiment/base/parallel.h"
 #include "experiment/base/random.h"
-#include "experiment/scene/mesh_parts.h"
+#include "experiment/scene/making/mesh_parts.h"
 #include "experiment/statistics/point_spread.h"
 
 namespace overt {

@@ -18,7 +18,7 @@
 #include "experiment/base/scratch_folder.h"
 #include "experiment/record/header_rows.h"
 #include "experiment/record/session_schema.h"
-#include "experiment/scene/ply_writer.h"
+#include "experiment/scene/files/ply_writer.h"
 
 namespace overt {
 

@@ -6,7 +6,7 @@
 #include "app/inputs/protocol_file.h"
 #include "experiment/base/error.h"
 #include "experiment/checks/checked_protocol.h"
-#include "experiment/scene/metal_table.h"
+#include "experiment/spectra/metal_table.h"
 #include "experiment/stimulus/object_size.h"
 #include "render/image/light_probe.h"
 #include "render/image/linear_image.h"

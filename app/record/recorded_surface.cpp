@@ -6,7 +6,7 @@
 
 #include "experiment/base/content_hash.h"
 #include "experiment/base/error.h"
-#include "experiment/scene/mesh_reader.h"
+#include "experiment/scene/files/mesh_reader.h"
 #include "experiment/stimulus/object.h"
 
 namespace overt {

@@ -7,6 +7,7 @@
 #include "app/rig/response_devices.h"
 #include "app/rig/tracker_devices.h"
 #include "app/rig/video_check.h"
+#include "devices/simulated/faulty_tracker.h"
 #include "devices/simulated/operator_script.h"
 #include "devices/simulated/simulated_observer.h"
 #include "experiment/base/error.h"
@@ -150,6 +151,21 @@ void Rig::open_further_trackers() {
                                        request_.virtual_time)
                               .tracker;
     }
+}
+
+std::vector<StruckFault> Rig::take_struck_faults() {
+    std::vector<StruckFault> struck;
+    if (const VirtualRefresh* display = display_.virtual_refresh())
+        for (const DisplayFault& fault : display->struck())
+            struck.push_back(
+                {false, fault.kind == DisplayFault::Kind::skip
+                            ? fmt::format("skip of {} at refresh {}", fault.refreshes, fault.refresh)
+                            : fmt::format("{} by {:.3f} ms at refresh {}", name_of(fault.kind),
+                                          fault.amount_ms, fault.refresh)});
+    if (faulty_tracker_)
+        for (std::string& fault : faulty_tracker_->take_struck())
+            struck.push_back({true, std::move(fault)});
+    return struck;
 }
 
 AnswerEquipment Rig::answer_equipment() const {

@@ -9,7 +9,7 @@
 #include "experiment/protocol/protocol_keys.h"
 #include "experiment/record/header_rows.h"
 #include "experiment/record/session_schema.h"
-#include "experiment/scene/ply_writer.h"
+#include "experiment/scene/files/ply_writer.h"
 
 namespace overt {
 

@@ -9,7 +9,7 @@
 #include "app/stimuli/picture_window.h"
 #include "app/stimuli/stimulus_commands.h"
 #include "experiment/base/error.h"
-#include "experiment/scene/mesh_reader.h"
+#include "experiment/scene/files/mesh_reader.h"
 #include "experiment/scene/ray_caster.h"
 #include "render/gl/headless_context.h"
 #include "render/stimulus/live_view.h"

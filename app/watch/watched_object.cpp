@@ -7,7 +7,7 @@
 #include "experiment/base/error.h"
 #include "experiment/maps/sight_lines.h"
 #include "experiment/record/read/session_record.h"
-#include "experiment/scene/mesh_reader.h"
+#include "experiment/scene/files/mesh_reader.h"
 
 namespace overt {
 

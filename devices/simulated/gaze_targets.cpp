@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "experiment/scene/mesh_parts.h"
+#include "experiment/scene/making/mesh_parts.h"
 
 namespace overt {
 

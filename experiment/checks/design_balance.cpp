@@ -8,6 +8,7 @@
 #include "experiment/design/block_plan.h"
 #include "experiment/design/latin_square.h"
 #include "experiment/design/observer_groups.h"
+#include "experiment/design/task_trials.h"
 
 namespace overt {
 

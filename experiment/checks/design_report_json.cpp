@@ -86,6 +86,7 @@ Json to_json(const DesignReport& report) {
               {"observers", report.observers},
               {"practice_trials", report.practice_trials}};
     json["blocks"] = blocks_json(report);
+    json["trials"] = to_json(report.trials);
     json["groups"] = groups_json(report);
     json["animation"] = {{"frames", animation.frames},
                          {"distinct_poses", animation.distinct_poses},

@@ -57,6 +57,26 @@ void add_blocks(std::string& text, const DesignReport& report) {
     add_facts(text, "Groups", lines);
 }
 
+/// Each task in each block, in words.
+void add_trials(std::string& text, const DesignReport& report) {
+    constexpr std::size_t widest = 86;
+    std::vector<std::string> lines;
+    for (const TaskWords& words : report.trials) {
+        std::string line = fmt::format("{}{}: {}, {:.1f} min", words.block.empty() ? "" : words.block + ", ",
+                                       words.task, counted(words.trials, "trial"), words.length_s / 60.0);
+        for (const std::string& sentence : words.sentences) {
+            line += ";";
+            if (line.size() + 1 + sentence.size() > widest) {
+                lines.push_back(line);
+                line = " ";
+            }
+            line += " " + sentence;
+        }
+        lines.push_back(line);
+    }
+    add_facts(text, "Trials", lines);
+}
+
 /// Only where several factors go round, for those have to be told apart.
 void add_rotations(std::string& text, const DesignReport& report) {
     for (const RotationFacts& group : report.rotations) {
@@ -97,6 +117,7 @@ void add_overview(std::string& text, const DesignReport& report) {
                          : "",
                      counted(report.trials_per_observer, "trial"), counted(report.observers, "observer"))});
     add_blocks(text, report);
+    add_trials(text, report);
     add_rotations(text, report);
     add_facts(
         text, "Animation",

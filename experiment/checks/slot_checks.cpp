@@ -4,6 +4,7 @@
 
 #include "experiment/checks/protocol_checks.h"
 #include "experiment/protocol/entry_ids.h"
+#include "experiment/stimulus/frame_memory.h"
 #include "experiment/stimulus/photodiode_patch.h"
 
 namespace overt {
@@ -93,6 +94,11 @@ void check_slot_place(ProtocolExamination& examination, const Slot& slot) {
                           rows == 1 ? "row" : fmt::format("{} rows", rows)),
               "place it lower");
     }
+    const int reach = pair_reach_px(display);
+    if (reach > 0 && (first.x < reach || end.x + reach > display.width_px))
+        error(fmt::format(", where pair_filter = \"{}\" reaches {} px beyond and over the edge of the screen",
+                          name_of(display.pair_filter), reach),
+              "place it nearer to the middle, or take pair_filter = \"box\"");
     const std::optional<PatchPlace> patch = photodiode_patch_of(display);
     if (patch && come_closer(first, end, patch->origin_px, patch->end_px(), patch_distance_px))
         error(fmt::format(", closer than {} px to the square for a photodiode", patch_distance_px),
@@ -135,7 +141,7 @@ void check_slots_apart(ProtocolExamination& examination, const std::string& path
             }
             const ScreenGeometry other = slot_geometry(protocol, slot_at(j));
             if (!come_closer(one.image_origin_px, one.image_origin_px + one.image_px, other.image_origin_px,
-                             other.image_origin_px + other.image_px, 0))
+                             other.image_origin_px + other.image_px, 2 * pair_reach_px(protocol.display)))
                 continue;
             examination.error({path},
                               fmt::format("the slots \"{}\" and \"{}\" overlap: {}, and {}", slot_at(j).id,

@@ -1,5 +1,5 @@
 #include "experiment/checks/protocol_checks.h"
-#include "experiment/scene/metal_table.h"
+#include "experiment/spectra/metal_table.h"
 
 #include <algorithm>
 #include <cmath>

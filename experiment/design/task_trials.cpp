@@ -100,7 +100,7 @@ RandomStream random_of(const Protocol& protocol, int task, int block, int observ
     const std::string purpose =
         fmt::format("trials of task {}{}", protocol.tasks[static_cast<std::size_t>(task)].id,
                     in_block.empty() ? "" : " in block " + in_block);
-    if (settings.drawn == DrawnFor::everyone)
+    if (settings.per == DrawnFor::everyone)
         return RandomStream(static_cast<std::uint64_t>(protocol.schedule.rotation_seed), purpose);
     return RandomStream(seed, purpose, static_cast<std::uint64_t>(observer_number));
 }
@@ -258,7 +258,7 @@ std::vector<Trial> own_trials(const Protocol& protocol, int task, int block,
 
 bool draws_trials(const Protocol& protocol, int task) {
     const TrialsSettings& settings = protocol.tasks.at(static_cast<std::size_t>(task)).trials;
-    return settings.rule && settings.drawn == DrawnFor::observer;
+    return settings.rule && settings.per == DrawnFor::observer;
 }
 
 } // namespace overt

@@ -6,7 +6,7 @@
 #include "experiment/protocol/old_words.h"
 #include "experiment/protocol/protocol_keys.h"
 #include "experiment/protocol/protocol_sources.h"
-#include "experiment/scene/metal_table.h"
+#include "experiment/spectra/metal_table.h"
 
 namespace overt {
 

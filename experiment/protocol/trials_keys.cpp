@@ -18,7 +18,7 @@ std::vector<Key> trials() {
          "once; or fixed, in the order of the rule."},
         {"draw", &T::draw, range(1, 100000).left_out("all"),
          "So many of all combinations, without replacement."},
-        {"drawn", &T::drawn,
+        {"per", &T::per,
          "Whether each observer has a list and sides of their own, or everyone the same."},
         {"ordered", &T::ordered, "Of pairs: each comes both ways round."},
         {"identical", &T::identical, "Of pairs and standard: a stimulus comes with itself, too."},

@@ -18,7 +18,7 @@ struct TrialsSettings {
     std::vector<std::string> of, same, differs, any;
     SideRule side = SideRule::drawn;
     std::optional<int> draw;
-    DrawnFor drawn = DrawnFor::observer;
+    DrawnFor per = DrawnFor::observer;
     bool ordered = false, identical = false;
     std::vector<std::string> standard, target, distractors; ///< levels
     int size = 0;

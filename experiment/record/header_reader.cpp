@@ -70,6 +70,30 @@ void read_slots(const SQLite::Database& database, SessionHeader& header) {
         header.slots.push_back({"centre", "centre", screen.image_origin_px, screen.image_px});
 }
 
+/// What planned trials have besides their stimuli.
+void read_own_levels(const SQLite::Database& database, SessionHeader& header) {
+    if (!has_table(database, "schedule_level"))
+        return;
+    const auto trial_at = [&](int index) -> Trial& {
+        const auto trial = std::ranges::find(header.schedule.trials, index, &Trial::index);
+        if (trial == header.schedule.trials.end())
+            throw RecordError(
+                fmt::format("table schedule_level or schedule_answer: there is no trial {}", index));
+        return *trial;
+    };
+    for (Query row(database, "SELECT trial, factor, level FROM schedule_level ORDER BY trial, n");
+         row.step();) {
+        Trial& trial = trial_at(row.small());
+        std::string factor = row.text();
+        trial.levels.push_back({std::move(factor), row.text()});
+    }
+    for (Query row(database, "SELECT trial, correct, is_catch FROM schedule_answer"); row.step();) {
+        Trial& trial = trial_at(row.small());
+        trial.correct = row.text();
+        trial.is_catch = row.small() == 1;
+    }
+}
+
 void read_dataset(const SQLite::Database& database, SessionHeader& header) {
     if (!has_table(database, "dataset_entry"))
         return;
@@ -83,6 +107,7 @@ void read_design(const SQLite::Database& database, SessionHeader& header) {
         header.schedule.trials.push_back({row.small(), row.small(), {row.small(), row.small()}});
     read_blocks(database, header);
     read_slots(database, header);
+    read_own_levels(database, header);
     read_dataset(database, header);
     for (Query row(database, "SELECT id, question FROM task ORDER BY task"); row.step();)
         header.tasks.push_back({row.text(), row.text()});

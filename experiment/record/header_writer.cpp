@@ -29,6 +29,14 @@ void insert_design(SQLite::Database& database, const SessionHeader& header) {
                           stimulus.object, stimulus.material, stimulus.light, stimulus.motion, stimulus.view);
         }
     }
+    for (const Trial& trial : header.schedule.trials) {
+        int level = 0;
+        for (const TrialLevel& of : trial.levels)
+            insert_values(database, "INTO schedule_level", trial.index, level++, of.factor, of.level);
+        if (!trial.correct.empty() || trial.is_catch)
+            insert_values(database, "INTO schedule_answer", trial.index, trial.correct,
+                          trial.is_catch ? 1 : 0);
+    }
     for (const std::string& block : header.blocks)
         insert_values(database, "INTO block", index++, block);
     index = 0;

@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include "experiment/base/error.h"
-#include "experiment/scene/mesh_reader.h"
-#include "experiment/scene/ply_writer.h"
+#include "experiment/scene/files/mesh_reader.h"
+#include "experiment/scene/files/ply_writer.h"
 #include "experiment/scene/ray_caster.h"
 #include "experiment/scene/sculptures/sculptures.h"
 #include "experiment/scene/triangle_order.h"

@@ -8,7 +8,7 @@
 
 #include "experiment/base/content_hash.h"
 #include "experiment/protocol/protocol.h"
-#include "experiment/scene/mesh_parts.h"
+#include "experiment/scene/making/mesh_parts.h"
 #include "experiment/scene/viewing.h"
 #include "experiment/screen_geometry.h"
 

@@ -1,6 +1,6 @@
 #include "render/stimulus/frame_key.h"
 
-#include "experiment/scene/metal_table.h"
+#include "experiment/spectra/metal_table.h"
 #include "render/bake/frame_baker.h"
 #include "render/image/gallery_probe.h"
 #include "render/stimulus/stimulus_renderer.h"

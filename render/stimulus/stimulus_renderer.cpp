@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "experiment/base/error.h"
-#include "experiment/scene/metal_table.h"
+#include "experiment/spectra/metal_table.h"
 #include "stimulus_shaders.h"
 
 namespace overt {

@@ -5,12 +5,16 @@
 namespace overt {
 
 RowLayout<LedgerRow> ledger_layout(const SharedColumns& shared, const SessionHeader& header) {
-    return {
+    RowLayout<LedgerRow> layout{
         "flips",
         "The ledger of the completed trials: one row for each refresh of the display, from the "
         "presentation's onset to the plan's end, or longer where pictures came later.",
-        {{shared.trial, &LedgerRow::trial},
-         {{"refresh", "Refresh of the display since the presentation's onset, from 0"}, &LedgerRow::refresh},
+        {{shared.trial, &LedgerRow::trial}}};
+    if (shared.has_slots)
+        layout.add<LedgerRow>(
+            {{shared.slot, [&header](auto& row) { return item(header.slots, row.slot).id; }}});
+    layout.add<LedgerRow>(
+        {{{"refresh", "Refresh of the display since the presentation's onset, from 0"}, &LedgerRow::refresh},
          {{"state",
            "Whether a picture was handed over for this refresh",
            "",
@@ -19,7 +23,8 @@ RowLayout<LedgerRow> ledger_layout(const SharedColumns& shared, const SessionHea
           [](auto& row) { return row.flipped ? "flipped" : "missed"; }},
          {{"planned_frame", "Animation frame that the plan had for this refresh; n/a after the plan's end"},
           [](auto& row) { return when(row.planned != no_frame, row.planned.value); }},
-         {{"shown_frame", "Animation frame that was lit"}, [](auto& row) { return row.lit.shown.value; }},
+         {{"shown_frame", "Animation frame that was lit"},
+          [](auto& row) { return when(row.lit.shown != no_frame, row.lit.shown.value); }},
          {shared.angle, [&header](auto& row) { return angle_of(header, row.lit.pose); }},
          {session_seconds("requested_s", "When the picture was asked for"),
           [](auto& row) { return of_maybe(row.flipped, &FlipReport::requested); }},
@@ -72,7 +77,8 @@ RowLayout<LedgerRow> ledger_layout(const SharedColumns& shared, const SessionHea
             {std::string(name_of(MissCause::drawn_late)), "it was asked for in time, but drawn too late"},
             {std::string(name_of(MissCause::shown_late)),
              "it was drawn in time, but the display took it later"}}},
-          [](auto& row) { return of_maybe(row.cause, [](MissCause cause) { return name_of(cause); }); }}}};
+          [](auto& row) { return of_maybe(row.cause, [](MissCause cause) { return name_of(cause); }); }}});
+    return layout;
 }
 
 std::int64_t write_ledger(TableWriter& writer, const RowLayout<LedgerRow>& layout,
@@ -93,14 +99,15 @@ std::int64_t write_ledger(TableWriter& writer, const RowLayout<LedgerRow>& layou
             // One by one to the plan's end; after it the count in the flip that follows says it.
             for (int k = 0; k < run->count && run->refresh_in_trial + k < plan.total_refreshes; ++k) {
                 const int refresh = run->refresh_in_trial + k;
-                layout.write(writer, {number, refresh, nullptr, planned_at(refresh), fit.flips()[i - 1],
-                                      fit.begin_of(refresh), 0, run->cause});
+                layout.write(writer, {number, trial.trial.slot, refresh, nullptr, planned_at(refresh),
+                                      fit.flips()[i - 1], fit.begin_of(refresh), 0, run->cause});
             }
             ++run;
         }
         const int refresh = fitted.refresh_in_trial;
         // Where the count was inferred anew, the plan has another frame for this refresh than was noted.
         layout.write(writer, {number,
+                              trial.trial.slot,
                               refresh,
                               &recorded[i].report,
                               refresh == recorded[i].refresh_in_trial ? fitted.planned : planned_at(refresh),

@@ -27,6 +27,8 @@ RowLayout<SampleCells> samples_layout(const SharedColumns& shared, const Session
             {shared.object, [](auto& to, auto& row) { to.ready(row.object); }},
             {shared.material, [](auto& to, auto& row) { to.ready(row.material); }},
         }};
+    if (shared.has_slots)
+        layout.add<SampleCells>({{shared.slot, [](auto& to, auto& row) { to.ready(row.slot); }}});
     layout.add<JoinedRow>(time_columns());
     layout.add<SampleCells>({
         {{"tracker_time_us", "When the sample was taken, by the tracker's own clock", "us"}, tracker_time_us},
@@ -69,9 +71,10 @@ RowLayout<SampleCells> samples_layout(const SharedColumns& shared, const Session
 
 SampleRows::SampleRows(const RowLayout<SampleCells>& layout, const SessionRecord& record, TableFormat format,
                        std::optional<Degrees> cone_accuracy)
-    : layout_(layout), record_(record), header_(record.header()), format_(format) {
-    if (cone_accuracy)
-        cone_.emplace(header_.display.screen, *cone_accuracy);
+    : layout_(layout), record_(record), header_(record.header()), format_(format),
+      nothing_(text_cell("", format)) {
+    for (int slot = 0; cone_accuracy && slot < static_cast<int>(header_.slots.size()); ++slot)
+        cones_.emplace_back(header_.screen_of_slot(slot), *cone_accuracy);
 }
 
 SampleCounts SampleRows::write(TableWriter& to, const TrialRecord& trial,
@@ -95,6 +98,8 @@ SampleCounts SampleRows::write_all(TableWriter& to, const TrialRecord& trial, co
     const std::string object = text_cell(is_after ? "" : item(header_.objects, stimulus.object).id, format_);
     const std::string material =
         text_cell(is_after ? "" : item(header_.materials, stimulus.material).id, format_);
+    const std::string slot = text_cell(is_after ? "" : item(header_.slots, trial.trial.slot).id, format_);
+    const GazeCone* const cone = cones_.empty() ? nullptr : &item(cones_, trial.trial.slot);
     const std::vector<std::string> parts = part_cells_of(header_, stimulus.object, format_);
     const std::vector<std::string>& own_parts = item(header_.objects, stimulus.object).part_names;
     const auto number = is_after ? std::nullopt : std::optional(trial.trial.index + 1);
@@ -108,9 +113,9 @@ SampleCounts SampleRows::write_all(TableWriter& to, const TrialRecord& trial, co
             const auto i = static_cast<std::size_t>(index);
             const auto piece = samples.subspan(i * batch, std::min(batch, samples.size() - i * batch));
             texts[i] = std::make_unique<TableText>(layout_.table(), format_);
-            of_batch[i] = write_batch(
-                *texts[i], placed[i],
-                {piece, number, join, lookup, task, object, material, parts, own_parts, fixations});
+            of_batch[i] = write_batch(*texts[i], placed[i],
+                                      {piece, number, join, lookup, task, object, material, slot, cone, parts,
+                                       own_parts, fixations});
         });
         for (std::size_t i = 0; i < batches; ++i) {
             to.take(*texts[i]);
@@ -133,11 +138,13 @@ SampleCounts SampleRows::write_batch(TableText& to, std::vector<PlacedSample>& p
     const std::vector<GazeCone::Shares> shares = cone_shares(piece, joined);
     SampleCounts counts;
     for (std::size_t i = 0; i < piece.samples.size(); ++i) {
+        const bool is_elsewhere = joined[i].is_elsewhere;
         layout_.write(to, {{piece.samples[i], joined[i], piece.parts},
                            piece.trial,
                            piece.task,
-                           piece.object,
-                           piece.material,
+                           is_elsewhere ? nothing_ : piece.object,
+                           is_elsewhere ? nothing_ : piece.material,
+                           is_elsewhere || !piece.samples[i].gaze ? nothing_ : piece.slot,
                            piece.own_parts,
                            shares.empty() || shares[i].of_part.empty() ? nullptr : &shares[i]});
         if (piece.fixations)
@@ -152,14 +159,14 @@ SampleCounts SampleRows::write_batch(TableText& to, std::vector<PlacedSample>& p
 
 /// Of each sample that fell on a lit frame; the others' shares are empty.
 std::vector<GazeCone::Shares> SampleRows::cone_shares(const Piece& piece,
-                                                      std::span<const JoinedSample> joined) const {
-    if (!cone_ || !piece.lookup)
+                                                      std::span<const JoinedSample> joined) {
+    if (!piece.cone || !piece.lookup)
         return {};
     std::vector<GazeCone::Shares> shares(joined.size());
     for (std::size_t i = 0; i < joined.size(); ++i)
         if (joined[i].shown)
-            shares[i] = cone_->shares(*piece.lookup, joined[i].shown->pose, *piece.samples[i].gaze,
-                                      piece.own_parts.size());
+            shares[i] = piece.cone->shares(*piece.lookup, joined[i].shown->pose, *piece.samples[i].gaze,
+                                           piece.own_parts.size());
     return shares;
 }
 

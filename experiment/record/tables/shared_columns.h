@@ -24,7 +24,8 @@ struct SharedColumns {
     /// Levels name the session's own tasks, objects and materials.
     explicit SharedColumns(const SessionHeader& header);
 
-    TableColumn trial, task, object, material, angle;
+    TableColumn trial, task, object, material, slot, angle;
+    bool has_slots; ///< more than one: tables say in which something was
 };
 
 inline TableColumn eye_column() {

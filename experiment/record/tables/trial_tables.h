@@ -20,6 +20,8 @@ struct TrialRow {
 
 /// `header` must outlive it, as the next.
 RowLayout<TrialRow> trials_layout(const SharedColumns& shared, const SessionHeader& header);
+/// With the same columns and the slot: of presentations (TrialRecord::seen_in).
+RowLayout<TrialRow> presentations_layout(const SharedColumns& shared, const SessionHeader& header);
 
 /// What the messages TRIALID of an imported recording say of each attempt, word by word; empty for others.
 using TrialWords = std::map<std::int64_t, std::vector<std::string>>;

@@ -249,6 +249,8 @@ std::optional<StudyFixation> surface_fixation(const GazeEvent& event, const Fixa
             placed.push_back(&sample);
         met += sample.is_on_surface;
     }
+    if (context.has_other_slots && lit.empty())
+        return std::nullopt;
     fixation.samples = static_cast<int>(lit.size());
     fixation.place = event.place.value_or(ScreenPoint{});
     if (!lit.empty()) {

@@ -89,6 +89,7 @@ std::vector<OpenSession> open_sessions(std::span<const std::filesystem::path> se
                 one.readers.front()->detect_events_of_imports();
             one.keys.push_back(std::make_unique<TrialKeys>(*one.readers.back()));
         }
+        one.presentations = one.record().presentations();
         doubles.add(one.record());
         one.validations = validations_of(one.record());
     }

@@ -22,6 +22,7 @@ struct OpenSession {
     std::vector<std::unique_ptr<TrialKeys>> keys; ///< by reader
     std::vector<RecordedAccuracy> validations;    ///< in the order of time
     std::vector<int> objects;                     ///< of the study, by the session's own index
+    std::vector<TrialRecord> presentations;       ///< of its record: the units of a study
     const SessionRecord& record() const { return *readers.front(); }
 };
 

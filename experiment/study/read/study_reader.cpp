@@ -79,7 +79,7 @@ class StudyReader {
             const SessionRecord& record = open_[i].record();
             results().sessions[i].events = record.event_origins();
             read_.push_back({open_[i].path, state_of(record), results().sessions[i].events,
-                             std::vector<ReadTrial>(record.trials().size())});
+                             std::vector<ReadTrial>(open_[i].presentations.size())});
         }
     }
 
@@ -96,6 +96,8 @@ class StudyReader {
         take_levels("task", header.tasks, id_of);
         take_levels("object", header.objects, id_of);
         take_levels("material", header.materials, id_of);
+        if (header.slots.size() > 1)
+            take_levels("slot", header.slots, id_of);
         take_levels("block", header.blocks, [](const std::string& block) { return block; });
         for (int i = 0; i < static_cast<int>(header.objects.size()); ++i)
             open_[index].objects.push_back(object_of(index, i));
@@ -146,7 +148,7 @@ class StudyReader {
         for (std::size_t session = 0; session < open_.size(); ++session) {
             for (std::size_t reader = 0; reader < open_[session].readers.size(); ++reader)
                 jobs.push_back({session, reader});
-            for (const TrialRecord& trial : open_[session].record().trials())
+            for (const TrialRecord& trial : open_[session].presentations)
                 trials += is_of(session, trial, index);
         }
         std::atomic<int> done{0};
@@ -158,8 +160,8 @@ class StudyReader {
             if (surface.coarse)
                 ways.emplace(*surface.geometry, *surface.coarse, *surface.coarse_geometry);
             const SessionRecord& record = *open.readers[reader];
-            for (std::size_t t = reader; t < record.trials().size(); t += open.readers.size()) {
-                const TrialRecord& trial = record.trials()[t];
+            for (std::size_t t = reader; t < open.presentations.size(); t += open.readers.size()) {
+                const TrialRecord& trial = open.presentations[t];
                 if (!is_of(session, trial, index))
                     continue;
                 read_[session].trials[t] =
@@ -219,7 +221,8 @@ class StudyReader {
         const SessionHeader* header = nullptr;
         for (std::size_t session = 0; session < open_.size(); ++session) {
             for (std::size_t t = 0; t < read_[session].trials.size(); ++t) {
-                if (!is_of(session, open_[session].record().trials()[t], index))
+                const TrialRecord& trial = open_[session].presentations[t];
+                if (!is_of(session, trial, index))
                     continue;
                 header = &open_[session].record().header();
                 const std::optional<double>& accuracy = read_[session].trials[t].trial.quality.accuracy_deg;
@@ -233,8 +236,10 @@ class StudyReader {
                     if (!fixation.counted() && fixation.why != NotCounted::not_on_surface)
                         continue;
                     fixations.push_back(&fixation);
-                    places.push_back({fixation.mid_pose, object.screen.image_from_screen(fixation.mid_gaze),
-                                      sigma_deg * px_per_deg});
+                    places.push_back(
+                        {fixation.mid_pose,
+                         header->screen_of_slot(trial.trial.slot).image_from_screen(fixation.mid_gaze),
+                         sigma_deg * px_per_deg});
                 }
             }
         }
@@ -300,7 +305,7 @@ class StudyReader {
     void collect() {
         bool any_both_eyes = false;
         for (std::size_t session = 0; session < open_.size(); ++session) {
-            const std::vector<TrialRecord>& trials = open_[session].record().trials();
+            const std::vector<TrialRecord>& trials = open_[session].presentations;
             for (std::size_t t = 0; t < trials.size(); ++t) {
                 if (!trials[t].counts)
                     continue;
@@ -323,7 +328,8 @@ class StudyReader {
                     results().traces.push_back(std::move(read.trace));
                 }
                 any_both_eyes |= read.had_both_eyes;
-                results().glance.samples += read.samples;
+                if (trials[t].place == 0)
+                    results().glance.samples += read.samples;
                 results().trials.push_back(std::move(read.trial));
             }
         }

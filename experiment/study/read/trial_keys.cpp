@@ -5,8 +5,17 @@
 
 namespace overt {
 
+namespace {
+
+RowLayout<TrialRow> columns_of(const SessionHeader& header) {
+    const SharedColumns shared(header);
+    return shared.has_slots ? presentations_layout(shared, header) : trials_layout(shared, header);
+}
+
+} // namespace
+
 TrialKeys::TrialKeys(const SessionRecord& record)
-    : words_(trial_words(record)), layout_(trials_layout(SharedColumns(record.header()), record.header())) {
+    : words_(trial_words(record)), layout_(columns_of(record.header())) {
     if (!words_.empty())
         layout_.add<TrialRow>(trial_word_columns(words_));
     of_session_.push_back({"observer", record.header().schedule.observer.label});

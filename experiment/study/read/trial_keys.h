@@ -10,9 +10,9 @@
 
 namespace overt {
 
-/// Of one session. Any column of the table of trials can make groups, and whatever is added to that table
-/// joins by being there; so do observer and session, the fields of the observer's form, and the words of an
-/// imported recording's TRIALID.
+/// Of one session; with several slots, of its presentations, each with its slot. Any column of the table of
+/// trials can make groups, and whatever is added to that table joins by being there; so do observer and
+/// session, the fields of the observer's form, and the words of an imported recording's TRIALID.
 class TrialKeys {
   public:
     /// `record` must outlive it. Throws RecordError.
