@@ -31,10 +31,8 @@ ObservedScene make_observed_scene(const Protocol& protocol, std::span<const Obje
         return id.empty() || found == entries.end() ? -1 : static_cast<int>(found - entries.begin());
     };
     for (const SimulatedEffect& effect : protocol.simulated_effects)
-        scene.effects.push_back({number_of(effect.task, protocol.tasks),
-                                 number_of(effect.object, protocol.objects),
-                                 number_of(effect.material, protocol.materials), effect.head_odds,
-                                 effect.spot_share, effect.spread});
+        scene.effects.push_back({number_of(effect.task, protocol.tasks), chosen_by(protocol, effect),
+                                 effect.head_odds, effect.spot_share, effect.spread});
     if (!protocol.slot_entries.empty())
         for (const Slot& slot : protocol.slots)
             scene.slots.push_back(slot_geometry(protocol, slot));

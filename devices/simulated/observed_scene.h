@@ -1,6 +1,7 @@
 /// What a simulated observer can look at, and how its light reaches the eye.
 #pragma once
 
+#include <array>
 #include <span>
 #include <string>
 #include <vector>
@@ -26,15 +27,20 @@ struct ObservedTask {
     double head_share = 0.0; ///< share of fixations that go to the part "head", 0 … 1
 };
 
-/// What the gaze depends on besides the task; -1: any.
+/// What the gaze depends on besides the task.
 struct ObservedEffect {
-    int task = -1, object = -1, material = -1;
+    int task = -1; ///< -1: any
+    /// For each list, whether it holds for each entry.
+    std::array<std::vector<bool>, stimulus_lists.size()> entries;
     double head_odds = 1.0, spot_share = 0.0;
     double spread = 0.0; ///< see GazePlan
 
     bool holds_in(int of_task, Stimulus stimulus) const {
-        return (task < 0 || task == of_task) && (object < 0 || object == stimulus.object) &&
-               (material < 0 || material == stimulus.material);
+        for (std::size_t list = 0; list < stimulus_lists.size(); ++list)
+            if (const int entry = stimulus.*stimulus_lists[list].index;
+                !entries[list].empty() && !entries[list][static_cast<std::size_t>(entry)])
+                return false;
+        return task < 0 || task == of_task;
     }
 };
 

@@ -16,9 +16,8 @@ namespace {
 
 /// Whether which trials come is a matter of the seed, too.
 bool is_drawn(const Protocol& protocol) {
-    for (int task = 0; task < static_cast<int>(protocol.tasks.size()); ++task)
-        if (draws_trials(protocol, task))
-            return true;
+    if (draws_trials(protocol))
+        return true;
     return std::any_of(protocol.blocks.begin(), protocol.blocks.end(), [](const BlockSettings& block) {
         return block.order == OrderMethod::weighted && block.draws.has_value();
     });

@@ -38,10 +38,11 @@ Texts ids_of_slots(const Protocol& protocol, int task) {
 
 /// What a task without a rule or a table shows.
 Texts words_of_coverage(const Protocol& protocol, int block, int task, const BlockScope& scope) {
-    const std::vector<Stimulus> stimuli = stimuli_in(protocol, scope);
+    const std::vector<Stimulus> stimuli = stimuli_in(scope);
+    const Factors factors = factors_of(protocol);
     std::vector<RuleFactor> lists;
     for (const StimulusList& list : stimulus_lists) {
-        RuleFactor factor = *stimulus_factor(protocol, stimuli, list.name);
+        RuleFactor factor = *stimulus_factor(factors, stimuli, list.name);
         std::vector<int> met = factor.of_stimulus;
         std::ranges::sort(met);
         const auto count = std::unique(met.begin(), met.end()) - met.begin();
@@ -62,7 +63,7 @@ Texts words_of_coverage(const Protocol& protocol, int block, int task, const Blo
 Texts words_of_rule(const Protocol& protocol, int task, const BlockScope& scope) {
     const TrialsSettings& trials = protocol.tasks[static_cast<std::size_t>(task)].trials;
     const TrialRuleRow& row = row_of(*trials.rule);
-    const RuleTask by = rule_task(protocol, task, stimuli_in(protocol, scope));
+    const RuleTask by = rule_task(protocol, task, stimuli_in(scope));
     const RuleRequest& request = by.request;
     const Texts slots = request.slots;
     Texts among = trials.among, sizes;
@@ -134,6 +135,26 @@ Texts words_of_table(const Protocol& protocol, int task) {
     return sentences;
 }
 
+std::string words_of_catch(const CatchSettings& checks) {
+    const std::string file = checks.trials_file.filename().string();
+    if (checks.share)
+        return fmt::format("{:g} % more as catch trials, of {}",
+                           100.0 * *checks.share / (1.0 - *checks.share), file);
+    return checks.count ? fmt::format("{} catch trials of {} among them", *checks.count, file)
+                        : fmt::format("catch trials among them, the rows of {}", file);
+}
+
+std::string words_of_draw(const DrawSettings& draw) {
+    const std::string_view whose = draw.per == DrawnFor::observer ? "for each observer" : "once for everyone";
+    if (draw.from.empty())
+        return fmt::format("{} {}s drawn {}", draw.count.value_or(0), draw.of, whose);
+    const auto count = [](std::optional<int> number) {
+        return number ? fmt::format("{}", *number) : std::string("all");
+    };
+    return fmt::format("{} {}s that block {} has shown (old) and {} others (new), drawn {}",
+                       count(draw.old_entries), draw.of, draw.from, count(draw.new_entries), whose);
+}
+
 } // namespace
 
 std::vector<TaskWords> design_in_words(const Protocol& protocol, double trial_s) {
@@ -147,11 +168,16 @@ std::vector<TaskWords> design_in_words(const Protocol& protocol, double trial_s)
             words.sentences = settings.trials.rule         ? words_of_rule(protocol, task, scope)
                               : settings.trials.table >= 0 ? words_of_table(protocol, task)
                                                            : words_of_coverage(protocol, block, task, scope);
+            if (settings.catch_trials.table >= 0)
+                words.sentences.push_back(words_of_catch(settings.catch_trials));
+            if (in.draw.is_written())
+                words.sentences.push_back(words_of_draw(in.draw));
             if (const int times = settings.repetitions * in.repetitions; times > 1)
                 words.sentences.push_back(fmt::format("{} times each", times));
             parts.push_back(std::move(words));
         }
     }
+    const Factors factors = factors_of(protocol);
     for (const Observer& observer : planned_observers(protocol)) {
         for (const BlockPlan& plan : block_plans(protocol, observer.number, 0)) {
             const std::string& block = block_at(protocol, plan.block).id;
@@ -160,7 +186,8 @@ std::vector<TaskWords> design_in_words(const Protocol& protocol, double trial_s)
                 for (const Trial& trial : plan.trials)
                     if (words.block == block &&
                         protocol.tasks[static_cast<std::size_t>(trial.task)].id == words.task)
-                        trials += weight_of(protocol, trial) * block_at(protocol, plan.block).repetitions;
+                        trials +=
+                            weight_of(protocol, factors, trial) * block_at(protocol, plan.block).repetitions;
                 words.trials = std::max(words.trials, static_cast<int>(trials + 0.5));
             }
         }

@@ -6,7 +6,10 @@
 #include "experiment/base/counted.h"
 #include "experiment/checks/protocol_checks.h"
 #include "experiment/design/block_plan.h"
+#include "experiment/design/drawn_lists.h"
 #include "experiment/design/task_trials.h"
+#include "experiment/protocol/entry_ids.h"
+#include "experiment/protocol/protocol_keys.h"
 
 namespace overt {
 
@@ -23,8 +26,13 @@ class TaskTrialsCheck {
         if (settings_.stimuli != TaskCoverage::every_stimulus && settings_.trials.has_own_trials())
             error({"stimuli", "trials"}, "\"trials\" says already which stimuli the task is asked for",
                   "leave out \"stimuli\"");
+        const CatchSettings& checks = settings_.catch_trials;
+        if (checks.share && checks.count)
+            error({"catch.count"}, "\"share\" says already how many catch trials there are");
+        if (checks.table >= 0)
+            check_table(checks.table, "catch.trials");
         if (settings_.trials.table >= 0)
-            return check_table();
+            return check_table(settings_.trials.table, "trials");
         if (!settings_.trials.rule)
             return;
         check_keys();
@@ -32,7 +40,7 @@ class TaskTrialsCheck {
         for (int block = 0; block < blocks && errors_ == 0; ++block) {
             const BlockScope scope = scope_of(protocol_, block);
             if (std::ranges::find(scope.tasks, task_) != scope.tasks.end())
-                check_block(block, stimuli_in(protocol_, scope));
+                check_block(block, stimuli_in(scope));
         }
     }
 
@@ -87,8 +95,8 @@ class TaskTrialsCheck {
 
     void check_block(int block, const std::vector<Stimulus>& stimuli) {
         const RuleTask by = rule_task(protocol_, task_, stimuli);
-        const std::vector<std::string> names = stimulus_factor_names(protocol_);
-        const std::vector<std::string_view> known(names.begin(), names.end());
+        const Factors factors = factors_of(protocol_);
+        const std::vector<std::string_view> known = stimulus_factor_names(factors);
         for (const std::string& name : by.unknown)
             error_at_rule_key(key_with(name), fmt::format("there is no factor \"{}\"", name),
                               suggest_name(name, known));
@@ -173,14 +181,14 @@ class TaskTrialsCheck {
                 : fmt::format("give block \"{}\" order = \"sequential\"", block_at(protocol_, block).id));
     }
 
-    void check_table() {
-        const TrialTable& table = protocol_.trial_tables[static_cast<std::size_t>(settings_.trials.table)];
+    void check_table(int index, std::string_view key) {
+        const TrialTable& table = protocol_.trial_tables[static_cast<std::size_t>(index)];
         for (std::size_t i = 0; i < table.factors.size(); ++i) {
             const bool is_one = std::ranges::all_of(table.rows, [&](const TrialTableRow& trial) {
                 return trial.levels[i].level == table.rows.front().levels[i].level;
             });
             if (is_one && table.rows.size() > 1)
-                examination_.warning({path("trials")},
+                examination_.warning({path(key)},
                                      fmt::format("the column \"{}\" of {} is the same in all rows",
                                                  table.factors[i], table.file));
         }
@@ -193,9 +201,98 @@ class TaskTrialsCheck {
     int errors_ = 0;
 };
 
+/// What a block draws of a list.
+class DrawCheck {
+  public:
+    DrawCheck(ProtocolExamination& examination, int block)
+        : examination_(examination), protocol_(examination.protocol), block_(block),
+          draw_(block_at(protocol_, block).draw) {}
+
+    void run() {
+        if (!draw_.is_written())
+            return;
+        if (!list_called(draw_.of)) {
+            std::vector<std::string_view> names;
+            for (const StimulusList& list : stimulus_lists)
+                names.push_back(list.name);
+            return error("of", fmt::format("there is no list \"{}\"", draw_.of),
+                         suggest_name(draw_.of, names));
+        }
+        if (draw_.from.empty())
+            check_plain();
+        else
+            check_from();
+    }
+
+  private:
+    std::string path(std::string_view key) const {
+        return key.empty() ? fmt::format("block[{}].draw", block_)
+                           : fmt::format("block[{}].draw.{}", block_, key);
+    }
+    void error(std::string_view key, std::string message, std::string hint = {}) {
+        examination_.error(std::vector{path(key), path("")}, std::move(message), std::move(hint));
+    }
+    int listed(int block) const {
+        return static_cast<int>(scope_of(protocol_, block).lists[*list_called(draw_.of)].size());
+    }
+
+    void check_plain() {
+        for (const auto& [key, number] :
+             {std::pair("old", draw_.old_entries), std::pair("new", draw_.new_entries)})
+            if (number)
+                error(key, fmt::format("\"{}\" says nothing without \"from\"", key),
+                      "from = \"BLOCK\" says which block has shown the old ones");
+        if (!draw_.count)
+            error("", "nothing says how many are drawn", "write count = N");
+        else
+            check_enough("count", *draw_.count, listed(block_), "are listed");
+    }
+
+    void check_enough(std::string_view key, int wanted, int there, std::string_view state) {
+        if (wanted > there)
+            error(key, fmt::format("{} {}s are drawn, of {} that {}", wanted, draw_.of, there, state),
+                  "draw fewer, or list more");
+    }
+
+    void check_from() {
+        if (draw_.count)
+            error("count", "with \"from\" it is \"old\" and \"new\" that say how many");
+        const int before = block_called(protocol_, draw_.from);
+        if (before < 0) {
+            const auto ids = ids_of<std::string_view>(protocol_.blocks);
+            return error("from", fmt::format("there is no block \"{}\"", draw_.from),
+                         suggest_name(draw_.from, ids));
+        }
+        const DrawSettings& other = block_at(protocol_, before).draw;
+        if (before >= block_)
+            return error("from", fmt::format("block \"{}\" does not come before this one", draw_.from));
+        if (protocol_.schedule.block_order != LevelOrder::fixed)
+            return error("from",
+                         fmt::format("block \"{}\" may come after this one, since the order of blocks is {}",
+                                     draw_.from, name_of(protocol_.schedule.block_order)),
+                         "leave schedule.block_order fixed");
+        if (other.of != draw_.of)
+            return error("from", other.is_written() ? fmt::format("block \"{}\" draws of {}, not of {}",
+                                                                  draw_.from, other.of, draw_.of)
+                                                    : fmt::format("block \"{}\" draws nothing", draw_.from));
+        const int drawn = other.count.value_or(listed(before));
+        if (draw_.old_entries)
+            check_enough("old", *draw_.old_entries, std::min(drawn, listed(block_)), "are old");
+        if (draw_.new_entries)
+            check_enough("new", *draw_.new_entries, std::max(0, listed(block_) - drawn), "are new");
+    }
+
+    ProtocolExamination& examination_;
+    const Protocol& protocol_;
+    int block_;
+    const DrawSettings& draw_;
+};
+
 } // namespace
 
 void check_trials(ProtocolExamination& examination) {
+    for (int block = 0; block < block_count(examination.protocol); ++block)
+        DrawCheck(examination, block).run();
     for (int task = 0; task < static_cast<int>(examination.protocol.tasks.size()); ++task)
         TaskTrialsCheck(examination, task).run();
 }

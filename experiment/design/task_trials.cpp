@@ -1,6 +1,7 @@
 #include "experiment/design/task_trials.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include <fmt/format.h>
@@ -12,53 +13,12 @@ namespace overt {
 
 namespace {
 
-/// Index of the list that a factor is of; -1: there is no such factor.
-int list_of_factor(const Protocol& protocol, std::string_view name) {
-    for (std::size_t list = 0; list < stimulus_lists.size(); ++list) {
-        if (stimulus_lists[list].name == name)
-            return static_cast<int>(list);
-        for (const ListEntry* entry : entries_of(protocol, list))
-            if (std::ranges::find(entry->columns, name, &EntryColumn::name) != entry->columns.end())
-                return static_cast<int>(list);
-    }
-    return -1;
-}
-
-/// The levels of a factor in a list, and the level of each entry.
-struct ListLevels {
-    std::vector<std::string> names;
-    std::vector<int> of_entry; ///< -1: none
-};
-
-ListLevels levels_of_factor(const Protocol& protocol, std::size_t list, std::string_view name) {
-    ListLevels levels;
-    std::vector<std::pair<std::optional<double>, std::string>> known;
-    const std::vector<const ListEntry*> entries = entries_of(protocol, list);
-    const auto said_of =
-        [&](const ListEntry& entry) -> std::optional<std::pair<std::optional<double>, std::string>> {
-        if (name == stimulus_lists[list].name)
-            return std::pair(std::optional<double>(), entry.id);
-        const auto column = std::ranges::find(entry.columns, name, &EntryColumn::name);
-        if (column == entry.columns.end())
-            return std::nullopt;
-        return std::pair(column->number, column->text);
-    };
-    for (const ListEntry* entry : entries) {
-        const auto said = said_of(*entry);
-        if (said && std::ranges::find(known, *said) == known.end())
-            known.push_back(*said);
-    }
-    // Numbers from the smallest up; words as listed.
-    if (std::ranges::all_of(known, [](const auto& level) { return level.first.has_value(); }))
-        std::ranges::sort(known);
-    for (const auto& level : known)
-        levels.names.push_back(level.second);
-    for (const ListEntry* entry : entries) {
-        const auto said = said_of(*entry);
-        levels.of_entry.push_back(said ? static_cast<int>(std::ranges::find(known, *said) - known.begin())
-                                       : -1);
-    }
-    return levels;
+/// Index of the list that a factor is of; -1: there is no such factor of stimuli.
+int list_of_factor(const Factors& factors, std::string_view name) {
+    const Factor* const factor = factors.find(name);
+    const bool is_of_list =
+        factor && (factor->source == Factor::Source::list || factor->source == Factor::Source::column);
+    return is_of_list ? static_cast<int>(factor->list) : -1;
 }
 
 bool is_among(const std::vector<std::string>& names, std::string_view name) {
@@ -126,58 +86,66 @@ std::vector<Trial> trials_by_rule(const Protocol& protocol, int task, int block,
     return trials;
 }
 
+/// The rows of a table that a block shows, each as often as it comes.
+std::vector<Trial> rows_of_table(const Protocol& protocol, int table, int block,
+                                 const std::vector<Stimulus>& stimuli) {
+    std::vector<Trial> trials;
+    for (const TrialTableRow& row : protocol.trial_tables.at(static_cast<std::size_t>(table)).rows) {
+        const bool is_here = (row.block < 0 || row.block == block) &&
+                             std::ranges::all_of(row.shown, [&](const PlacedStimulus& shown) {
+                                 return std::ranges::find(stimuli, shown.stimulus) != stimuli.end();
+                             });
+        if (!is_here)
+            continue;
+        Trial trial = placed(row.shown);
+        trial.levels = row.levels;
+        trial.correct = row.correct;
+        trials.insert(trials.end(), static_cast<std::size_t>(row.repeat), trial);
+    }
+    return trials;
+}
+
 std::vector<Trial> trials_of_table(const Protocol& protocol, int task, int block,
                                    const std::vector<Stimulus>& stimuli) {
     const Task& settings = protocol.tasks[static_cast<std::size_t>(task)];
+    const std::vector<Trial> once = rows_of_table(protocol, settings.trials.table, block, stimuli);
     std::vector<Trial> trials;
-    for (int repetition = 0; repetition < settings.repetitions; ++repetition) {
-        for (const TrialTableRow& row :
-             protocol.trial_tables.at(static_cast<std::size_t>(settings.trials.table)).rows) {
-            const bool is_here = (row.block < 0 || row.block == block) &&
-                                 std::ranges::all_of(row.shown, [&](const auto& shown) {
-                                     return std::ranges::find(stimuli, shown.stimulus) != stimuli.end();
-                                 });
-            if (!is_here)
-                continue;
-            Trial trial = placed(row.shown);
-            trial.levels = row.levels;
-            trial.correct = row.correct;
-            trials.insert(trials.end(), static_cast<std::size_t>(row.repeat), trial);
-        }
-    }
+    for (int repetition = 0; repetition < settings.repetitions; ++repetition)
+        trials.insert(trials.end(), once.begin(), once.end());
     return trials;
 }
 
 } // namespace
 
-std::vector<std::string> stimulus_factor_names(const Protocol& protocol) {
-    std::vector<std::string> names;
-    for (std::size_t list = 0; list < stimulus_lists.size(); ++list) {
-        names.emplace_back(stimulus_lists[list].name);
-        for (const ListEntry* entry : entries_of(protocol, list))
-            for (const EntryColumn& column : entry->columns)
-                if (!is_among(names, column.name))
-                    names.push_back(column.name);
-    }
+std::vector<std::string_view> stimulus_factor_names(const Factors& factors) {
+    std::vector<std::string_view> names;
+    for (const Factor& factor : factors.all())
+        if (list_of_factor(factors, factor.name) >= 0)
+            names.push_back(factor.name);
     return names;
 }
 
-std::optional<RuleFactor> stimulus_factor(const Protocol& protocol, const std::vector<Stimulus>& stimuli,
+std::optional<RuleFactor> stimulus_factor(const Factors& factors, const std::vector<Stimulus>& stimuli,
                                           std::string_view name) {
-    const int list = list_of_factor(protocol, name);
-    if (list < 0)
+    if (list_of_factor(factors, name) < 0)
         return std::nullopt;
-    ListLevels levels = levels_of_factor(protocol, static_cast<std::size_t>(list), name);
-    RuleFactor factor{std::string(name), std::move(levels.names), {}};
-    for (const Stimulus& stimulus : stimuli)
-        factor.of_stimulus.push_back(levels.of_entry[static_cast<std::size_t>(
-            stimulus.*stimulus_lists[static_cast<std::size_t>(list)].index)]);
+    const Factor& of = factors.at(name);
+    RuleFactor factor{of.name, {}, {}};
+    for (const FactorLevel& level : of.levels)
+        if (level.name != no_level)
+            factor.levels.push_back(level.name);
+    for (const Stimulus& stimulus : stimuli) {
+        const int level = factors.level_of(of, {}, stimulus);
+        factor.of_stimulus.push_back(of.levels[static_cast<std::size_t>(level)].name == no_level ? -1
+                                                                                                 : level);
+    }
     return factor;
 }
 
 RuleTask rule_task(const Protocol& protocol, int task, const std::vector<Stimulus>& stimuli) {
     const Task& of_task = protocol.tasks.at(static_cast<std::size_t>(task));
     const TrialsSettings& settings = of_task.trials;
+    const Factors factors = factors_of(protocol);
     RuleTask by;
     by.stimuli = stimuli;
     by.slots = slots_of_task(protocol, task);
@@ -189,7 +157,7 @@ RuleTask rule_task(const Protocol& protocol, int task, const std::vector<Stimulu
     const auto factors_called = [&](const std::vector<std::string>& names) {
         std::vector<RuleFactor> factors;
         for (const std::string& name : names) {
-            if (auto factor = stimulus_factor(protocol, stimuli, name))
+            if (auto factor = stimulus_factor(factors, stimuli, name))
                 factors.push_back(*std::move(factor));
             else
                 by.unknown.push_back(name);
@@ -208,13 +176,13 @@ RuleTask rule_task(const Protocol& protocol, int task, const std::vector<Stimulu
     std::vector<bool> is_named(stimulus_lists.size());
     for (const std::vector<std::string>* names : {&of, &settings.differs, &settings.any})
         for (const std::string& name : *names)
-            if (const int list = list_of_factor(protocol, name); list >= 0)
+            if (const int list = list_of_factor(factors, name); list >= 0)
                 is_named[static_cast<std::size_t>(list)] = true;
     std::vector<std::vector<int>> alike;
     for (std::size_t list = 0; list < stimulus_lists.size(); ++list) {
         if (is_named[list])
             continue;
-        alike.push_back(stimulus_factor(protocol, stimuli, stimulus_lists[list].name)->of_stimulus);
+        alike.push_back(stimulus_factor(factors, stimuli, stimulus_lists[list].name)->of_stimulus);
         if (varies(stimuli, list) && !is_among(settings.same, stimulus_lists[list].name))
             by.unsaid.emplace_back(stimulus_lists[list].name);
     }
@@ -256,9 +224,42 @@ std::vector<Trial> own_trials(const Protocol& protocol, int task, int block,
     return trials;
 }
 
-bool draws_trials(const Protocol& protocol, int task) {
-    const TrialsSettings& settings = protocol.tasks.at(static_cast<std::size_t>(task)).trials;
-    return settings.rule && settings.per == DrawnFor::observer;
+std::vector<Trial> catch_trials(const Protocol& protocol, int task, int block,
+                                const std::vector<Stimulus>& stimuli, const std::vector<Trial>& trials,
+                                int observer_number, std::uint64_t seed) {
+    const Task& of_task = protocol.tasks.at(static_cast<std::size_t>(task));
+    const CatchSettings& settings = of_task.catch_trials;
+    if (settings.table < 0)
+        return {};
+    std::vector<Trial> all = rows_of_table(protocol, settings.table, block, stimuli);
+    if (all.empty())
+        return {};
+    const auto others = std::ranges::count(trials, task, &Trial::task);
+    std::size_t count = static_cast<std::size_t>(settings.count.value_or(static_cast<int>(all.size())));
+    if (settings.share) // s of n + c trials are c: c = n s / (1 - s)
+        count = static_cast<std::size_t>(
+            std::lround(static_cast<double>(others) * *settings.share / (1.0 - *settings.share)));
+    RandomStream random(
+        seed, fmt::format("catch trials of task {} in block {}", of_task.id, block_at(protocol, block).id),
+        static_cast<std::uint64_t>(observer_number));
+    random.shuffle(std::span(all));
+    std::vector<Trial> checks;
+    for (std::size_t i = 0; i < count; ++i) {
+        checks.push_back(all[i % all.size()]);
+        checks.back().task = task;
+        checks.back().block = block;
+        checks.back().is_catch = true;
+    }
+    return checks;
+}
+
+bool draws_trials(const Protocol& protocol) {
+    const bool by_task = std::ranges::any_of(protocol.tasks, [](const Task& task) {
+        return (task.trials.rule && task.trials.per == DrawnFor::observer) || task.catch_trials.table >= 0;
+    });
+    return by_task || std::ranges::any_of(protocol.blocks, [](const BlockSettings& block) {
+               return block.draw.is_written() && block.draw.per == DrawnFor::observer;
+           });
 }
 
 } // namespace overt

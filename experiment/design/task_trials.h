@@ -25,10 +25,10 @@ struct RuleTask {
 RuleTask rule_task(const Protocol& protocol, int task, const std::vector<Stimulus>& stimuli);
 
 /// Lists, and columns of their entries: what can be said of a stimulus.
-std::vector<std::string> stimulus_factor_names(const Protocol& protocol);
+std::vector<std::string_view> stimulus_factor_names(const Factors& factors);
 
 /// A factor's levels of these stimuli; nothing where there is no factor of this name.
-std::optional<RuleFactor> stimulus_factor(const Protocol& protocol, const std::vector<Stimulus>& stimuli,
+std::optional<RuleFactor> stimulus_factor(const Factors& factors, const std::vector<Stimulus>& stimuli,
                                           std::string_view name);
 
 /// The trials, each as often as it comes, of an observer in a block that shows these stimuli. The task must
@@ -36,7 +36,12 @@ std::optional<RuleFactor> stimulus_factor(const Protocol& protocol, const std::v
 std::vector<Trial> own_trials(const Protocol& protocol, int task, int block,
                               const std::vector<Stimulus>& stimuli, int observer_number, std::uint64_t seed);
 
+/// The trials that check the observer in a block, besides the task's among `trials`; none where it has none.
+std::vector<Trial> catch_trials(const Protocol& protocol, int task, int block,
+                                const std::vector<Stimulus>& stimuli, const std::vector<Trial>& trials,
+                                int observer_number, std::uint64_t seed);
+
 /// Whether two sessions of an observer can have different trials, by what is drawn.
-bool draws_trials(const Protocol& protocol, int task);
+bool draws_trials(const Protocol& protocol);
 
 } // namespace overt

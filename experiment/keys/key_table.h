@@ -3,6 +3,7 @@
 /// goes through the rows, and needs to know neither the structs nor the types.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -25,6 +26,10 @@ class MemberPlace {
     template <class Struct, class Member>
     explicit MemberPlace(Member Struct::*member)
         : struct_(&as_left_out<Struct>()), member_(&(as_left_out<Struct>().*member)) {}
+    /// An element of a member that is an array.
+    template <class Struct, class Value, std::size_t count>
+    MemberPlace(std::array<Value, count> Struct::*member, std::size_t index)
+        : struct_(&as_left_out<Struct>()), member_(&(as_left_out<Struct>().*member).at(index)) {}
     /// The object as a whole.
     template <class Struct> static MemberPlace whole() {
         return {&as_left_out<Struct>(), &as_left_out<Struct>()};
@@ -65,6 +70,11 @@ struct Key {
     template <class Struct, class Value>
     Key(std::string_view name, Value Struct::*member, std::string_view explanation)
         : Key(name, member, KeyLimits{}, explanation) {}
+    /// Of an element of a member that is an array.
+    template <class Struct, class Value, std::size_t count>
+    Key(std::string_view name, std::array<Value, count> Struct::*member, std::size_t index,
+        const KeyLimits& limits, std::string_view explanation)
+        : rule{limits, name, explanation}, type(&value_type(TypeTag<Value>())), place(member, index) {}
 
     /// The member of an object of the key's struct, if it is a Value; else null.
     template <class Value> const Value* get_if(const void* object) const {

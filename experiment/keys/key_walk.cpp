@@ -178,6 +178,9 @@ void KeyWalk::read_inner(const Section& section, const TomlEntry& entry, const s
 
 void KeyWalk::read_key(const Key& key, const TomlValue& value, const std::string& path, void* out) {
     places_.note(path, value.place);
+    if (value.table())
+        for (const TomlEntry& entry : *value.table())
+            places_.note(path + "." + entry.key, entry.value.place);
     if (const ValueResult fault = key.type->read(value, key.rule, key.place.in(out))) {
         error(fault->place, fault->message, fault->hint);
         faulty_.insert(path);

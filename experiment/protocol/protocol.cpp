@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "experiment/protocol/entry_ids.h"
+
 namespace overt {
 
 Protocol protocol_of_further(const Protocol& protocol, std::size_t index) {
@@ -42,6 +44,60 @@ std::vector<const ListEntry*> entries_of(const Protocol& protocol, std::size_t l
 
 std::vector<ListEntry*> entries_of(Protocol& protocol, std::size_t list) {
     return pointers_to_entries<ListEntry*>(protocol, list);
+}
+
+std::vector<std::string_view> ids_in_list(const Protocol& protocol, std::size_t list) {
+    std::vector<std::string_view> ids;
+    for (const ListEntry* entry : entries_of(protocol, list))
+        ids.push_back(entry->id);
+    return ids;
+}
+
+Factors factors_of(const Protocol& protocol) {
+    FactorSources sources;
+    sources.tasks = ids_of(protocol.tasks);
+    sources.blocks = ids_of(protocol.blocks);
+    for (std::size_t list = 0; list < stimulus_lists.size(); ++list)
+        for (const ListEntry* entry : entries_of(protocol, list))
+            sources.lists[list].push_back(*entry);
+    sources.own = own_levels_of(protocol);
+    return Factors(sources);
+}
+
+std::string stimulus_in_words(const Protocol& protocol, const Stimulus& stimulus) {
+    std::string words;
+    for (std::size_t list = 0; list < stimulus_lists.size(); ++list) {
+        const std::vector<std::string_view> ids = ids_in_list(protocol, list);
+        if (ids.size() > 1 || stimulus_lists[list].is_always_named)
+            words += fmt::format("{}{}", words.empty() ? "" : ", ",
+                                 ids.at(static_cast<std::size_t>(stimulus.*stimulus_lists[list].index)));
+    }
+    return words;
+}
+
+std::array<std::vector<bool>, stimulus_lists.size()> chosen_by(const Protocol& protocol,
+                                                               const SimulatedEffect& effect) {
+    std::array<std::vector<bool>, stimulus_lists.size()> chosen;
+    for (std::size_t list = 0; list < stimulus_lists.size(); ++list) {
+        for (const ListEntry* entry : entries_of(protocol, list)) {
+            // A column of another list says nothing here.
+            const auto has = [&](const NamedWord& wanted) {
+                const auto found = std::ranges::find(entry->columns, wanted.name, &NamedWord::name);
+                return found != entry->columns.end() && found->text == wanted.text;
+            };
+            const auto is_here = [&](const NamedWord& wanted) {
+                return std::ranges::any_of(entries_of(protocol, list), [&](const ListEntry* any) {
+                    return std::ranges::find(any->columns, wanted.name, &NamedWord::name) !=
+                           any->columns.end();
+                });
+            };
+            chosen[list].push_back((effect.entries[list].empty() || effect.entries[list] == entry->id) &&
+                                   std::ranges::all_of(effect.where, [&](const NamedWord& wanted) {
+                                       return !is_here(wanted) || has(wanted);
+                                   }));
+        }
+    }
+    return chosen;
 }
 
 ScreenGeometry screen_geometry_of(const Protocol& protocol) {

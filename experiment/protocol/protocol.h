@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <vector>
 
@@ -18,13 +19,14 @@
 #include "experiment/calibration/calibration_settings.h"
 #include "experiment/colour/display_characterisation.h"
 #include "experiment/events/event_settings.h"
+#include "experiment/factors.h"
 #include "experiment/gaze.h"
 #include "experiment/keys/key_places.h"
+#include "experiment/list_entry.h"
 #include "experiment/ports/observer_field.h"
 #include "experiment/ports/tracker_kinds.h"
 #include "experiment/protocol/design_settings.h"
 #include "experiment/protocol/device_settings.h"
-#include "experiment/protocol/list_entry.h"
 #include "experiment/protocol/material_kind.h"
 #include "experiment/protocol/output_mode.h"
 #include "experiment/protocol/protocol_sources.h"
@@ -408,6 +410,22 @@ static_assert(std::tuple_size_v<decltype(entries_of_lists)> == stimulus_lists.si
 /// as they are. `list`: index into `stimulus_lists`.
 std::vector<const ListEntry*> entries_of(const Protocol& protocol, std::size_t list);
 std::vector<ListEntry*> entries_of(Protocol& protocol, std::size_t list);
+
+/// Their ids.
+std::vector<std::string_view> ids_in_list(const Protocol& protocol, std::size_t list);
+
+/// All factors of a protocol's trials.
+Factors factors_of(const Protocol& protocol);
+
+/// The levels that its trials have of their own, by its tables and rules (own_factors.cpp).
+std::vector<NamedWord> own_levels_of(const Protocol& protocol);
+
+/// "muse, gold": the ids of a stimulus' entries, of lists with several, and always of object and material.
+std::string stimulus_in_words(const Protocol& protocol, const Stimulus& stimulus);
+
+/// For each list: whether a simulated effect holds for each of its entries.
+std::array<std::vector<bool>, stimulus_lists.size()> chosen_by(const Protocol& protocol,
+                                                               const SimulatedEffect& effect);
 
 /// The screen and the stimulus's place on it, as the protocol has them.
 ScreenGeometry screen_geometry_of(const Protocol& protocol);

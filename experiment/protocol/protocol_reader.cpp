@@ -71,31 +71,37 @@ void complete(Protocol& protocol) {
     }
 }
 
-/// Reads the tables that tasks name; their texts stand beside those of included files.
-void read_trial_tables(ProtocolExamination& examination, const IncludeReader& reader) {
+/// Reads the table that a key of a task names; its text stands beside those of included files. -1 where there
+/// is none.
+int read_trial_table(ProtocolExamination& examination, const IncludeReader& reader, int task,
+                     std::string_view key, const std::filesystem::path& file) {
     Protocol& protocol = examination.protocol;
-    for (std::size_t i = 0; i < protocol.tasks.size(); ++i) {
-        Task& task = protocol.tasks[i];
-        const std::string path = fmt::format("task[{}].trials", i);
-        if (task.trials_file.empty())
-            continue;
-        UnreadFile why_not;
-        const IncludedText* const text =
-            text_beside(protocol.included, protocol.file, folder_of(protocol, path) / task.trials_file,
-                        reader, examination.diagnostics(), why_not);
-        if (!text) {
-            examination.error({path},
-                              fmt::format("trials \"{}\": {}", task.trials_file.string(), why_not.message),
+    const std::string path = fmt::format("task[{}].{}", task, key);
+    UnreadFile why_not;
+    const IncludedText* const text =
+        file.empty() ? nullptr
+                     : text_beside(protocol.included, protocol.file, folder_of(protocol, path) / file, reader,
+                                   examination.diagnostics(), why_not);
+    if (!text) {
+        if (!file.empty())
+            examination.error({path}, fmt::format("trials \"{}\": {}", file.string(), why_not.message),
                               why_not.hint);
-            continue;
-        }
-        const auto table =
-            parse_delimited(text->text, text->file.string(), text->number, examination.diagnostics());
-        task.trials.table = static_cast<int>(protocol.trial_tables.size());
-        protocol.trial_tables.push_back(table ? trial_table_of(*table, protocol,
-                                                               slots_of_task(protocol, static_cast<int>(i)),
-                                                               text->file.string(), examination.diagnostics())
-                                              : TrialTable{});
+        return -1;
+    }
+    const std::string name = text->file.string();
+    const auto table = parse_delimited(text->text, name, text->number, examination.diagnostics());
+    protocol.trial_tables.push_back(table ? trial_table_of(*table, protocol, slots_of_task(protocol, task),
+                                                           name, examination.diagnostics())
+                                          : TrialTable{});
+    return static_cast<int>(protocol.trial_tables.size()) - 1;
+}
+
+void read_trial_tables(ProtocolExamination& examination, const IncludeReader& reader) {
+    for (int i = 0; i < static_cast<int>(examination.protocol.tasks.size()); ++i) {
+        Task& task = examination.protocol.tasks[static_cast<std::size_t>(i)];
+        task.trials.table = read_trial_table(examination, reader, i, "trials", task.trials_file);
+        task.catch_trials.table =
+            read_trial_table(examination, reader, i, "catch.trials", task.catch_trials.trials_file);
     }
 }
 

@@ -91,11 +91,10 @@ class TrialTableMaker {
         for (const std::string& slot : slot_ids_)
             known.push_back(slot);
         known.insert(known.end(), {"correct", "block", "repeat"});
-        constexpr std::string_view taken[] = {"task", "slot", "side", "trial", "catch"};
         if (!is_factor_name(cell.text))
             error(cell.place, fmt::format("a factor cannot be called \"{}\"", cell.text),
                   "letters, digits, - and _ make a name");
-        else if (std::ranges::find(taken, cell.text) != std::end(taken))
+        else if (is_name_of_factor(cell.text) || cell.text == "seen" || cell.text == "catch")
             error(cell.place, fmt::format("\"{}\" is the name of a factor that every trial has", cell.text),
                   "call the column otherwise");
         else if (const auto near = nearest_name(cell.text, known))
@@ -113,7 +112,7 @@ class TrialTableMaker {
     std::string list_with_column(std::string_view name) const {
         for (std::size_t list = 0; list < stimulus_lists.size(); ++list)
             for (const ListEntry* entry : entries_of(protocol_, list))
-                if (std::ranges::find(entry->columns, name, &EntryColumn::name) != entry->columns.end())
+                if (std::ranges::find(entry->columns, name, &NamedWord::name) != entry->columns.end())
                     return std::string(stimulus_lists[list].name);
         return {};
     }

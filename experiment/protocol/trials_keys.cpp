@@ -18,8 +18,7 @@ std::vector<Key> trials() {
          "once; or fixed, in the order of the rule."},
         {"draw", &T::draw, range(1, 100000).left_out("all"),
          "So many of all combinations, without replacement."},
-        {"per", &T::per,
-         "Whether each observer has a list and sides of their own, or everyone the same."},
+        {"per", &T::per, "Whether each observer has a list and sides of their own, or everyone the same."},
         {"ordered", &T::ordered, "Of pairs: each comes both ways round."},
         {"identical", &T::identical, "Of pairs and standard: a stimulus comes with itself, too."},
         {"standard", &T::standard, left_out("none"),
@@ -41,6 +40,34 @@ std::vector<Key> trials() {
         {"back", &T::back, range(1, 100), "Of a stream: how many trials before what is repeated came."},
         {"repeats", &T::repeats, range(0, 1),
          "Of a stream: share of the trials that repeat, of those that can."},
+    };
+}
+
+std::vector<Key> catch_trials() {
+    using C = CatchSettings;
+    return {
+        {"trials", &C::trials_file, required(),
+         "Path of a table with a row for each trial, as for the task itself; its column `correct` has the "
+         "answer of somebody who attends."},
+        {"share", &C::share, range(0, 0.9).left_out("see `count`"),
+         "Share of all trials of the task in a block, to the nearest whole trial."},
+        {"count", &C::count, range(1, 1000).left_out("as many as the table has rows"),
+         "How many in a block, instead. Each row comes equally often, to one."},
+    };
+}
+
+std::vector<Key> draw() {
+    using D = DrawSettings;
+    return {
+        {"of", &D::of, identifier().required(),
+         "List of which entries are drawn: `object`, `material`, `light`, `motion` or `view`."},
+        {"count", &D::count, range(1, 100000).left_out("see `from`"), "How many entries."},
+        {"from", &D::from, identifier().left_out("none"),
+         "Id of an earlier block that draws of the same list: what it drew is old in this block, all else "
+         "new. Trials have it as the factor `seen`, and as their correct answer."},
+        {"old", &D::old_entries, range(0, 100000).left_out("all"), "How many of the old ones."},
+        {"new", &D::new_entries, range(0, 100000).left_out("all"), "How many of the new ones."},
+        {"per", &D::per, "Whether each observer has a list of their own, or everyone the same."},
     };
 }
 

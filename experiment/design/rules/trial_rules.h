@@ -27,6 +27,7 @@ struct TrialRuleRow {
     /// The keys that it looks at besides `rule`, `of`, `same` and `per`; empty behind the last.
     std::array<std::string_view, 8> keys;
     bool keeps_order = false; ///< its trials come in the order that it gives them
+    std::array<std::string_view, 2> answers = {}; ///< that are correct; those of a match are slots
 
     constexpr bool has_key(std::string_view key) const { return std::ranges::find(keys, key) != keys.end(); }
 };
@@ -71,7 +72,9 @@ inline constexpr auto kinds_of<TrialRuleKind> = std::to_array<TrialRuleRow>({
      "a target among distractors, or distractors alone: each target and set size, in slots that are drawn",
      "{target} among {distractors}, {sizes} at once, or not there",
      search_rule,
-     {"target", "distractors", "set_sizes", "absent", "side", "draw"}},
+     {"target", "distractors", "set_sizes", "absent", "side", "draw"},
+     false,
+     {"present", "absent"}},
     {"match",
      "a sample, and slots of which one shows what has its levels of `of` while it differs in `differs`",
      "a sample in {sample}, and what has its {of} in one of {among}",
@@ -82,7 +85,8 @@ inline constexpr auto kinds_of<TrialRuleKind> = std::to_array<TrialRuleRow>({
      "one of a stream of {length} that differ in {of}, some repeating what came {back} before",
      stream_rule,
      {"length", "back", "repeats"},
-     true},
+     true,
+     {"repeat", "new"}},
 });
 
 } // namespace overt

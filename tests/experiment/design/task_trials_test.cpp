@@ -224,3 +224,136 @@ repetitions = 2
             REQUIRE(schedule.trials[i].stimulus.object != schedule.trials[i - 1].stimulus.object);
     }
 }
+
+namespace {
+
+constexpr std::string_view study_and_test = R"([protocol]
+name = "memory"
+[[object]]
+id = "a"
+shipped = "muse"
+[[object]]
+id = "b"
+shipped = "muse"
+[[object]]
+id = "c"
+shipped = "muse"
+[[object]]
+id = "d"
+shipped = "muse"
+[[object]]
+id = "e"
+shipped = "muse"
+[[object]]
+id = "f"
+shipped = "muse"
+[[material]]
+id = "gold"
+kind = "smooth-conductor"
+[[task]]
+id = "learn"
+question = "Learn."
+[[task]]
+id = "recognise"
+question = "Seen?"
+[[block]]
+id = "study"
+tasks = "learn"
+draw = { of = "object", count = 3 }
+[[block]]
+id = "test"
+tasks = "recognise"
+draw = { of = "object", old = 2, new = 2, from = "study" }
+)";
+
+} // namespace
+
+TEST_CASE("what an observer learned is old in the test, and what is new was not learned", "[unit]") {
+    const Protocol protocol = sound(std::string(study_and_test));
+    std::set<std::set<int>> lists;
+    std::map<int, int> often;
+    for (int number = 1; number <= 60; ++number) {
+        const Schedule schedule = make_schedule(protocol, {"P", number}, 3);
+        REQUIRE(schedule.trials.size() == 3 + 4);
+        std::set<int> learned;
+        for (const Trial& trial : schedule.trials) {
+            const int object = trial.stimulus.object;
+            if (trial.block == 0) {
+                CHECK(learned.insert(object).second);
+                CHECK(trial.levels.empty());
+                ++often[object];
+                continue;
+            }
+            REQUIRE(level_of_trial(trial, "seen") == (learned.contains(object) ? "old" : "new"));
+            REQUIRE(trial.correct == level_of_trial(trial, "seen"));
+        }
+        CHECK(std::ranges::count(schedule.trials, "old", &Trial::correct) == 2);
+        CHECK(std::ranges::count(schedule.trials, "new", &Trial::correct) == 2);
+        lists.insert(learned);
+        CHECK(make_schedule(protocol, {"P", number}, 3).trials == schedule.trials);
+    }
+    CHECK(lists.size() > 12); // of 20
+    for (const auto& [object, count] : often)
+        CHECK(std::abs(count - 30) < 16);
+}
+
+TEST_CASE("limits hold on what is old and new, and on the correct answer", "[unit]") {
+    const Protocol protocol = sound(std::string(study_and_test) + "max_run = { seen = 1, correct = 1 }\n");
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+        const Schedule schedule = make_schedule(protocol, {"P", 1}, seed);
+        for (std::size_t i = 4; i < schedule.trials.size(); ++i)
+            REQUIRE(schedule.trials[i].correct != schedule.trials[i - 1].correct);
+    }
+    const Protocol sides = sound(with("trials = { rule = \"pairs\", of = \"material\", side = \"crossed\" }\n"
+                                      "[schedule]\nmax_object_run = 0\nmax_run = { side = 1 }\n"));
+    const Schedule schedule = make_schedule(sides, {"P", 1}, 1);
+    for (std::size_t i = 1; i < schedule.trials.size(); ++i)
+        REQUIRE(schedule.trials[i].levels != schedule.trials[i - 1].levels);
+}
+
+TEST_CASE("a draw that cannot be made is said at its key", "[unit]") {
+    const auto lines = [](std::string_view from, std::string_view to) {
+        std::string text(study_and_test);
+        text.replace(text.find(from), from.size(), to);
+        return ReadWithTable(text).lines();
+    };
+    using Lines = std::vector<std::string>;
+    CHECK(lines("count = 3", "count = 7") ==
+          Lines{"p.toml:33:30: 7 objects are drawn, of 6 that are listed"});
+    CHECK(lines("old = 2", "old = 4") == Lines{"p.toml:37:28: 4 objects are drawn, of 3 that are old"});
+    CHECK(lines("new = 2", "new = 4") == Lines{"p.toml:37:37: 4 objects are drawn, of 3 that are new"});
+    CHECK(lines("from = \"study\"", "from = \"test\"") ==
+          Lines{"p.toml:37:47: block \"test\" does not come before this one"});
+    CHECK(lines("from = \"study\"", "from = \"studi\"") ==
+          Lines{"p.toml:37:47: there is no block \"studi\""});
+    CHECK(lines(", count = 3", "").size() == 2);
+    CHECK(lines("{ of = \"object\", count", "{ of = \"objects\", count").size() == 1);
+}
+
+TEST_CASE("catch trials are the share that is asked for, marked, with their own answers", "[unit]") {
+    const std::string text = with("trials = { rule = \"pairs\", of = \"material\", side = \"crossed\" }\n"
+                                  "repetitions = 3\ncatch = { trials = \"list.tsv\", share = 0.1 }\n");
+    const std::string table =
+        "left,right,correct\nvase/g1,vase/g3,right\nvase/g3,vase/g1,left\nbust/g3,bust/g1,left\n";
+    const Protocol protocol = sound(text, table);
+    std::set<int> places;
+    for (std::uint64_t seed = 0; seed < 30; ++seed) {
+        const Schedule schedule = make_schedule(protocol, {"P", 1}, seed);
+        // 36 pairs, and 4 of 40.
+        REQUIRE(schedule.trials.size() == 40);
+        int left = 0;
+        for (const Trial& trial : schedule.trials) {
+            if (!trial.is_catch) {
+                CHECK(trial.correct.empty());
+                continue;
+            }
+            places.insert(trial.index);
+            left += trial.correct == "left";
+            CHECK(trial.correct == (trial.shown(0).stimulus.material == 2 ? "left" : "right"));
+        }
+        CHECK(std::ranges::count(schedule.trials, true, &Trial::is_catch) == 4);
+        CHECK(left >= 2);
+        CHECK(left <= 3);
+    }
+    CHECK(places.size() > 25);
+}
