@@ -10,6 +10,7 @@
 #include "experiment/analysis/gaze_cone.h"
 #include "experiment/base/parallel.h"
 #include "experiment/base/random.h"
+#include "experiment/protocol/all_stimuli.h"
 #include "experiment/record/read/sample_join.h"
 #include "render/gl/headless_context.h"
 #include "render/stimulus/coordinate_pass.h"
@@ -23,12 +24,12 @@ constexpr int repeats = 5;
 constexpr int compared_places = 200'000;
 
 std::vector<TriangleMap> draw_maps(const GlContext& context, const Object& object, const PoseTable& poses) {
-    CoordinatePass pass(context, object.scene.view.image_px);
+    CoordinatePass pass(context, object.scene().view.image_px);
     const MeshBuffers buffers(context, object.mesh);
     std::vector<TriangleMap> maps;
     ProgressBar bar;
     for (const Degrees angle : poses.angles) {
-        maps.push_back({object.scene.view.image_px, pass.draw(buffers, object.scene, angle)});
+        maps.push_back({object.scene().view.image_px, pass.draw(buffers, object.scene(), angle)});
         bar.update("maps of " + object.id, static_cast<int>(maps.size()),
                    static_cast<int>(poses.angles.size()));
     }
@@ -121,7 +122,7 @@ struct Errors {
 
 void Reprojection::measure_exactness() {
     const RayCaster rays(object_.mesh);
-    const glm::dvec3 lsb = glm::max(object_.scene.bounds.extent() / 65536.0, glm::dvec3(1e-300));
+    const glm::dvec3 lsb = glm::max(object_.scene().bounds.extent() / 65536.0, glm::dvec3(1e-300));
     struct Outcome {
         bool differs = false, interior = false, edge = false;
         double error = 0.0, centre_error = -1.0;
@@ -134,7 +135,7 @@ void Reprojection::measure_exactness() {
                 static_cast<int>(random.below(static_cast<std::uint32_t>(poses_.angles.size())))};
             const glm::ivec2 size = maps_.image_px();
             const glm::dvec2 place(random.uniform(0.0, size.x), random.uniform(0.0, size.y));
-            const SceneView& scene = object_.scene;
+            const SceneView& scene = object_.scene();
             const auto cast = [&](glm::dvec2 at) {
                 return rays.first_hit(
                     to_object(scene.view.ray_through(at),
@@ -224,7 +225,7 @@ void Reprojection::measure_cone() {
 
 BenchFigures bench_reproject(const BenchOptions& options) {
     const BenchScene scene = bench_scene(options);
-    const PoseTable poses = distinct_poses(scene.protocol.motions.front());
+    const PoseTable poses = poses_of(scene.protocol);
     BenchFigures figures;
     const auto context = make_headless_context(options.context);
     for (const Object& object : scene.objects) {
@@ -233,7 +234,7 @@ BenchFigures bench_reproject(const BenchOptions& options) {
         const double drawn_mb = static_cast<double>(drawn.size() * drawn.front().codes.size()) * 4e-6;
         const double before_mb = resident_memory_mb() - drawn_mb;
         const auto begin = std::chrono::steady_clock::now();
-        const CoordinateMaps maps(object.mesh, object.scene, poses.angles, std::move(drawn));
+        const CoordinateMaps maps(object.mesh, object.scene(), poses.angles, std::move(drawn));
         const double making_s = seconds_since(begin);
         figures.push_back({object.id + ", triangles", static_cast<double>(object.mesh.triangles.size()), ""});
         figures.push_back(at_most(object.id + ", memory of all maps with the surface",

@@ -182,10 +182,11 @@ void write_plot(const SessionRecord& record, const std::filesystem::path& file) 
 }
 
 /// Half a degree of visual angle, about the accuracy of a good calibration, in the unit of the mesh.
-double kernel_sigma(const SessionHeader& header, int object) {
-    const RecordedObject& recorded = header.objects[static_cast<std::size_t>(object)];
-    const double depth = glm::distance(recorded.camera.position, recorded.bounds.centre());
-    const double image_height = 2.0 * depth * std::tan(0.5 * to_radians(recorded.camera.vertical_fov).value);
+double kernel_sigma(const SessionHeader& header, const Stimulus& stimulus) {
+    const RecordedObject& recorded = header.objects[static_cast<std::size_t>(stimulus.object)];
+    const Camera& camera = header.camera_of(stimulus);
+    const double depth = glm::distance(camera.position, recorded.bounds.centre());
+    const double image_height = 2.0 * depth * std::tan(0.5 * to_radians(camera.vertical_fov).value);
     return 0.5 * header.display.screen.px_per_deg_at_centre() * image_height /
            header.display.screen.image_px.y;
 }
@@ -194,7 +195,7 @@ void write_picture(const SessionRecord& record, const TrialRecord& trial, const 
     const SessionHeader& header = record.header();
     const int object = trial.trial.stimulus.object;
     RecordedSurfaces surfaces(record);
-    const SurfaceLookup* surface = surfaces.lookup_of(object);
+    const SurfaceLookup* surface = surfaces.lookup_of(viewed(trial.trial.stimulus));
     if (!surface)
         throw InputError(fmt::format("object \"{}\" has no map: there is no surface to show gaze on",
                                      header.objects[static_cast<std::size_t>(object)].id));
@@ -209,11 +210,11 @@ void write_picture(const SessionRecord& record, const TrialRecord& trial, const 
     TrialPictureContent content;
     content.surface = surface;
     content.bounds = header.objects[static_cast<std::size_t>(object)].bounds;
-    content.pose = header.poses.pose_of({0});
+    content.pose = header.poses.pose_of(stimulus.motion, {0});
     content.frame =
         read_linear_image(record.directory() / preview_file(header, stimulus), FrameEncoding::srgb);
     content.gaze_on_surface = gaze;
-    content.kernel_sigma = kernel_sigma(header, object);
+    content.kernel_sigma = kernel_sigma(header, stimulus);
     content.frame_caption = fmt::format("{}, {}", header.objects[static_cast<std::size_t>(object)].title,
                                         header.materials[static_cast<std::size_t>(stimulus.material)].title);
     content.map_caption = "Hidden map: place on the surface as colour";

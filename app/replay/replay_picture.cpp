@@ -82,7 +82,7 @@ class TrialPictures {
         if (record.header().stimuli.empty())
             throw InputError(fmt::format("{}: this session was imported: the program has no frames of it",
                                          record.directory().string()));
-        return surfaces.lookup_of(trial.trial.stimulus.object);
+        return surfaces.lookup_of(viewed(trial.trial.stimulus));
     }
 
     const SessionRecord& record_;

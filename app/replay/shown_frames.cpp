@@ -23,18 +23,18 @@ SessionTime first_light_of(const SessionRecord& record, const TrialRecord& trial
 } // namespace
 
 ShownFrames::ShownFrames(const SessionRecord& record, const TrialRecord& trial, const SurfaceLookup* lookup)
-    : record_(record), lookup_(lookup), history_(record.flip_history(record.ledger(trial))) {
+    : record_(record), lookup_(lookup), history_(record.flip_history(trial, record.ledger(trial))) {
     const SessionHeader& header = record.header();
     const std::optional<TrialLedger> ledger = record.ledger(trial);
     first_light_ = first_light_of(record, trial, ledger);
     const double refresh_hz = header.display.refresh_hz;
-    const int held = std::max(1, refreshes_per_frame(header.animation.frame_rate_hz, refresh_hz));
+    const int held = std::max(1, refreshes_per_frame(header.animation_of(trial.trial.stimulus).frame_rate_hz, refresh_hz));
     period_s_ = held / refresh_hz;
     const SessionTime last = ledger->recorded.back().report.vertical_blank + header.display.latency;
     const double lit_s = to_seconds(last - first_light_) + 1.0 / refresh_hz;
     // The last period counts if it was lit for half of its time.
     count_ = std::max(1, static_cast<int>(std::lround(lit_s / period_s_)));
-    const SampleJoin join(header.display.screen, record.clock_map(trial), record.flip_history(ledger),
+    const SampleJoin join(header.display.screen, record.clock_map(trial), record.flip_history(trial, ledger),
                           nullptr);
     constexpr std::size_t piece = 4096;
     record.read_samples(trial, piece, [&](std::span<const GazeSample> samples) {

@@ -64,7 +64,7 @@ class HeadView {
   public:
     HeadView(const GlContext& context, const Protocol& protocol, const Object& object, glm::ivec2 image_px)
         : object_(&object), caster_(object.mesh), view_(context, protocol, {&object, 1}, image_px),
-          scene_(object.scene) {
+          scene_(object.scene()) {
         scene_.view.image_px = image_px;
         view_.choose({0, 0});
     }
@@ -223,7 +223,7 @@ int run_pick_head(const PickHeadOptions& options) {
     const glm::dmat3 object_from_file = z_up_from_file(up_axis_named(options.up));
     const double scale = mm_of_unit(settings.unit);
     const bool is_given = !given.spheres.empty() || !given.half_spaces.empty();
-    const double height = object.scene.bounds.max.z - object.scene.bounds.min.z;
+    const double height = object.scene().bounds.max.z - object.scene().bounds.min.z;
     HeadOutline outline(0.1 * height,
                         is_given ? std::optional(transformed(given, object_from_file, scale, -object.origin))
                                  : std::nullopt);

@@ -17,6 +17,7 @@
 
 namespace overt {
 
+/// An object in a view.
 struct ObservedObject {
     const Mesh* mesh = nullptr; ///< nullptr or without triangles: ready-made frames whose surface is unknown
     SceneView scene;
@@ -46,10 +47,11 @@ struct ObservedEffect {
 
 struct ObservedScene {
     ScreenGeometry screen;
-    Animation animation;
+    std::vector<Animation> animations = std::vector<Animation>(1); ///< by Stimulus::motion
     double refresh_hz = 120.0;
     SessionDuration display_latency{};   ///< from vertical blank to the first row's light
-    std::vector<ObservedObject> objects; ///< by Stimulus::object
+    std::vector<ObservedObject> objects; ///< see index_of(): each object in each view
+    int views = 1;
     std::vector<ObservedTask> tasks;     ///< by Trial::task
     std::vector<ObservedEffect> effects = {};
     double head_share_sd = 0.0;             ///< of the logit, over observers
@@ -63,8 +65,19 @@ struct ObservedScene {
     /// Rows above and below the screen are taken as its first and last.
     SessionDuration light_delay(double y_px) const;
 
-    /// How long an animation frame is lit.
-    SessionDuration frame_period() const;
+    /// How long a frame of a motion is lit.
+    SessionDuration frame_period(int motion) const;
+
+    const Animation& animation_of(int motion) const {
+        return animations[static_cast<std::size_t>(motion)];
+    }
+    /// Of the longest presentation that there is.
+    double longest_s() const;
+    /// Where `objects` has what is seen of a stimulus.
+    std::size_t index_of(const Stimulus& stimulus) const {
+        return static_cast<std::size_t>(stimulus.object) * static_cast<std::size_t>(views) +
+               static_cast<std::size_t>(stimulus.view);
+    }
 };
 
 /// The scene of a protocol. Its meshes stay where they are: `objects` must outlive the result.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "experiment/base/counted.h"
 #include "experiment/checks/protocol_checks.h"
 #include "experiment/protocol/protocol_keys.h"
 #include "experiment/stimulus/frame_memory.h"
@@ -229,17 +230,28 @@ void check_tags(ProtocolExamination& examination) {
 
 void check_frame_store(ProtocolExamination& examination) {
     const Protocol& protocol = examination.protocol;
-    const double stimulus_mb = 1e-6 * most_pages(protocol) * page_bytes(protocol);
-    const double store_mb = protocol.display.frame_store_mb;
-    if (stimulus_mb <= store_mb)
-        return;
-    examination.error(
-        {"display.frame_store_mb", "view[0].width_px", "view[0].height_px", "motion[0].frame_count"},
-        fmt::format("a stimulus takes {:.4g} MB of the frame store, which may take {}", stimulus_mb,
-                    store_mb),
-        fmt::format("write frame_store_mb = {:.0f}, if the graphics card has as much ({:.0f} with "
-                    "the next stimulus), or show fewer or smaller frames",
-                    std::ceil(stimulus_mb), std::ceil(2.0 * stimulus_mb)));
+    const double page_mb = 1e-6 * page_bytes(protocol), store_mb = protocol.display.frame_store_mb;
+    for (std::size_t motion = 0; motion < protocol.motions.size(); ++motion) {
+        const int pages = most_pages(protocol, static_cast<int>(motion));
+        const double stimulus_mb = page_mb * pages;
+        if (stimulus_mb <= store_mb)
+            continue;
+        const std::string named =
+            protocol.motions.size() > 1
+                ? fmt::format(" in motion \"{}\" takes, with {},", protocol.motions[motion].id,
+                              counted(pages, "picture"))
+                : " takes";
+        const std::string frames = fmt::format("motion[{}].frame_count", motion),
+                          store = "display.frame_store_mb";
+        const bool is_one_of_several = protocol.motions.size() > 1;
+        examination.error({is_one_of_several ? frames : store, is_one_of_several ? store : frames,
+                           "view[0].width_px", "view[0].height_px"},
+                          fmt::format("a stimulus{} {:.4g} MB of the frame store, which may take {}", named,
+                                      stimulus_mb, store_mb),
+                          fmt::format("write frame_store_mb = {:.0f}, if the graphics card has as much ({:.0f} "
+                                      "with the next stimulus), or show fewer or smaller frames",
+                                      std::ceil(stimulus_mb), std::ceil(2.0 * stimulus_mb)));
+    }
 }
 
 void check_timing_claim(ProtocolExamination& examination) {

@@ -151,13 +151,17 @@ std::filesystem::path lut_file(const ObjectSettings& object, AnimationFrameIndex
     return numbered(object.lut, object.lut_first_number + frame.value);
 }
 
-const FrameSequenceSettings* find_frames(const Protocol& protocol, int object, int material) {
-    const std::string& object_id = protocol.objects.at(static_cast<std::size_t>(object)).id;
-    const std::string& material_id = protocol.materials.at(static_cast<std::size_t>(material)).id;
-    const auto found = std::find_if(
-        protocol.frames.begin(), protocol.frames.end(), [&](const FrameSequenceSettings& sequence) {
-            return sequence.object == object_id && sequence.material == material_id;
-        });
+const FrameSequenceSettings* find_frames(const Protocol& protocol, const Stimulus& stimulus) {
+    const auto is_of = [](const std::string& id, const ListEntry& entry, std::size_t entries) {
+        return id.empty() ? entries == 1 : id == entry.id;
+    };
+    const auto found = std::ranges::find_if(protocol.frames, [&](const FrameSequenceSettings& sequence) {
+        return sequence.object == protocol.object_of(stimulus).id &&
+               sequence.material == protocol.material_of(stimulus).id &&
+               is_of(sequence.light, protocol.light_of(stimulus), protocol.lights.size()) &&
+               is_of(sequence.motion, protocol.motion_of(stimulus), protocol.motions.size()) &&
+               is_of(sequence.view, protocol.view_of(stimulus), protocol.views.size());
+    });
     return found == protocol.frames.end() ? nullptr : &*found;
 }
 

@@ -325,10 +325,11 @@ enum class FrameColours : std::uint8_t { display, rec709, xyz };
 template <>
 inline constexpr auto names_of<FrameColours> = enum_names<FrameColours>("display", "rec709", "xyz");
 
-/// [[frames]]: a ready-made animation for one object in one material, instead of rendering it.
+/// [[frames]]: a ready-made animation for one stimulus, instead of rendering it.
 struct FrameSequenceSettings {
     std::string object;
     std::string material;
+    std::string light, motion, view; ///< empty: the only one that there is
     std::string
         files; ///< path with # for the digits of the frame number; resolved against the protocol's folder
     int first_number = 0; ///< number of animation frame 0
@@ -439,8 +440,7 @@ std::filesystem::path frame_file(const FrameSequenceSettings& sequence, Animatio
 /// The same for the map of one frame, of an object with ready-made maps.
 std::filesystem::path lut_file(const ObjectSettings& object, AnimationFrameIndex frame);
 
-/// The ready-made frames of an object in a material, or nullptr if they are to be rendered. Indices into
-/// the protocol's lists.
-const FrameSequenceSettings* find_frames(const Protocol& protocol, int object, int material);
+/// The ready-made frames of a stimulus, or nullptr if they are to be rendered.
+const FrameSequenceSettings* find_frames(const Protocol& protocol, const Stimulus& stimulus);
 
 } // namespace overt

@@ -64,6 +64,12 @@ void complete(Protocol& protocol) {
     if (!protocol.display.characterisation_file.empty())
         protocol.display.characterisation_file =
             folder_of(protocol, "display.characterisation") / protocol.display.characterisation_file;
+    for (std::size_t i = 0; i < protocol.motions.size(); ++i) {
+        // What does not move has one frame.
+        MotionSettings& motion = protocol.motions[i];
+        if (!motion.moves() && !protocol.places.is_written(fmt::format("motion[{}].frame_count", i)))
+            motion.frame_count = 1;
+    }
     for (std::size_t i = 0; i < protocol.lights.size(); ++i) {
         LightSettings& light = protocol.lights[i];
         if (light.is_file())

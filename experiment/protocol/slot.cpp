@@ -88,17 +88,18 @@ ScreenGeometry slot_geometry(const Protocol& protocol, const Slot& slot) {
 }
 
 void fit_view_to_slots(Protocol& protocol) {
-    ViewSettings& view = protocol.view;
     const glm::ivec2 size = slot_geometry(protocol, protocol.slots.front()).image_px;
-    if (size == glm::ivec2(view.width_px, view.height_px))
-        return;
-    if (view.camera_position && !view.vertical_fov_deg) {
-        const double height_mm = view.height_px * protocol.display.height_mm / protocol.display.height_px;
-        view.vertical_fov_deg =
-            to_degrees({2.0 * std::atan(0.5 * height_mm / protocol.display.viewing_distance_mm)}).value;
+    for (ViewSettings& view : protocol.views) {
+        if (size == glm::ivec2(view.width_px, view.height_px))
+            continue;
+        if (view.camera_position && !view.vertical_fov_deg) {
+            const double height_mm = view.height_px * protocol.display.height_mm / protocol.display.height_px;
+            view.vertical_fov_deg =
+                to_degrees({2.0 * std::atan(0.5 * height_mm / protocol.display.viewing_distance_mm)}).value;
+        }
+        view.width_px = size.x;
+        view.height_px = size.y;
     }
-    view.width_px = size.x;
-    view.height_px = size.y;
 }
 
 std::vector<int> slots_of_task(const Protocol& protocol, int task) {

@@ -85,12 +85,20 @@ std::vector<Key> motion() {
     using A = Animation;
     return entry_keys<M>(
         {
+            {"kind", member_of<M>(&A::kind),
+             "The object turns to and fro as a sine, or it stands still; the light may turn with either."},
             {"frame_count", member_of<M>(&A::frame_count), range(1, 10000),
              "Frames of the animation; with `cycle` the last closes the loop, being the first again."},
             {"frame_rate_hz", member_of<M>(&A::frame_rate_hz), range(0.1, 1000, "Hz"),
              "Frames per second, if the refresh rate is a whole multiple of it; see `display.refresh_hz`."},
             {"amplitude_deg", member_of<M>(&A::amplitude), range(0, 180, "deg"),
-             "Largest turn to each side of the front view."},
+             "Largest turn to each side of `angle_deg`; with `still` it has no effect."},
+            {"angle_deg", member_of<M>(&A::angle), range(-360, 360, "deg"),
+             "Where a still object stands, or the middle of its turn: counter-clockwise from the front view, seen "
+             "from above."},
+            {"light_amplitude_deg", member_of<M>(&A::light_amplitude), range(0, 180, "deg"),
+             "Largest turn of the surroundings to each side of where `[light]` has them, in step with the "
+             "object's."},
             {"playback", member_of<M>(&A::playback),
              "The frames hold a whole period of the sine, or one sweep from end to end that is played forth "
              "and "

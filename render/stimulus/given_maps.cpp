@@ -49,9 +49,10 @@ void label_head(CoordinateImage& image, const PartRegion& head) {
 } // namespace
 
 AnimationFrameIndex first_frame_of(const PoseTable& poses, PoseIndex pose) {
-    const auto found = std::find(poses.of_frame.begin(), poses.of_frame.end(), pose);
-    OVERT_EXPECTS(found != poses.of_frame.end());
-    return {static_cast<int>(found - poses.of_frame.begin())};
+    const std::span<const PoseIndex> frames = poses.frames_of(0);
+    const auto found = std::ranges::find(frames, pose);
+    OVERT_EXPECTS(found != frames.end());
+    return {static_cast<int>(found - frames.begin())};
 }
 
 CoordinateImageFile read_given_map(const Protocol& protocol, int object, AnimationFrameIndex frame) {

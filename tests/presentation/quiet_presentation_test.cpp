@@ -77,7 +77,7 @@ void run_quietly(const DisplayFaults& faults) {
     Schedule schedule;
     schedule.trials = {{0, 0, {}}, {1, 1, {}}, {2, 0, {}}};
     SessionHeader header = testing::example_header();
-    header.animation = protocol.motions.front();
+    header.animations[0] = protocol.motions.front();
     header.poses = distinct_poses(protocol.motions.front());
     const auto session = testing::make_session(root.path(), header);
     {

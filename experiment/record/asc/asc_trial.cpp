@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "experiment/base/utf8_text.h"
+#include "experiment/factors.h"
 #include "experiment/record/asc/asc_survey.h"
 #include "experiment/record/asc/asc_words.h"
 #include "experiment/record/preview_file.h"
@@ -20,9 +21,17 @@ using Kind = GazeEvent::Kind;
 std::vector<std::pair<std::string_view, std::string>> variables_of(const SessionHeader& header,
                                                                    const Trial& trial) {
     const auto id = [](const auto& list, int index) { return list[static_cast<std::size_t>(index)].id; };
-    return {{"task", id(header.tasks, trial.task)},
-            {"object", id(header.objects, trial.stimulus.object)},
-            {"material", id(header.materials, trial.stimulus.material)}};
+    std::vector<std::pair<std::string_view, std::string>> variables{
+        {"task", id(header.tasks, trial.task)},
+        {"object", id(header.objects, trial.stimulus.object)},
+        {"material", id(header.materials, trial.stimulus.material)}};
+    for (const TrialLevel& of : trial.levels)
+        variables.emplace_back(of.factor, of.level);
+    if (!trial.correct.empty())
+        variables.emplace_back(correct_answer, trial.correct);
+    if (trial.is_catch)
+        variables.emplace_back("catch", "yes");
+    return variables;
 }
 
 std::vector<GazeEvent> events_of(const SessionRecord& record, const TrialRecord& trial) {

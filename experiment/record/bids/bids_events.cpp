@@ -59,7 +59,7 @@ RowLayout<BidsEvent> events_layout(const SessionHeader& header, SessionTime zero
         tasks.emplace_back(task.id, task.question.empty() ? task.id : plain_line_of(task.question));
     for (const std::string& block : header.blocks)
         blocks.emplace_back(block, "the block of that name");
-    return {
+    RowLayout<BidsEvent> layout{
         "",
         "",
         {
@@ -130,6 +130,8 @@ RowLayout<BidsEvent> events_layout(const SessionHeader& header, SessionTime zero
             {{"answer", "The answer, where it was taken down"},
              of_ended([](auto& attempt) { return attempt.outcome.answer; })},
         }};
+    layout.add<BidsEvent>(own_columns<RowLayout<BidsEvent>::Column>(header));
+    return layout;
 }
 
 /// Until the answer; of an imported trial that tells of none, until its result or its last sample.

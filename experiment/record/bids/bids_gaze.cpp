@@ -157,7 +157,7 @@ BidsGazeCounts write_bids_gaze(const SessionRecord& record, int run, const Looku
             continue;
         const int object = trial.trial.stimulus.object;
         const bool has_places = files.front()->has_places();
-        const SampleJoin join(record, trial, has_places ? lookup_for(object) : nullptr);
+        const SampleJoin join(record, trial, has_places ? lookup_for(viewed(trial.trial.stimulus)) : nullptr);
         const std::vector<std::string> parts = part_cells_of(record.header(), object, TableFormat::tsv);
         const auto take = [&](std::span<const GazeSample> samples) {
             joined.resize(samples.size());

@@ -52,7 +52,7 @@ namespace {
 
 std::vector<RowLayout<TrialRow>::Column> attempt_columns(const SharedColumns& shared,
                                                          const SessionHeader& header) {
-    return {
+    std::vector<RowLayout<TrialRow>::Column> columns{
         {shared.trial, number_of_trial},
         {{"attempt", "Which attempt at this trial, from 1: a trial that was cut off is repeated"},
          attempt_number},
@@ -62,6 +62,10 @@ std::vector<RowLayout<TrialRow>::Column> attempt_columns(const SharedColumns& sh
         {shared.task, task_of(header)},
         {shared.object, object_of(header)},
         {shared.material, material_of(header)},
+    };
+    for (auto& column : own_columns<RowLayout<TrialRow>::Column>(header))
+        columns.push_back(std::move(column));
+    std::vector<RowLayout<TrialRow>::Column> further{
         {{"status",
           "How the attempt ended",
           "",
@@ -138,6 +142,8 @@ std::vector<RowLayout<TrialRow>::Column> attempt_columns(const SharedColumns& sh
                         "0: none, n/a: not known, or the tracker measures no gaze"},
          gaze_share_of(header)},
     };
+    columns.insert(columns.end(), further.begin(), further.end());
+    return columns;
 }
 
 } // namespace

@@ -85,7 +85,7 @@ class ExactSitting {
         RecordedSurfaces surfaces(record);
         std::filesystem::path tables = files.folder().path() / "tables";
         export_tables(
-            record, [&](int object) { return surfaces.lookup_of(object); }, tables);
+            record, [&](const ViewedObject& viewed) { return surfaces.lookup_of(viewed); }, tables);
         return tables;
     }
 };

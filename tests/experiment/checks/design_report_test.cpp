@@ -18,13 +18,13 @@ TEST_CASE("the paper's design is 54 maps, and 30 trials of 240 frames and 960 re
     const DesignReport report = make_design_report(paper_protocol(), {});
     CHECK(report.incidence.size() == 54);
     CHECK(report.trials_per_observer == 30);
-    CHECK(report.animation.frames == 61);
-    CHECK(report.animation.distinct_poses == 31);
-    CHECK(report.animation.shown_frames == 240);
-    CHECK(report.animation.refreshes_per_frame == 4);
-    CHECK(report.animation.refreshes == 960);
-    CHECK(report.animation.duration_s == 8.0);
-    CHECK(report.animation.periods == 4.0);
+    CHECK(report.motions[0].frames == 61);
+    CHECK(report.motions[0].distinct_poses == 31);
+    CHECK(report.motions[0].shown_frames == 240);
+    CHECK(report.motions[0].refreshes_per_frame == 4);
+    CHECK(report.motions[0].refreshes == 960);
+    CHECK(report.motions[0].duration_s == 8.0);
+    CHECK(report.motions[0].periods == 4.0);
     CHECK(report.warnings.empty());
 }
 
@@ -138,7 +138,7 @@ TEST_CASE("weights and groups that show some stimuli more often are no imbalance
     BlockSettings block;
     block.id = "weighted";
     block.order = OrderMethod::weighted;
-    block.by = TrialFactor::material;
+    block.by = "material";
     block.weights = {2.0, 1.0, 1.0};
     protocol.blocks = {block};
     CHECK(make_design_report(protocol, {}).warnings.empty());

@@ -77,7 +77,7 @@ observers = 5
     CHECK(read.protocol->tasks.at(0).stimuli == TaskCoverage::once_per_object);
     CHECK(read.protocol->frames.at(0).encoding == FrameEncoding::srgb);
     CHECK(frame_file(read.protocol->frames.at(0), {7}) == "f/x_0008.exr");
-    CHECK(find_frames(*read.protocol, 0, 0) == &read.protocol->frames.at(0));
+    CHECK(find_frames(*read.protocol, {0, 0}) == &read.protocol->frames.at(0));
 }
 
 TEST_CASE("paths count from the protocol's folder", "[unit]") {
