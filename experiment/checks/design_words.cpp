@@ -74,7 +74,8 @@ Texts words_of_rule(const Protocol& protocol, int task, const BlockScope& scope)
     for (const int size : request.set_sizes)
         sizes.push_back(fmt::format("{}", size));
     Texts sentences{fmt::format(
-        fmt::runtime(row.words), fmt::arg("of", with_levels(request.of)),
+        fmt::runtime(row.words),
+        fmt::arg("of", request.of.empty() ? std::string("nothing") : with_levels(request.of)),
         fmt::arg("standard", names_or(trials.standard, "")), fmt::arg("target", names_or(trials.target, "")),
         fmt::arg("distractors", names_or(trials.distractors, "all others")),
         fmt::arg("sizes", names_or(sizes, fmt::format("{}", slots.size()))),

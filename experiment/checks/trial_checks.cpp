@@ -36,11 +36,14 @@ class TaskTrialsCheck {
         if (!settings_.trials.rule)
             return;
         check_keys();
-        const int blocks = block_count(protocol_);
-        for (int block = 0; block < blocks && errors_ == 0; ++block) {
+        // What is wrong in one block is most often so in the next.
+        for (int block = 0; block < block_count(protocol_); ++block) {
             const BlockScope scope = scope_of(protocol_, block);
+            const int before = errors_;
             if (std::ranges::find(scope.tasks, task_) != scope.tasks.end())
                 check_block(block, stimuli_in(scope));
+            if (errors_ > before)
+                break;
         }
     }
 
@@ -94,6 +97,7 @@ class TaskTrialsCheck {
     }
 
     void check_block(int block, const std::vector<Stimulus>& stimuli) {
+        const int before = errors_;
         const RuleTask by = rule_task(protocol_, task_, stimuli);
         const Factors factors = factors_of(protocol_);
         const std::vector<std::string_view> known = stimulus_factor_names(factors);
@@ -105,14 +109,14 @@ class TaskTrialsCheck {
         const std::string where =
             protocol_.blocks.empty() ? "" : fmt::format(" in block \"{}\"", block_at(protocol_, block).id);
         check_factors(by, where);
-        if (errors_ > 0)
+        if (errors_ > before)
             return;
         const auto rule = row().make(by.request);
         for (const RuleProblem& problem : rule->problems())
             error_at_rule_key(problem.key, problem.message, problem.hint);
-        if (errors_ == 0)
+        if (errors_ == before)
             check_count(*rule, where);
-        if (errors_ == 0 && row().keeps_order)
+        if (errors_ == before && row().keeps_order)
             check_order(block);
     }
 

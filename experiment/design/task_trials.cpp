@@ -155,14 +155,14 @@ RuleTask rule_task(const Protocol& protocol, int task, const std::vector<Stimulu
         request.slots.push_back(protocol.slots[static_cast<std::size_t>(slot)].id);
 
     const auto factors_called = [&](const std::vector<std::string>& names) {
-        std::vector<RuleFactor> factors;
+        std::vector<RuleFactor> called;
         for (const std::string& name : names) {
             if (auto factor = stimulus_factor(factors, stimuli, name))
-                factors.push_back(*std::move(factor));
+                called.push_back(*std::move(factor));
             else
                 by.unknown.push_back(name);
         }
-        return factors;
+        return called;
     };
     std::vector<std::string> of = settings.of;
     for (std::size_t list = 0; settings.of.empty() && list < stimulus_lists.size(); ++list)

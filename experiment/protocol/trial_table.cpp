@@ -1,6 +1,8 @@
 #include "experiment/protocol/trial_table.h"
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <cmath>
 #include <set>
 
@@ -17,7 +19,7 @@ namespace {
 constexpr int most_repeats = 1000;
 
 /// What a column says.
-struct TableColumn {
+struct TrialColumn {
     enum class Kind : std::uint8_t { stimulus, correct, block, repeat, factor, unknown };
     Kind kind = Kind::factor;
     int slot = -1; ///< place among the task's; -1: all of them
@@ -43,7 +45,7 @@ class TrialTableMaker {
         TrialTable table{file_, {}, {}};
         for (const TextCell& cell : text_.header) {
             columns_.push_back(column_called(cell));
-            if (columns_.back().kind == TableColumn::Kind::factor)
+            if (columns_.back().kind == TrialColumn::Kind::factor)
                 table.factors.push_back(cell.text);
         }
         for (const std::vector<TextCell>& row : text_.rows)
@@ -52,13 +54,13 @@ class TrialTableMaker {
     }
 
   private:
-    using Kind = TableColumn::Kind;
+    using Kind = TrialColumn::Kind;
 
     void error(Place place, std::string message, std::string hint = {}) {
         diagnostics_.error(file_, place, std::move(message), std::move(hint));
     }
 
-    TableColumn column_called(const TextCell& cell) {
+    TrialColumn column_called(const TextCell& cell) {
         const std::string& name = cell.text;
         if (name == "correct")
             return {Kind::correct};
@@ -86,7 +88,7 @@ class TrialTableMaker {
         return factor_called(cell);
     }
 
-    TableColumn factor_called(const TextCell& cell) {
+    TrialColumn factor_called(const TextCell& cell) {
         std::vector<std::string_view> known = lists_;
         for (const std::string& slot : slot_ids_)
             known.push_back(slot);
@@ -125,7 +127,7 @@ class TrialTableMaker {
             slot.fill(-1);
         bool is_sound = true;
         for (std::size_t i = 0; i < cells.size(); ++i) {
-            const TableColumn& column = columns_[i];
+            const TrialColumn& column = columns_[i];
             const TextCell& cell = cells[i];
             switch (column.kind) {
             case Kind::stimulus:
@@ -167,7 +169,7 @@ class TrialTableMaker {
     }
 
     /// Puts what a cell names into the stimulus of a slot.
-    bool choose(const TableColumn& column, const TextCell& cell, bool reports,
+    bool choose(const TrialColumn& column, const TextCell& cell, bool reports,
                 std::array<int, stimulus_lists.size()>& chosen) {
         std::size_t list = column.list >= 0 ? static_cast<std::size_t>(column.list) : 0;
         std::string_view rest = cell.text;
@@ -234,6 +236,8 @@ class TrialTableMaker {
     }
 
     int repeats_in(const TextCell& cell) {
+        if (cell.text.empty())
+            return 1;
         const std::optional<double> number = number_in_cell(text_, cell);
         if (number && *number >= 0 && *number <= most_repeats && *number == std::floor(*number))
             return static_cast<int>(*number);
@@ -263,7 +267,7 @@ class TrialTableMaker {
     Diagnostics& diagnostics_;
     std::vector<std::string_view> lists_;
     std::vector<std::string> slot_ids_;
-    std::vector<TableColumn> columns_;
+    std::vector<TrialColumn> columns_;
     std::set<std::pair<std::size_t, std::size_t>> missing_; ///< slots and lists that were reported
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <tuple>
 
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
