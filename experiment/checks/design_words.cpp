@@ -126,7 +126,7 @@ Texts words_of_table(const Protocol& protocol, int task) {
     for (std::size_t i = 0; i < table.factors.size(); ++i) {
         Texts levels;
         for (const TrialTableRow& row : table.rows)
-            levels.push_back(row.levels[i].level);
+            levels.emplace_back(level_in(row, table.factors[i]));
         std::ranges::sort(levels);
         const auto count = std::unique(levels.begin(), levels.end()) - levels.begin();
         sentences.push_back(fmt::format("{} ({})", table.factors[i], counted(count, "level")));

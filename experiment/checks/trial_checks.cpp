@@ -189,7 +189,7 @@ class TaskTrialsCheck {
         const TrialTable& table = protocol_.trial_tables[static_cast<std::size_t>(index)];
         for (std::size_t i = 0; i < table.factors.size(); ++i) {
             const bool is_one = std::ranges::all_of(table.rows, [&](const TrialTableRow& trial) {
-                return trial.levels[i].level == table.rows.front().levels[i].level;
+                return level_in(trial, table.factors[i]) == level_in(table.rows.front(), table.factors[i]);
             });
             if (is_one && table.rows.size() > 1)
                 examination_.warning({path(key)},

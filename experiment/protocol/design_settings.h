@@ -11,6 +11,7 @@
 
 #include "experiment/base/enum_names.h"
 #include "experiment/base/named_words.h"
+#include "experiment/protocol/step_settings.h"
 #include "experiment/protocol/trials_settings.h"
 #include "experiment/stimulus_lists.h"
 
@@ -28,7 +29,9 @@ struct Task {
     TaskCoverage stimuli = TaskCoverage::every_stimulus;
     double simulated_head_share =
         0.4; ///< share of a simulated observer's fixations that go to the part "head"
-    std::vector<std::string> slots = {};    ///< see slots_of_task()
+    std::vector<std::string> slots = {}; ///< see slots_of_task()
+    /// None: the question, a drift check, the stimulus, the answer.
+    std::vector<StepSettings> steps = {};
     TrialsSettings trials = {};             ///< neither a rule nor a file: every stimulus, by `stimuli`
     std::filesystem::path trials_file = {}; ///< of a table; resolved against the protocol's folder
     CatchSettings catch_trials = {};

@@ -22,8 +22,9 @@ constexpr int most_repeats = 1000;
 struct TrialColumn {
     enum class Kind : std::uint8_t { stimulus, correct, block, repeat, factor, unknown };
     Kind kind = Kind::factor;
-    int slot = -1; ///< place among the task's; -1: all of them
-    int list = -1; ///< -1: of all lists, as "vase/gloss-0.1"
+    int slot = -1;            ///< place among the task's; -1: all of them
+    int list = -1;            ///< -1: of all lists, as "vase/gloss-0.1"
+    bool is_duration = false; ///< of a step, in seconds
 };
 
 bool is_factor_name(std::string_view name) {
@@ -33,9 +34,10 @@ bool is_factor_name(std::string_view name) {
 
 class TrialTableMaker {
   public:
-    TrialTableMaker(const DelimitedText& text, const Protocol& protocol, std::span<const int> slots,
-                    const std::string& file, Diagnostics& diagnostics)
-        : text_(text), protocol_(protocol), slots_(slots), file_(file), diagnostics_(diagnostics) {}
+    TrialTableMaker(const DelimitedText& text, const Protocol& protocol, int task, const std::string& file,
+                    Diagnostics& diagnostics)
+        : text_(text), protocol_(protocol), task_(protocol.tasks[static_cast<std::size_t>(task)]),
+          slots_(slots_of_task(protocol, task)), file_(file), diagnostics_(diagnostics) {}
 
     TrialTable make() {
         for (const StimulusList& list : stimulus_lists)
@@ -107,8 +109,16 @@ class TrialTableMaker {
                   fmt::format("\"{}\" is a column of the entries of [[{}]] already", cell.text, list),
                   "call the one or the other otherwise");
         else
-            return {Kind::factor};
+            return {Kind::factor, -1, -1, is_duration(cell)};
         return {Kind::unknown};
+    }
+
+    bool is_duration(const TextCell& cell) {
+        const auto steps = std::ranges::count(task_.steps, cell.text, seconds_column);
+        if (steps > 1)
+            error(cell.place, fmt::format("{} steps of the task are meant by \"{}\"", steps, cell.text),
+                  "give them ids, by which columns can tell them apart");
+        return steps > 0;
     }
 
     std::string list_with_column(std::string_view name) const {
@@ -153,11 +163,7 @@ class TrialTableMaker {
                 row.repeat = repeats_in(cell);
                 break;
             case Kind::factor:
-                row.levels.push_back({text_.header[i].text, cell.text});
-                if (cell.text.empty())
-                    error(cell.place,
-                          fmt::format("the factor \"{}\" has no level in this row", text_.header[i].text),
-                          "write one in every row, such as \"none\"");
+                add_level(row, text_.header[i].text, column, cell);
                 break;
             case Kind::unknown:
                 break;
@@ -166,6 +172,22 @@ class TrialTableMaker {
         if (is_sound)
             fill(row, cells, chosen, is_spoken_of, is_filled);
         return row;
+    }
+
+    void add_level(TrialTableRow& row, const std::string& factor, const TrialColumn& column,
+                   const TextCell& cell) {
+        const std::optional<double> number = number_in_cell(text_, cell);
+        std::string level = cell.text;
+        if (number)
+            std::ranges::replace(level, ',', '.'); // as tables write it
+        if (column.is_duration && !level.empty() && !(number && *number > 0.0 && *number <= longest_step_s))
+            error(cell.place, fmt::format("\"{}\" is no duration of a step", cell.text),
+                  fmt::format("seconds, above 0 and up to {}", longest_step_s));
+        else if (level.empty() && !column.is_duration)
+            error(cell.place, fmt::format("the factor \"{}\" has no level in this row", factor),
+                  "write one in every row, such as \"none\"");
+        if (!level.empty())
+            row.levels.push_back({factor, std::move(level)});
     }
 
     /// Puts what a cell names into the stimulus of a slot.
@@ -262,7 +284,8 @@ class TrialTableMaker {
 
     const DelimitedText& text_;
     const Protocol& protocol_;
-    std::span<const int> slots_;
+    const Task& task_;
+    std::vector<int> slots_;
     const std::string& file_;
     Diagnostics& diagnostics_;
     std::vector<std::string_view> lists_;
@@ -273,9 +296,14 @@ class TrialTableMaker {
 
 } // namespace
 
-TrialTable trial_table_of(const DelimitedText& text, const Protocol& protocol, std::span<const int> slots,
+std::string_view level_in(const TrialTableRow& row, std::string_view factor) {
+    const auto found = std::ranges::find(row.levels, factor, &TrialLevel::factor);
+    return found == row.levels.end() ? std::string_view() : found->level;
+}
+
+TrialTable trial_table_of(const DelimitedText& text, const Protocol& protocol, int task,
                           const std::string& file, Diagnostics& diagnostics) {
-    return TrialTableMaker(text, protocol, slots, file, diagnostics).make();
+    return TrialTableMaker(text, protocol, task, file, diagnostics).make();
 }
 
 } // namespace overt

@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include "experiment/design/schedule.h"
+#include "experiment/design/trial_plan.h"
 #include "tests/experiment/protocol/protocol_fixtures.h"
 
 using namespace overt;
@@ -149,6 +150,27 @@ TEST_CASE("a slot's column may name a stimulus by its ids, and an empty one leav
     CHECK(trials[0].shown(1) == PlacedStimulus{{1, 2}, 1});
     REQUIRE(trials[1].shown_count() == 1);
     CHECK(trials[1].shown(0) == PlacedStimulus{{0, 1}, 1});
+}
+
+TEST_CASE("a table says for each trial how long a step lasts, or leaves it as it is", "[unit]") {
+    const std::string steps =
+        "trials = \"list.tsv\"\nsteps = [{ blank = 0.5 }, { show = [\"left\", \"right\"], for_s = 1 }, "
+        "{ blank = 1, id = \"gap\" }]\n";
+    const Protocol protocol =
+        sound(with(steps), "left;right;blank_s;gap_s\nvase/g1;vase/g2;0,25;2\nvase/g1;vase/g2;;3\n");
+    const std::vector<Trial> trials = trials_of(protocol, 1);
+    REQUIRE(trials.size() == 2);
+    const TrialPlan first = plan_trial(protocol, 1, trials[0], false),
+                    second = plan_trial(protocol, 1, trials[1], false);
+    CHECK(first.steps[0].drawn_s == 0.25);
+    CHECK(first.steps[0].refreshes == 30);
+    CHECK(first.steps[1].drawn_s == 1.0);
+    CHECK(first.steps[2].drawn_s == 2.0);
+    CHECK(second.steps[0].drawn_s == 0.5);
+    CHECK(second.steps[2].refreshes == 360);
+    CHECK(ReadWithTable(with(steps), "left,right,gap_s\nvase/g1,vase/g2,0\nvase/g1,vase/g2,long\n").lines() ==
+          std::vector<std::string>{"list.tsv:2:17: \"0\" is no duration of a step",
+                                   "list.tsv:3:17: \"long\" is no duration of a step"});
 }
 
 TEST_CASE("all that is wrong in a table of trials is found at once, at its line and column", "[unit]") {
