@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "experiment/base/enum_names.h"
+
 namespace overt {
 
 /// What the observer looks at: an object in a material, under a light, in a motion, in a view. Indices into
@@ -41,6 +43,14 @@ struct TrialLevel {
     friend bool operator==(const TrialLevel&, const TrialLevel&) = default;
 };
 
+/// What a trial is there for. Results are of trials proper.
+enum class TrialRole : std::uint8_t {
+    trial,
+    catch_trial, ///< checks the observer, mixed in among the others
+    practice     ///< of a block of practice: all is recorded of it
+};
+template <> inline constexpr auto names_of<TrialRole> = enum_names<TrialRole>("trial", "catch", "practice");
+
 /// What is shown under one task: most often one stimulus, else one in each of several slots. A slot of the
 /// task that has none stays empty.
 struct Trial {
@@ -52,7 +62,7 @@ struct Trial {
     std::vector<PlacedStimulus> beside = {}; ///< in further slots, each once, in the task's order
     std::vector<TrialLevel> levels = {};     ///< of its own factors
     std::string correct = {};                ///< the correct answer; empty: there is none, or nobody knows it
-    bool is_catch = false;                   ///< a trial that checks the observer, mixed in among the others
+    TrialRole role = TrialRole::trial;
     friend bool operator==(const Trial&, const Trial&) = default;
 
     std::size_t shown_count() const { return 1 + beside.size(); }

@@ -171,6 +171,8 @@ std::vector<TaskWords> design_in_words(const Protocol& protocol, double trial_s)
                                                            : words_of_coverage(protocol, block, task, scope);
             if (settings.catch_trials.table >= 0)
                 words.sentences.push_back(words_of_catch(settings.catch_trials));
+            if (in.practice)
+                words.sentences.emplace_back("practice, recorded");
             if (in.draw.is_written())
                 words.sentences.push_back(words_of_draw(in.draw));
             if (const int times = settings.repetitions * in.repetitions; times > 1)

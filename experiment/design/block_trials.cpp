@@ -261,6 +261,9 @@ std::vector<BlockPlan> block_plans(const Protocol& protocol, int observer_number
                                 {observer_number, seed});
         if (drawn)
             mark_old_and_new(*drawn, plan.trials);
+        if (block_at(protocol, block).practice)
+            for (Trial& trial : plan.trials)
+                trial.role = TrialRole::practice;
         if (!plan.trials.empty())
             plans.push_back(std::move(plan));
     }

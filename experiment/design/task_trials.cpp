@@ -248,7 +248,7 @@ std::vector<Trial> catch_trials(const Protocol& protocol, int task, int block,
         checks.push_back(all[i % all.size()]);
         checks.back().task = task;
         checks.back().block = block;
-        checks.back().is_catch = true;
+        checks.back().role = TrialRole::catch_trial;
     }
     return checks;
 }

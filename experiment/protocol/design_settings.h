@@ -107,6 +107,7 @@ struct BlockSettings {
     std::string instructions; ///< shown before it; empty: nothing
     bool continues = false;   ///< limits count the trials of the block before, too
     DrawSettings draw = {};
+    bool practice = false; ///< all is recorded of its trials, and results are not of them
     NamedNumbers max_run, min_distance;
     std::optional<int> max_task_run, max_object_run, max_material_run, max_stimulus_run;
     std::optional<int> min_task_distance, min_object_distance, min_material_distance, min_stimulus_distance;

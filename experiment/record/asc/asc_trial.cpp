@@ -29,8 +29,8 @@ std::vector<std::pair<std::string_view, std::string>> variables_of(const Session
         variables.emplace_back(of.factor, of.level);
     if (!trial.correct.empty())
         variables.emplace_back(correct_answer, trial.correct);
-    if (trial.is_catch)
-        variables.emplace_back("catch", "yes");
+    if (trial.role != TrialRole::trial)
+        variables.emplace_back("role", name_of(trial.role));
     return variables;
 }
 

@@ -71,14 +71,14 @@ template <class Column> std::vector<Column> own_columns(const SessionHeader& hea
                            }});
     }
     const auto& trials = header.schedule.trials;
-    if (std::ranges::any_of(trials, [](const Trial& trial) { return trial.is_catch; }))
-        columns.push_back({{"catch",
-                            "Whether the trial checks the observer",
+    if (std::ranges::any_of(trials, [](const Trial& trial) { return trial.role != TrialRole::trial; }))
+        columns.push_back({{"role",
+                            "What the trial is there for; results are of trials proper",
                             "",
-                            {{"yes", "it does, among the others"}, {"no", "a trial of the experiment"}}},
-                           [](const TrialRecord& attempt) -> std::string_view {
-                               return attempt.trial.is_catch ? "yes" : "no";
-                           }});
+                            {{"trial", "a trial of the experiment"},
+                             {"catch", "checks the observer, among the others"},
+                             {"practice", "of a block of practice"}}},
+                           [](const TrialRecord& attempt) { return name_of(attempt.trial.role); }});
     return columns;
 }
 

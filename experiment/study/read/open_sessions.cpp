@@ -110,7 +110,7 @@ StudySession describe_session(const OpenSession& open, const std::filesystem::pa
     session.is_complete = record.is_complete();
     session.setup = setup_of(record);
     for (const TrialRecord& trial : record.trials())
-        session.trials += trial.counts;
+        session.trials += trial.gives_results();
     return session;
 }
 

@@ -362,7 +362,7 @@ TEST_CASE("catch trials are the share that is asked for, marked, with their own 
         REQUIRE(schedule.trials.size() == 40);
         int left = 0;
         for (const Trial& trial : schedule.trials) {
-            if (!trial.is_catch) {
+            if (trial.role == TrialRole::trial) {
                 CHECK(trial.correct.empty());
                 continue;
             }
@@ -370,9 +370,19 @@ TEST_CASE("catch trials are the share that is asked for, marked, with their own 
             left += trial.correct == "left";
             CHECK(trial.correct == (trial.shown(0).stimulus.material == 2 ? "left" : "right"));
         }
-        CHECK(std::ranges::count(schedule.trials, true, &Trial::is_catch) == 4);
+        CHECK(std::ranges::count(schedule.trials, TrialRole::catch_trial, &Trial::role) == 4);
         CHECK(left >= 2);
         CHECK(left <= 3);
     }
     CHECK(places.size() > 25);
+}
+
+TEST_CASE("all trials of a block of practice are practice, whatever else they are", "[unit]") {
+    const Protocol protocol =
+        sound(std::string(study_and_test) + "[[block]]\nid = \"warm-up\"\npractice = true\n"
+                                            "tasks = \"learn\"\nobjects = \"a\"\n");
+    const Schedule schedule = make_schedule(protocol, {"P", 1}, 1);
+    REQUIRE(schedule.trials.size() == 8);
+    for (const Trial& trial : schedule.trials)
+        CHECK(trial.role == (trial.block == 2 ? TrialRole::practice : TrialRole::trial));
 }
