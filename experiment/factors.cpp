@@ -169,9 +169,14 @@ Stimulus Factors::stimulus_at(int number) const {
 }
 
 bool is_name_of_factor(std::string_view name) {
-    constexpr std::string_view others[] = {"task",    "stimulus", "block", "trial",   "attempt", "observer",
-                                           "group",   "session",  "day",   "slot",    "step",    "side",
-                                           "correct", "phase",    "onset", "duration"};
+    // Columns that tables of trials, samples, events and studies have besides.
+    constexpr std::string_view others[] = {
+        "task",        "stimulus",   "block",    "trial",   "attempt",    "observer", "group",  "session",
+        "sitting",     "day",        "slot",     "step",    "side",       "correct",  "phase",  "onset",
+        "duration",    "status",     "counts",   "failure", "timing",     "eye",      "source", "question",
+        "answer",      "frames",     "frame",    "value",   "device",     "samples",  "part",   "area",
+        "depth",       "kind",       "pose",     "n",       "duration_s", "x_px",     "y_px",   "angle_deg",
+        "comes_again", "trial_type", "stim_file"};
     return std::ranges::find(others, name) != std::end(others) ||
            std::ranges::find(stimulus_lists, name, &StimulusList::name) != stimulus_lists.end();
 }

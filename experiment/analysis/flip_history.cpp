@@ -73,7 +73,7 @@ std::optional<LitFrame> FlipHistory::frame_shown_at(SessionTime time, double row
 }
 
 std::optional<AnimationFrameIndex> FlipHistory::frame_planned_at(SessionTime time, double row_px) const {
-    const std::ptrdiff_t refresh = planned_at(blank_lighting(scan_out_, time, row_px));
+    const std::ptrdiff_t refresh = planned_at(blank_lighting(scan_out_, refresh_ns_, time, row_px));
     return refresh < 0 ? std::nullopt : std::optional(planned_frames_[static_cast<std::size_t>(refresh)]);
 }
 
@@ -91,7 +91,7 @@ bool FlipHistory::is_off_plan(std::ptrdiff_t picture, SessionTime blank) const {
 }
 
 Lighting FlipHistory::lighting_at(SessionTime time, double row_px) const {
-    const SessionTime blank = blank_lighting(scan_out_, time, row_px);
+    const SessionTime blank = blank_lighting(scan_out_, refresh_ns_, time, row_px);
     const std::ptrdiff_t picture = picture_at(blank);
     // A slot may be empty for a while.
     const bool is_lit = picture >= 0 && pictures_[static_cast<std::size_t>(picture)].frame != no_frame;
@@ -100,7 +100,7 @@ Lighting FlipHistory::lighting_at(SessionTime time, double row_px) const {
 }
 
 bool FlipHistory::is_off_plan(SessionTime time, double row_px) const {
-    const SessionTime blank = blank_lighting(scan_out_, time, row_px);
+    const SessionTime blank = blank_lighting(scan_out_, refresh_ns_, time, row_px);
     return is_off_plan(picture_at(blank), blank);
 }
 

@@ -202,6 +202,7 @@ DesignReport make_design_report(const Protocol& protocol, const std::vector<Obse
     add_observers(report, protocol);
     report.practice_trials = static_cast<int>(protocol.practice.size());
     report.observers = protocol.schedule.observers;
+    report.slots = ids_of(protocol.slots);
     report.display = protocol.display;
     report.view = protocol.views.front();
     for (const MotionSettings& motion : protocol.motions)

@@ -108,7 +108,8 @@ struct DesignReport {
     int observers = 0;               ///< planned
     std::vector<std::string> blocks; ///< ids; empty if the protocol has none
     std::vector<BlockFacts> block_facts;
-    std::vector<TaskWords> trials; ///< each task in each block, in plain words
+    std::vector<std::string> slots; ///< ids
+    std::vector<TaskWords> trials;  ///< each task in each block, in plain words
     std::vector<GroupFacts> groups;
     int practice_trials = 0;
 

@@ -340,12 +340,22 @@ void add_order_of_one(std::string& text, const DesignReport& report, const Sched
             text += fmt::format("  block {}\n", at(report.blocks, trial.block));
         std::string line =
             fmt::format("  {:>4}  {:<{}}", trial.index + 1, at(report.tasks, trial.task), task_width);
-        for (const StimulusList* list : named_lists(report)) {
-            std::size_t width = 0;
-            for (const FactorLevel& level : report.factors.at(list->name).levels)
-                width = std::max(width, level.name.size());
-            line += fmt::format("  {:<{}}", id_in(report, *list, trial.stimulus), width);
+        for (const PlacedStimulus& shown : trial.all_shown()) {
+            if (report.slots.size() > 1)
+                line += fmt::format("  {}:", at(report.slots, shown.slot));
+            for (const StimulusList* list : named_lists(report)) {
+                std::size_t width = 0;
+                for (const FactorLevel& level : report.factors.at(list->name).levels)
+                    width = std::max(width, level.name.size());
+                line += fmt::format("  {:<{}}", id_in(report, *list, shown.stimulus), width);
+            }
         }
+        for (const TrialLevel& of : trial.levels)
+            line += fmt::format("  {} {}", of.factor, of.level);
+        if (!trial.correct.empty())
+            line += fmt::format("  correct {}", trial.correct);
+        if (trial.role != TrialRole::trial)
+            line += fmt::format("  ({})", name_of(trial.role));
         line.erase(line.find_last_not_of(' ') + 1);
         text += line + "\n";
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -65,8 +66,8 @@ RandomStream random_of(const Protocol& protocol, int task, int block, int observ
     return RandomStream(seed, purpose, static_cast<std::uint64_t>(observer_number));
 }
 
-std::vector<Trial> trials_by_rule(const Protocol& protocol, int task, int block,
-                                  const std::vector<Stimulus>& stimuli, RandomStream random) {
+std::vector<Trial> trials_by_rule(const Protocol& protocol, int task, const std::vector<Stimulus>& stimuli,
+                                  RandomStream random) {
     const RuleTask by = rule_task(protocol, task, stimuli);
     const auto rule = row_of(*protocol.tasks[static_cast<std::size_t>(task)].trials.rule).make(by.request);
     std::vector<Trial> trials;
@@ -164,17 +165,17 @@ RuleTask rule_task(const Protocol& protocol, int task, const std::vector<Stimulu
         }
         return called;
     };
-    std::vector<std::string> of = settings.of;
+    std::vector<std::string> named = settings.of;
     for (std::size_t list = 0; settings.of.empty() && list < stimulus_lists.size(); ++list)
         if (varies(stimuli, list))
-            of.emplace_back(stimulus_lists[list].name);
-    request.of = factors_called(of);
+            named.emplace_back(stimulus_lists[list].name);
+    request.of = factors_called(named);
     request.differs = factors_called(settings.differs);
     (void)factors_called(settings.any); // whether there are such
 
     // A list of which some factor says how it differs is not alike by itself.
     std::vector<bool> is_named(stimulus_lists.size());
-    for (const std::vector<std::string>* names : {&of, &settings.differs, &settings.any})
+    for (const std::vector<std::string>* names : {&std::as_const(named), &settings.differs, &settings.any})
         for (const std::string& name : *names)
             if (const int list = list_of_factor(factors, name); list >= 0)
                 is_named[static_cast<std::size_t>(list)] = true;
@@ -213,10 +214,10 @@ RuleTask rule_task(const Protocol& protocol, int task, const std::vector<Stimulu
 
 std::vector<Trial> own_trials(const Protocol& protocol, int task, int block,
                               const std::vector<Stimulus>& stimuli, int observer_number, std::uint64_t seed) {
-    std::vector<Trial> trials = protocol.tasks.at(static_cast<std::size_t>(task)).trials.rule
-                                    ? trials_by_rule(protocol, task, block, stimuli,
-                                                     random_of(protocol, task, block, observer_number, seed))
-                                    : trials_of_table(protocol, task, block, stimuli);
+    std::vector<Trial> trials =
+        protocol.tasks.at(static_cast<std::size_t>(task)).trials.rule
+            ? trials_by_rule(protocol, task, stimuli, random_of(protocol, task, block, observer_number, seed))
+            : trials_of_table(protocol, task, block, stimuli);
     for (Trial& trial : trials) {
         trial.task = task;
         trial.block = block;

@@ -5,8 +5,10 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "experiment/keys/key_rule.h"
@@ -103,6 +105,21 @@ class SectionHome {
               return &static_cast<std::vector<Struct>*>(entries)->emplace_back();
           }),
           clear_([](void* entries) { static_cast<std::vector<Struct>*>(entries)->clear(); }) {}
+    /// Of a table within a section whose keys are names, such as `areas = { rim = { … }, base = { … } }`:
+    /// each is an entry of a list in the section's struct, which has its name in `name`.
+    template <class Struct, class Entry>
+    static SectionHome by_name(std::vector<Entry> Struct::*list, std::string Entry::*name) {
+        SectionHome home(list);
+        home.name_.emplace(name);
+        return home;
+    }
+    /// Of a table within a section that is one such entry, called as the table is.
+    template <class Struct, class Entry>
+    static SectionHome one_by_name(std::vector<Entry> Struct::*list, std::string Entry::*name) {
+        SectionHome home = by_name(list, name);
+        home.is_one_ = true;
+        return home;
+    }
     /// Of a section whose keys are members of the whole file's struct itself.
     template <class Root> static SectionHome root() {
         SectionHome home;
@@ -112,7 +129,15 @@ class SectionHome {
     }
 
     bool has_struct() const { return place_.has_value(); }
-    bool is_list() const { return add_ != nullptr; }
+    bool is_list() const { return add_ != nullptr && !name_; }
+    bool is_by_name() const { return name_ && !is_one_; }
+    bool is_one_by_name() const { return name_ && is_one_; }
+    /// A new entry of a list by names, in an object of the section's struct.
+    void* open_named(void* object, std::string name) const {
+        void* const entry = add_(place_->in(object));
+        *static_cast<std::string*>(name_->in(entry)) = std::move(name);
+        return entry;
+    }
     /// The section's struct in `root`; of a list, a new entry of it.
     void* open(void* root) const { return is_list() ? add_(place_->in(root)) : place_->in(root); }
     /// Takes out the entries of a list.
@@ -125,6 +150,8 @@ class SectionHome {
     std::optional<MemberPlace> place_;
     const void* left_out_ = nullptr;
     void* (*add_)(void* list) = nullptr;
+    std::optional<MemberPlace> name_; ///< of entries by name
+    bool is_one_ = false;
     void (*clear_)(void* list) = nullptr;
 };
 

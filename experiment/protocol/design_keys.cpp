@@ -81,8 +81,13 @@ std::vector<Key> task() {
          "Which trials the task has: a rule, or the path of a table (CSV, TSV) with a row for each; see "
          "[design.md](design.md)."},
         {"repetitions", &T::repetitions, range(1, 1000), "How often each of its trials comes."},
-        {"simulated_head_share", &T::simulated_head_share, range(0, 1),
+        {"simulated_head_share", &T::simulated_head_share,
+         range(0, 1).left_out("0.4; 0 with `simulated_area_shares`"),
          "Share of a simulated observer's fixations that go to the head."},
+        {"simulated_area_shares", &T::simulated_area_shares,
+         range(0, 1).left_out("none but the head has one"),
+         "Shares that go to other areas, such as { rim = 0.2, base = 0.3 }: the rest goes to the rest of the "
+         "surface. Areas that have shares must not overlap."},
     };
 }
 

@@ -25,6 +25,7 @@
 #include "experiment/list_entry.h"
 #include "experiment/ports/observer_field.h"
 #include "experiment/ports/tracker_kinds.h"
+#include "experiment/protocol/area_settings.h"
 #include "experiment/protocol/design_settings.h"
 #include "experiment/protocol/device_settings.h"
 #include "experiment/protocol/material_kind.h"
@@ -259,9 +260,7 @@ struct ObjectSettings : ListEntry {
     int lut_first_number = 0;                   ///< number of animation frame 0
     std::optional<int> lut_scale;               ///< of 16-bit codes; left out: a file beside each map says it
     std::optional<glm::dvec3> lut_min, lut_max; ///< the box that they are coded by, likewise
-    // The part "head" in the file's coordinates: inside any sphere and on the positive side of all planes.
-    std::vector<std::array<double, 4>> head_spheres; ///< x, y, z, radius
-    std::vector<std::array<double, 6>> head_planes;  ///< point and normal
+    std::vector<AreaSettings> areas;            ///< beside those that the mesh file and `labels` name
 };
 
 /// [[material]]
@@ -420,9 +419,6 @@ Factors factors_of(const Protocol& protocol);
 
 /// The levels that its trials have of their own, by its tables and rules (own_factors.cpp).
 std::vector<NamedWord> own_levels_of(const Protocol& protocol);
-
-/// "muse, gold": the ids of a stimulus' entries, of lists with several, and always of object and material.
-std::string stimulus_in_words(const Protocol& protocol, const Stimulus& stimulus);
 
 /// For each list: whether a simulated effect holds for each of its entries.
 std::array<std::vector<bool>, stimulus_lists.size()> chosen_by(const Protocol& protocol,

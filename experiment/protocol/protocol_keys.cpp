@@ -133,11 +133,16 @@ const KeyTable& protocol_keys() {
              object(),
              "A thing to look at: one of the objects that overt makes itself (`shipped`), or one of yours "
              "(`mesh`, or ready-made maps, `lut`). At least one.",
-             {{"head",
-               {},
-               head(),
-               "Which part of a mesh is the head: inside any of the spheres, and in front of all of the "
-               "planes. Coordinates are those of the mesh file; with `lut`, those of the maps."}}},
+             {{"areas", SectionHome::by_name(&ObjectSettings::areas, &AreaSettings::name), area(),
+               "Named areas of the object, any number of them: the measures of gaze are given for each. An "
+               "area "
+               "is what lies in any of its spheres, boxes and groups, and in front of all of its planes. "
+               "Areas "
+               "may lie in one another or overlap. Coordinates are those of the mesh file; with `lut`, those "
+               "of "
+               "the maps."},
+              {"head", SectionHome::one_by_name(&ObjectSettings::areas, &AreaSettings::name), area(),
+               "The same as `areas = { head = { … } }`."}}},
             {"material", &Protocol::materials, material(),
              "What every object is made of in turn. At least one."},
             {"slot", &Protocol::slot_entries, slot(),

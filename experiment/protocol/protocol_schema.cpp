@@ -29,8 +29,12 @@ Json section_schema(const Section& section) {
             required.push_back(rule.name);
     }
     for (const Section& table : section.tables) {
-        Json& property = schema["properties"][std::string(table.name)];
         Json inner = section_schema(table);
+        if (table.home.is_by_name())
+            inner = {{"type", "object"},
+                     {"propertyNames", {{"pattern", "^[A-Za-z0-9_-]{1,40}$"}}},
+                     {"additionalProperties", std::move(inner)}};
+        Json& property = schema["properties"][std::string(table.name)];
         property = property.is_null() ? std::move(inner) : Json{{"anyOf", {property, std::move(inner)}}};
     }
     schema["description"] = without_links(section.explanation);

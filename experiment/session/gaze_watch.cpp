@@ -21,7 +21,7 @@ GazeWatch::GazeWatch(const ScreenGeometry& screen, const DisplaySettings& displa
     : screen_(screen), lit_({from_seconds(1e-3 * display.latency_ms), display.refresh_hz,
                              static_cast<double>(screen.screen_px.y)},
                             kept_flips),
-      condition_({}) {}
+      condition_(GazeCondition::Settings()) {}
 
 void GazeWatch::begin(const GazeWait& wait, GazeAim aim, SessionTime since,
                       std::span<const ClockPair> readings, const TrackerDescription& tracker) {

@@ -1,17 +1,10 @@
 #include "experiment/timing/lit_frames.h"
 
-#include <algorithm>
-
 namespace overt {
 
-SessionTime blank_lighting(const ScanOut& scan_out, SessionTime time, double row_px) {
-    const double row_share = std::clamp(row_px / scan_out.screen_rows, 0.0, 1.0);
-    return time - scan_out.latency -
-           SessionDuration(static_cast<std::int64_t>(row_share * 1e9 / scan_out.refresh_hz + 0.5));
-}
-
 LitFrames::LitFrames(const ScanOut& scan_out, std::size_t most_flips)
-    : scan_out_(scan_out), ring_(std::max<std::size_t>(most_flips, 1)) {}
+    : scan_out_(scan_out), refresh_ns_(1e9 / scan_out.refresh_hz),
+      ring_(std::max<std::size_t>(most_flips, 1)) {}
 
 void LitFrames::add(const FlipRecord& flip) noexcept {
     ring_[count_++ % ring_.size()] = {flip.report.vertical_blank, flip.pose};
@@ -20,7 +13,7 @@ void LitFrames::add(const FlipRecord& flip) noexcept {
 std::optional<PoseIndex> LitFrames::pose_at(SessionTime time, double row_px) const noexcept {
     if (count_ == 0)
         return std::nullopt;
-    const SessionTime blank = blank_lighting(scan_out_, time, row_px);
+    const SessionTime blank = blank_lighting(scan_out_, refresh_ns_, time, row_px);
     const Lit& last = ring_[(count_ - 1) % ring_.size()];
     if (blank >= last.vertical_blank + from_seconds(1.0 / scan_out_.refresh_hz))
         return std::nullopt;

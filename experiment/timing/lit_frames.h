@@ -1,6 +1,7 @@
 /// Which frame is lit on a row of the screen, told while a presentation runs.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -17,8 +18,12 @@ struct ScanOut {
 };
 
 /// The vertical blank, latency included, whose scan-out reaches a row at a time. Rows above and below the
-/// screen are taken as its first and last.
-SessionTime blank_lighting(const ScanOut& scan_out, SessionTime time, double row_px);
+/// screen are taken as its first and last. `refresh_ns`: 1e9 / refresh_hz.
+inline SessionTime blank_lighting(const ScanOut& scan_out, double refresh_ns, SessionTime time,
+                                  double row_px) {
+    const double row_share = std::clamp(row_px / scan_out.screen_rows, 0.0, 1.0);
+    return time - scan_out.latency - SessionDuration(static_cast<std::int64_t>(row_share * refresh_ns + 0.5));
+}
 
 /// Row y of refresh r is lit from vertical_blank(r) + latency + y / screen_rows * one nominal refresh until
 /// the same row of the next flip. Flips are entered as they come; says of a time up to the last of them what
@@ -40,6 +45,7 @@ class LitFrames {
         PoseIndex pose;
     };
     ScanOut scan_out_;
+    double refresh_ns_;
     std::vector<Lit> ring_;
     std::size_t count_ = 0; ///< entered since clear()
 };

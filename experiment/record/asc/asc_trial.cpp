@@ -11,6 +11,7 @@
 #include "experiment/record/asc/asc_survey.h"
 #include "experiment/record/asc/asc_words.h"
 #include "experiment/record/preview_file.h"
+#include "experiment/record/tables/shared_columns.h"
 
 namespace overt {
 namespace {
@@ -18,13 +19,12 @@ namespace {
 using Kind = GazeEvent::Kind;
 
 /// What a trial is of, as names and values.
-std::vector<std::pair<std::string_view, std::string>> variables_of(const SessionHeader& header,
-                                                                   const Trial& trial) {
+std::vector<std::pair<std::string, std::string>> variables_of(const SessionHeader& header,
+                                                              const Trial& trial) {
     const auto id = [](const auto& list, int index) { return list[static_cast<std::size_t>(index)].id; };
-    std::vector<std::pair<std::string_view, std::string>> variables{
-        {"task", id(header.tasks, trial.task)},
-        {"object", id(header.objects, trial.stimulus.object)},
-        {"material", id(header.materials, trial.stimulus.material)}};
+    std::vector<std::pair<std::string, std::string>> variables{{"task", id(header.tasks, trial.task)}};
+    for (const StimulusColumn& column : stimulus_columns_of(header))
+        variables.emplace_back(column.what.name, column.level_of(trial.stimulus).name);
     for (const TrialLevel& of : trial.levels)
         variables.emplace_back(of.factor, of.level);
     if (!trial.correct.empty())

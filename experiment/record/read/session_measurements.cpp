@@ -202,11 +202,19 @@ std::optional<TrialLedger> SessionRecord::ledger(const TrialRecord& trial) const
 
 PageCycle planned_cycle(const SessionHeader& header, const TrialRecord& trial) {
     PageCycle motion = header.page_cycle_of(trial.trial.stimulus);
-    for (const RecordedStep& step : trial.outcome.steps)
-        if (step.kind == "show")
-            return cut_to(std::move(motion), step.planned_refreshes,
-                          step.still_frame ? std::optional(AnimationFrameIndex{*step.still_frame})
-                                           : std::nullopt);
+    for (const RecordedStep& step : trial.outcome.steps) {
+        if (step.kind != "show")
+            continue;
+        // What a key or gaze ended was over by the plan then.
+        const bool ended_early = step.ended_by == StepEnd::gaze || step.ended_by == StepEnd::key ||
+                                 step.ended_by == StepEnd::patience;
+        const std::optional<int> lasted =
+            ended_early ? std::optional(trial.outcome.shown_refreshes + trial.outcome.missed_refreshes)
+                        : step.planned_refreshes;
+        return cut_to(std::move(motion), lasted,
+                      step.still_frame ? std::optional(AnimationFrameIndex{*step.still_frame})
+                                       : std::nullopt);
+    }
     return motion;
 }
 

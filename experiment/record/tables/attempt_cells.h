@@ -43,16 +43,8 @@ inline auto question_of(const SessionHeader& header) {
         return plain_line_of(item(header.tasks, attempt.trial.task).question);
     };
 }
-inline auto object_of(const SessionHeader& header) {
-    return [&header](const TrialRecord& attempt) -> std::string_view {
-        return item(header.objects, attempt.trial.stimulus.object).id;
-    };
-}
-inline auto material_of(const SessionHeader& header) {
-    return [&header](const TrialRecord& attempt) -> std::string_view {
-        return item(header.materials, attempt.trial.stimulus.material).id;
-    };
-}
+/// The stimulus of an attempt.
+inline const Stimulus& shown_in(const TrialRecord& attempt) { return attempt.trial.stimulus; }
 /// Columns of what the session's trials have of their own: factors of its tables and rules, correct answers,
 /// and whether they check the observer. None where they have none.
 template <class Column> std::vector<Column> own_columns(const SessionHeader& header) {

@@ -25,8 +25,8 @@ question = "Look at the face."
 )";
 
 /// The small experiment with one task, whose trials do this.
-std::string stepped(std::string_view steps, std::string_view duration = "duration_s = 1") {
-    std::string text = with(small_protocol, "duration_s = 1", duration);
+std::string stepped(std::string_view steps) {
+    std::string text(small_protocol);
     text.resize(text.find("[[task]]"));
     return text + std::string(first_task) + "simulated_head_share = 1\nsteps = [\n" + std::string(steps) +
            "]\n";
@@ -120,16 +120,11 @@ TEST_CASE("each kind of step is recorded as it was planned and as it was lit", "
 }
 
 TEST_CASE("a killed session with steps goes on with the durations that it was drawn", "[session]") {
-    const SmallExperiment experiment(stepped(every_kind, "duration_s = 20"));
-    const SmallExperiment whole(stepped(every_kind, "duration_s = 20"));
+    const std::string long_ones =
+        with(every_kind, "{ show = \"centre\", for_s = 0.5 }", "{ show = \"centre\", for_s = 20 }");
+    const SmallExperiment experiment(stepped(long_ones)), whole(stepped(long_ones));
     REQUIRE(whole.run().exit_code == 0);
-    bool was_killed = false;
-    for (int tries = 0; tries < 10 && !was_killed; ++tries) {
-        fs::remove_all(experiment.session());
-        was_killed = run_and_kill(experiment, run_arguments(experiment, "P01", {"--virtual-time"}),
-                                  [&] { return attempts_so_far(experiment.session()).size() == 3; });
-    }
-    REQUIRE(was_killed);
+    make_interrupted_session(experiment, 1);
     REQUIRE(experiment.overt(run_arguments(experiment, "P01", {"--virtual-time", "--resume"})).exit_code ==
             0);
     const SessionRecord resumed(experiment.session()), uninterrupted(whole.session());
@@ -281,5 +276,5 @@ TEST_CASE("check tells the steps of each task, and where what they wait for is n
     CHECK(refused.exit_code == 2);
     CHECK_THAT(refused.err, Contains("gaze_on: object \"bust\" has no area \"tail\"") &&
                                 Contains("gaze_on: object \"tall\" has no area \"tail\"") &&
-                                Contains("small.toml:58:44"));
+                                Contains("small.toml:64:42"));
 }

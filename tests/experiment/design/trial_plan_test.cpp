@@ -27,7 +27,7 @@ Protocol protocol_with(std::vector<StepSettings> steps) {
     return protocol;
 }
 
-StepDuration exponential(double from_s, double to_s, double mean_s) {
+StepDuration cut_exponential(double from_s, double to_s, double mean_s) {
     return {StepDuration::Law::exponential, {}, from_s, to_s, mean_s};
 }
 
@@ -44,7 +44,7 @@ TEST_CASE("the exponential law that is cut off has its mean, and draws what its 
     // From 0.5 to 2.5 s with a time constant of 0.5 s.
     const double mean_s = 0.962685;
     CHECK(time_constant_s(0.5, 2.5, mean_s) == Approx(0.5).margin(2e-6));
-    const StepDuration duration = exponential(0.5, 2.5, mean_s);
+    const StepDuration duration = cut_exponential(0.5, 2.5, mean_s);
     const std::pair<double, double> known[] = {
         {0.1, 0.551664}, {0.25, 0.640798}, {0.5, 0.837499}, {0.75, 1.166402}, {0.9, 1.575000}};
     for (const auto& [u, seconds] : known)
@@ -55,7 +55,7 @@ TEST_CASE("the exponential law that is cut off has its mean, and draws what its 
     for (const double wanted_s : {0.6, 0.9, 1.4}) {
         double sum_s = 0.0;
         for (int i = 0; i < 20'000; ++i)
-            sum_s += drawn_s(exponential(0.5, 2.5, wanted_s), random.uniform());
+            sum_s += drawn_s(cut_exponential(0.5, 2.5, wanted_s), random.uniform());
         CHECK(sum_s / 20'000 == Approx(wanted_s).margin(0.02));
     }
 }

@@ -39,7 +39,7 @@ TEST_CASE("the frame lit is told live as the flip history tells it", "[unit]") {
         const std::optional<PoseIndex> live = lit.pose_at(sampled, row_px);
         // A picture that stays for longer than a refresh is known to stay once the next has come.
         if (!live && afterwards)
-            CHECK(blank_lighting(scan_out, sampled, row_px) >=
+            CHECK(blank_lighting(scan_out, 1e9 / 120.0, sampled, row_px) >=
                   flips[known - 1].report.vertical_blank + from_seconds(1.0 / 120.0));
         else
             CHECK(live == (afterwards ? std::optional(afterwards->pose) : std::nullopt));
