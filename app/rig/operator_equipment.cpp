@@ -39,7 +39,11 @@ OperatorServer::Options operator_view_of(const SessionHeader& header, const Prot
         ViewedTrial viewed{task.id, task.question,
                            protocol.objects[static_cast<std::size_t>(trial.stimulus.object)].id,
                            protocol.materials[static_cast<std::size_t>(trial.stimulus.material)].id,
-                           light_file(header, trial.stimulus)};
+                           light_file(header, trial.stimulus),
+                           trial.stimulus.view,
+                           shown_pictures(header.animation_of(trial.stimulus),
+                                          header.poses.frames_of(trial.stimulus.motion))
+                               .of_frame};
         if (!std::filesystem::exists(folder / viewed.light_file))
             viewed.light_file.clear();
         options.trials.push_back(std::move(viewed));

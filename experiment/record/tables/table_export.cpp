@@ -116,7 +116,8 @@ class TableExport {
 void TableExport::begin_object(const ViewedObject& viewed, const SurfaceLookup* lookup) {
     const RecordedObject& recorded = item(header_.objects, viewed.object);
     lookup_ = lookup;
-    scale_ = object_scale(recorded.camera(viewed.view), recorded.axis_point, header_.display.screen, recorded.unit);
+    scale_ = object_scale(recorded.camera(viewed.view), recorded.axis_point, header_.display.screen,
+                          recorded.unit);
     ways_.reset();
     const auto* maps = dynamic_cast<const CoordinateMaps*>(lookup);
     if (maps && scale_)

@@ -291,8 +291,8 @@ class StudyReader {
         return lookup;
     }
 
-    /// How long a presentation of an object shows each pose as planned, by PoseIndex: the mean over the trials
-    /// that count, and over all motions if there is none.
+    /// How long a presentation of an object shows each pose as planned, by PoseIndex: the mean over the
+    /// trials that count, and over all motions if there is none.
     std::vector<double> seconds_shown(int index) const {
         const SessionHeader& header =
             open_[shown_in_[static_cast<std::size_t>(index)].first].record().header();
@@ -355,8 +355,7 @@ class StudyReader {
                 for (StudyKey& key : read.trial.keys)
                     if (key.column == "observer")
                         key.value = results().sessions[session].observer;
-                read.trial.object =
-                    open_[session].objects.at(viewed(trials[t].trial.stimulus));
+                read.trial.object = open_[session].objects.at(viewed(trials[t].trial.stimulus));
                 read.trial.first_fixation = results().fixations.size();
                 read.trial.fixations = read.fixations.size();
                 for (StudyFixation& fixation : read.fixations) {
@@ -472,7 +471,7 @@ class StudyReader {
     std::vector<OpenSession> open_;
     /// By object: a session that has it, and what it is there.
     std::vector<std::pair<std::size_t, ViewedObject>> shown_in_;
-    std::vector<ReadSession> read_;                     ///< by session
+    std::vector<ReadSession> read_; ///< by session
     ReadStudy study_;
 };
 

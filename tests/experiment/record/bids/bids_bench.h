@@ -19,7 +19,7 @@ namespace overt::bids_bench {
 
 using namespace overt::testing;
 
-inline const SurfaceLookup* without_surface(int) { return nullptr; }
+inline const SurfaceLookup* without_surface(const ViewedObject&) { return nullptr; }
 
 struct Dataset {
     test::TemporaryFolder root;
