@@ -54,10 +54,10 @@ std::vector<StudyParameter> parameters_of(const Protocol& protocol, const PowerS
     const auto text = [](auto number) { return fmt::format("{}", number); };
     std::vector<std::string> shares;
     for (const Task& task : protocol.tasks) {
-        std::string text = task.id;
+        std::string of_task = task.id;
         for (const auto& [area, share] : simulated_shares(task))
-            text += share > 0.0 || area == head_area ? fmt::format(" {} {}", area, share) : std::string();
-        shares.push_back(std::move(text));
+            of_task += share > 0.0 || area == head_area ? fmt::format(" {} {}", area, share) : std::string();
+        shares.push_back(std::move(of_task));
     }
     return {
         {"observers", fmt::format("{}", fmt::join(settings.observers, ",")), "", "Of a study."},

@@ -12,6 +12,10 @@ function fill(select, options) {
   select.replaceChildren(...options.map(([value, text]) => element('option', {value}, text)));
 }
 
+// A fixation of a trial, as the data have it, that counts; without a known stimulus all do that an area of the screen counts.
+const counts = f => f[5] || (!data.knows_stimuli && f[6] === 'no stimulus known');
+const seconds_of_fixation = () => (data.knows_stimuli ? data.glance.seconds : data.trials.filter(t => !t.excluded).flatMap(t => t.fixations.filter(counts)).reduce((sum, f) => sum + f[1], 0));
+
 // At a glance.
 {
   const g = data.glance;
@@ -21,9 +25,11 @@ function fill(select, options) {
   card(g.observers, 'observers');
   card(g.trials, 'trials' + (g.excluded ? `, ${g.excluded} excluded` : ''));
   card(g.samples.toLocaleString('en'), 'gaze samples');
-  card(g.counted.toLocaleString('en'), `fixations counted of ${g.fixations.toLocaleString('en')}`);
-  card(digits(g.seconds / 60), 'minutes of fixation');
-  card(data.maps.filter(m => m.values && m.by === 'duration').length, 'maps');
+  if (data.knows_stimuli) card(g.counted.toLocaleString('en'), `fixations counted of ${g.fixations.toLocaleString('en')}`);
+  else card(g.fixations.toLocaleString('en'), 'fixations on the screen');
+  card(digits(seconds_of_fixation() / 60), 'minutes of fixation');
+  if (data.knows_stimuli) card(data.maps.filter(m => m.values && m.by === 'duration').length, 'maps');
+  if (data.tables.surface_areas.length) card(new Set(data.tables.surface_areas.map(a => a.area)).size - 1, 'areas of the screen');
   for (const remark of data.remarks) by_id('remarks').append(element('p', {class: 'remark'}, remark));
 }
 
@@ -43,7 +49,7 @@ const remark_column = (rows, of) => (rows.some(of) ? [text_column('remark', of, 
 
 // Figure 4: a panel for each factor, a bar for each of its levels; of groups one for each level of the first factor.
 function draw_figure4() {
-  const area = by_id('area4').value, rows = data.tables.areas.filter(r => r.area === area);
+  const area = by_id('area4').value, rows = data.tables.surface_areas.filter(r => r.area === area);
   const single = rows.filter(r => r.keys.length === 1), full = rows.filter(r => r.keys.length === data.by.length && r.keys.length);
   const bar_of = r => ({label: short(r.keys.length === 1 ? r.keys : r.keys.slice(1)), estimate: r.count, each: r.each});
   bars(by_id('figure4_chart'), single.length ? panels_of(single, r => r.keys[0][0], bar_of) : panels_of(full.length ? full : rows, r => (r.keys[0] || ['', 'all'])[1], bar_of),
@@ -62,15 +68,15 @@ if (data.areas.length) {
 
 // All areas.
 if (data.areas.length) {
-  const rows = data.tables.areas.filter(r => r.keys.length < 2);
-  by_id('areas_table').append(table({name: 'areas', title: 'What gaze does with each area', rows, columns: [
+  const rows = data.tables.surface_areas.filter(r => r.keys.length < 2);
+  by_id('surface_areas_table').append(table({name: 'areas', title: 'What gaze does with each area', rows, columns: [
       text_column('area', r => r.area), ...factor_columns(rows, r => r.keys), number_column('share by count', r => r.count), number_column('by duration', r => r.duration),
       number_column('corrected for tracker error', r => r.corrected), number_column('of the surface', r => r.surface), number_column('of the exposure', r => r.exposure), number_column('share over exposure', r => r.over_exposure),
       number_column('dwell / s', r => r.dwell), number_column('visits', r => r.visits), number_column('visit / s', r => r.visit), number_column('reached', r => r.reached),
       number_column('first arrival / s', r => r.arrival), number_column('by fixation', r => r.arrival_number)],
       note: `Of a trial, means over observers; in brackets the ${level}. The exposure is what gaze would have that is spread evenly over what is seen. First arrival: a trial in which the area was never fixated counts with its whole presentation. Groups are in the table areas.`}));
-  const moves = data.tables.transitions.filter(r => !r.keys.length && r.p.v !== null);
-  if (moves.length) by_id('transitions_table').append(table({name: 'area_transitions', title: 'From area to area', rows: moves, columns: [
+  const moves = data.tables.surface_transitions.filter(r => !r.keys.length && r.p.v !== null);
+  if (moves.length) by_id('surface_transitions_table').append(table({name: 'area_transitions', title: 'From area to area', rows: moves, columns: [
       text_column('from', r => r.from), text_column('to', r => r.to), number_column('probability', r => r.p), number_column('by shares alone', r => r.chance), number_column('difference', r => r.over),
       number_column('transitions', r => r.count), number_column('observers', r => r.observers)],
       note: `Probability that the next fixation is on the second area after one on the first, and the second's share of all next fixations. In brackets the ${level} over observers. Levels of factors are in the table area_transitions.`}));
@@ -79,7 +85,7 @@ if (data.areas.length) {
       text_column('area', r => r.area), ...factor_columns(pairs, r => r.keys), text_column('a', r => r.a), text_column('b', r => r.b), number_column('share, a − b', r => r.difference), p_column('p', r => r.p),
       p_column('p after Holm', r => r.holm), p_column('over all areas, too', r => r.holm_areas), number_column('observers', r => r.observers), number_column('comparisons', r => r.comparisons)],
       note: `Within observers and objects. In brackets the ${level} over observers; p by flipping the signs of observers' differences. Holm: over the rows of an area, and over those of all areas.`}));
-} else by_id('areas').hidden = true;
+} else by_id('surface_areas').hidden = true;
 
 // Figure 5.
 function draw_figure5() {
@@ -261,9 +267,9 @@ if (data.areas.length) {
       note: 'Aspects of Holmqvist et al. (2022, table 7), on which the minimum reporting guideline of Dunn et al. (2023) rests. What is not recorded has to be added by hand.'}));
   const excluded = data.trials.filter(t => t.excluded);
   by_id('exclusions').append(element('p', {class: 'note'}, excluded.length ? `${excluded.length} trials are excluded: ` + excluded.map(t => `${t.label} (${t.excluded})`).join(' ') : 'No trial is excluded.'));
-  by_id('exclusions').append(element('p', {class: 'note'}, data.glance.not_counted.length ? 'Fixations not counted: ' + data.glance.not_counted.map(([why, n]) => `${n} ${why}`).join(', ') + '.' : 'All fixations are counted.'));
+  by_id('exclusions').append(element('p', {class: 'note'}, !data.knows_stimuli ? 'Of the object that was shown nothing is known, so that no fixation counts on a surface.' : data.glance.not_counted.length ? 'Fixations not counted: ' + data.glance.not_counted.map(([why, n]) => `${n} ${why}`).join(', ') + '.' : 'All fixations are counted.'));
 
-  const durations = data.trials.flatMap(t => t.fixations.filter(f => f[5]).map(f => 1000 * f[1]));
+  const durations = data.trials.flatMap(t => (t.excluded ? [] : t.fixations.filter(counts)).map(f => 1000 * f[1]));
   if (durations.length) {
     const width_ms = 25, most_ms = 1000, bins = new Array(most_ms / width_ms).fill(0);
     for (const d of durations) bins[Math.min(bins.length - 1, Math.floor(d / width_ms))]++;

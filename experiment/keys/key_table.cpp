@@ -15,9 +15,8 @@ void expect_members_of(const void* its_struct, const Section& section) {
     for (const Key& key : section.keys)
         OVERT_EXPECTS(key.place.left_out_struct() == its_struct);
     for (const Section& table : section.tables) {
-        const bool is_of_entries = table.home.is_by_name() || table.home.is_one_by_name();
-        OVERT_EXPECTS(!is_of_entries || table.home.left_out_root() == its_struct);
-        expect_members_of(is_of_entries ? table.home.left_out_struct() : its_struct, table);
+        OVERT_EXPECTS(!table.home.has_struct() || table.home.left_out_root() == its_struct);
+        expect_members_of(table.home.has_struct() ? table.home.left_out_struct() : its_struct, table);
     }
 }
 

@@ -94,9 +94,9 @@ struct Key {
 /// Where the structs of a section lie in the struct that a whole file becomes.
 class SectionHome {
   public:
-    /// Of a table within a section: its keys are members of the section's struct.
+    /// Of a table within a section whose keys are members of the section's struct.
     SectionHome() = default;
-    /// Of a [section], and of a [[list]].
+    /// Of a [section], of a [[list]], and of a table within one that has a struct of its own there.
     template <class Root, class Struct>
     SectionHome(Struct Root::*one) : place_(one), left_out_(&as_left_out<Struct>()) {}
     template <class Root, class Struct>
@@ -128,6 +128,7 @@ class SectionHome {
         return home;
     }
 
+    bool has_struct() const { return place_.has_value(); }
     bool is_list() const { return add_ != nullptr && !name_; }
     bool is_by_name() const { return name_ && !is_one_; }
     bool is_one_by_name() const { return name_ && is_one_; }
@@ -157,7 +158,7 @@ class SectionHome {
 /// A [section], the entries of a [[list]], or a table within one of them (`head = { … }` of an object).
 struct Section {
     std::string_view name;
-    SectionHome home; ///< of a table within a section: none
+    SectionHome home; ///< of a table within a section: of its struct, if that is not the section's
     std::vector<Key> keys;
     std::string_view explanation = {};
     std::vector<Section> tables = {};

@@ -148,9 +148,11 @@ void KeyWalk::read_keys(const Section& section, std::string_view heading, const 
         const Key* const key = section.find_key(entry.key);
         const auto inner = std::ranges::find(section.tables, entry.key, &Section::name);
         const std::string entry_path = path + "." + entry.key;
-        if (key)
+        // A key may be written as a value, or as a table of its own.
+        const bool is_inner = inner != section.tables.end() && (!key || entry.value.table());
+        if (key && !is_inner)
             read_key(*key, entry.value, entry_path, out);
-        else if (inner != section.tables.end())
+        else if (is_inner)
             read_inner(*inner, entry, entry_path, out);
         else
             error(entry.key_place, fmt::format("unknown key \"{}\" in [{}]", entry.key, heading),
@@ -176,8 +178,10 @@ void KeyWalk::read_inner(const Section& section, const TomlEntry& entry, const s
         for (const TomlEntry& named : *entry.value.table())
             read_named(section, named, fmt::format("{}.{}", path, named.key), out);
     } else {
-        read_keys(section, section.name, *entry.value.table(), path,
-                  home.is_one_by_name() ? home.open_named(out, entry.key) : out);
+        void* const inner = home.is_one_by_name() ? home.open_named(out, entry.key)
+                            : home.has_struct()   ? home.open(out)
+                                                  : out;
+        read_keys(section, section.name, *entry.value.table(), path, inner);
     }
 }
 
@@ -202,6 +206,8 @@ void KeyWalk::read_key(const Key& key, const TomlValue& value, const std::string
             places_.note(path + "." + entry.key, entry.value.place);
     if (const ValueResult fault = key.type->read(value, key.rule, key.place.in(out))) {
         error(fault->place, fault->message, fault->hint);
+        for (const ValueFault& further : fault->more)
+            error(further.place, further.message, further.hint);
         faulty_.insert(path);
     }
 }

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
@@ -11,6 +12,8 @@
 
 #include "experiment/base/enum_names.h"
 #include "experiment/base/named_words.h"
+#include "experiment/protocol/step_settings.h"
+#include "experiment/protocol/trials_settings.h"
 #include "experiment/stimulus_lists.h"
 
 namespace overt {
@@ -32,6 +35,12 @@ struct Task {
     std::optional<double> simulated_head_share{};
     AreaShares simulated_area_shares{};
     std::vector<std::string> slots = {}; ///< see slots_of_task()
+    /// None: the question, a drift check, the stimulus, the answer.
+    std::vector<StepSettings> steps = {};
+    TrialsSettings trials = {};             ///< neither a rule nor a file: every stimulus, by `stimuli`
+    std::filesystem::path trials_file = {}; ///< of a table; resolved against the protocol's folder
+    CatchSettings catch_trials = {};
+    int repetitions = 1; ///< how often each of its trials comes
 };
 
 /// Where simulated observers look for a task: the shares that go to areas, each once, the head first. A task
@@ -91,6 +100,7 @@ struct ScheduleSettings {
     int min_stimulus_distance = 0;
     // The same by name, for any factor.
     NamedNumbers max_run, min_distance;
+    std::string rotated_list = "material"; ///< of tasks that are asked once per object
     SquareKind material_rotation = SquareKind::cyclic;
     LevelOrder block_order = LevelOrder::fixed;
     int rotation_seed = 1; ///< of random squares, which all observers share
@@ -111,6 +121,8 @@ struct BlockSettings {
     RepetitionOrder repetition_order = RepetitionOrder::in_turn;
     std::string instructions; ///< shown before it; empty: nothing
     bool continues = false;   ///< limits count the trials of the block before, too
+    DrawSettings draw = {};
+    bool practice = false; ///< all is recorded of its trials, and results are not of them
     NamedNumbers max_run, min_distance;
     std::optional<int> max_task_run, max_object_run, max_material_run, max_stimulus_run;
     std::optional<int> min_task_distance, min_object_distance, min_material_distance, min_stimulus_distance;

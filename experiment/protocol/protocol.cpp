@@ -60,6 +60,7 @@ Factors factors_of(const Protocol& protocol) {
     for (std::size_t list = 0; list < stimulus_lists.size(); ++list)
         for (const ListEntry* entry : entries_of(protocol, list))
             sources.lists[list].push_back(*entry);
+    sources.own = own_levels_of(protocol);
     return Factors(sources);
 }
 

@@ -33,6 +33,7 @@
 #include "experiment/protocol/protocol_sources.h"
 #include "experiment/protocol/sitting_settings.h"
 #include "experiment/protocol/slot.h"
+#include "experiment/protocol/trial_table.h"
 #include "experiment/screen_geometry.h"
 #include "experiment/stimulus_lists.h"
 #include "experiment/units.h"
@@ -374,6 +375,7 @@ struct Protocol {
     std::vector<MotionSettings> motions = std::vector<MotionSettings>(1);
     std::vector<ViewSettings> views = std::vector<ViewSettings>(1);
     std::vector<FrameSequenceSettings> frames;
+    std::vector<TrialTable> trial_tables; ///< of the tasks that name one
     std::vector<SlotSettings> slot_entries;    ///< as they are written
     std::vector<Slot> slots = written_out({}); ///< the places that they are; never empty
 
@@ -414,6 +416,9 @@ std::vector<std::string_view> ids_in_list(const Protocol& protocol, std::size_t 
 
 /// All factors of a protocol's trials.
 Factors factors_of(const Protocol& protocol);
+
+/// The levels that its trials have of their own, by its tables and rules (own_factors.cpp).
+std::vector<NamedWord> own_levels_of(const Protocol& protocol);
 
 /// For each list: whether a simulated effect holds for each of its entries.
 std::array<std::vector<bool>, stimulus_lists.size()> chosen_by(const Protocol& protocol,

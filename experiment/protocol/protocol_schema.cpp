@@ -34,7 +34,8 @@ Json section_schema(const Section& section) {
             inner = {{"type", "object"},
                      {"propertyNames", {{"pattern", "^[A-Za-z0-9_-]{1,40}$"}}},
                      {"additionalProperties", std::move(inner)}};
-        schema["properties"][std::string(table.name)] = std::move(inner);
+        Json& property = schema["properties"][std::string(table.name)];
+        property = property.is_null() ? std::move(inner) : Json{{"anyOf", {property, std::move(inner)}}};
     }
     schema["description"] = without_links(section.explanation);
     if (!required.empty())

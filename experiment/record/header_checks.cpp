@@ -82,7 +82,7 @@ bool is_label(const std::string& label) {
 
 void check_header(const SessionHeader& header, const std::filesystem::path& file) {
     constexpr std::chrono::hours longest_latency{1};
-    const auto entries = entry_counts(header);
+    const auto counts = entry_counts(header);
     const auto demand = [&](bool holds, std::string_view what) {
         if (!holds)
             throw RecordError(fmt::format("{}: {} of the session cannot be right: the file is damaged.",
@@ -111,9 +111,9 @@ void check_header(const SessionHeader& header, const std::filesystem::path& file
                fmt::format("the object or the pose of map \"{}\"", map.file));
     }
     for (const RecordedStimulus& stimulus : header.stimuli)
-        demand(is_stimulus(stimulus.stimulus, header, entries), "the object or the material of a stimulus");
+        demand(is_stimulus(stimulus.stimulus, header, counts), "the object or the material of a stimulus");
     for (const Trial& trial : header.schedule.trials)
-        demand(is_index(trial.task, header.tasks) && is_stimulus(trial.stimulus, header, entries) &&
+        demand(is_index(trial.task, header.tasks) && is_stimulus(trial.stimulus, header, counts) &&
                    (header.blocks.empty() || is_index(trial.block, header.blocks)),
                fmt::format("the task, object, material or block of planned trial {}", trial.index + 1));
     for (const RecordedSlot& slot : header.slots) {
@@ -127,7 +127,7 @@ void check_header(const SessionHeader& header, const std::filesystem::path& file
     for (const Trial& trial : header.schedule.trials)
         for (std::size_t i = 0; i < trial.shown_count(); ++i)
             demand(is_index(trial.shown(i).slot, header.slots) &&
-                       is_stimulus(trial.shown(i).stimulus, header, entries),
+                       is_stimulus(trial.shown(i).stimulus, header, counts),
                    fmt::format("a slot, or what is in it, of planned trial {}", trial.index + 1));
     const auto have_plain_names = [](const auto& entries) {
         return std::ranges::all_of(entries, [](const auto& entry) { return is_plain_name(entry.id); });

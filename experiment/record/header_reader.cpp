@@ -75,6 +75,33 @@ void read_slots(const SQLite::Database& database, SessionHeader& header) {
         header.slots.push_back({"centre", "centre", screen.image_origin_px, screen.image_px});
 }
 
+/// What planned trials have besides their stimuli.
+void read_own_levels(const SQLite::Database& database, SessionHeader& header) {
+    if (!has_table(database, "schedule_level"))
+        return;
+    const auto trial_at = [&](int index) -> Trial& {
+        const auto trial = std::ranges::find(header.schedule.trials, index, &Trial::index);
+        if (trial == header.schedule.trials.end())
+            throw RecordError(
+                fmt::format("table schedule_level or schedule_answer: there is no trial {}", index));
+        return *trial;
+    };
+    for (Query row(database, "SELECT trial, factor, level FROM schedule_level ORDER BY trial, n");
+         row.step();) {
+        Trial& trial = trial_at(row.small());
+        std::string factor = row.text();
+        trial.levels.push_back({std::move(factor), row.text()});
+    }
+    for (Query row(database, "SELECT trial, correct, role FROM schedule_answer"); row.step();) {
+        Trial& trial = trial_at(row.small());
+        trial.correct = row.text();
+        const auto role = std::ranges::find(names_of<TrialRole>, row.text());
+        if (role == names_of<TrialRole>.end())
+            throw RecordError("table schedule_answer: there is no such role of a trial");
+        trial.role = static_cast<TrialRole>(role - names_of<TrialRole>.begin());
+    }
+}
+
 void read_dataset(const SQLite::Database& database, SessionHeader& header) {
     if (!has_table(database, "dataset_entry"))
         return;
@@ -123,11 +150,13 @@ void read_design(const SQLite::Database& database, SessionHeader& header) {
     for (Query row(database, fmt::format("SELECT trial, task, {} FROM schedule ORDER BY trial",
                                          stimulus_columns_of(database, "schedule"))
                                  .c_str());
-         row.step();)
-        row.read(header.schedule.trials.emplace_back().index, header.schedule.trials.back().task,
-                 header.schedule.trials.back().stimulus);
+         row.step();) {
+        Trial& trial = header.schedule.trials.emplace_back();
+        row.read(trial.index, trial.task, trial.stimulus);
+    }
     read_blocks(database, header);
     read_slots(database, header);
+    read_own_levels(database, header);
     read_dataset(database, header);
     for (Query row(database, "SELECT id, question FROM task ORDER BY task"); row.step();)
         header.tasks.push_back({row.text(), row.text()});
@@ -148,9 +177,10 @@ void read_objects(const SQLite::Database& database, SessionHeader& header) {
     for (Query row(database, fmt::format("SELECT {}, source, frames_sha256 FROM stimulus",
                                          stimulus_columns_of(database, "stimulus"))
                                  .c_str());
-         row.step();)
-        row.read(header.stimuli.emplace_back().stimulus, header.stimuli.back().source,
-                 header.stimuli.back().frames_sha256);
+         row.step();) {
+        RecordedStimulus& stimulus = header.stimuli.emplace_back();
+        row.read(stimulus.stimulus, stimulus.source, stimulus.frames_sha256);
+    }
     // In version 1 all maps were of triangles.
     Query version(database, "PRAGMA user_version");
     const bool has_kind = version.step() && version.small() >= 2;
@@ -181,8 +211,10 @@ void read_lists(const SQLite::Database& database, SessionHeader& header) {
                 if (has_table(database, name.c_str()))
                     for (Query row(database,
                                    fmt::format("SELECT id, title FROM {0} ORDER BY {0}", name).c_str());
-                         row.step();)
-                        row.read(entries.emplace_back().id, entries.back().title);
+                         row.step();) {
+                        ListEntry& entry = entries.emplace_back();
+                        row.read(entry.id, entry.title);
+                    }
             if (!has_table(database, "entry_column"))
                 return;
             for (Query row(database, fmt::format("SELECT entry, name, text, number FROM entry_column WHERE "

@@ -31,6 +31,14 @@ void insert_design(SQLite::Database& database, const SessionHeader& header) {
                           trial.index, static_cast<int>(i), slot, stimulus);
         }
     }
+    for (const Trial& trial : header.schedule.trials) {
+        int level = 0;
+        for (const TrialLevel& of : trial.levels)
+            insert_values(database, "INTO schedule_level", trial.index, level++, of.factor, of.level);
+        if (!trial.correct.empty() || trial.role != TrialRole::trial)
+            insert_values(database, "INTO schedule_answer", trial.index, trial.correct,
+                          std::string(name_of(trial.role)));
+    }
     for (const std::string& block : header.blocks)
         insert_values(database, "INTO block", index++, block);
     index = 0;

@@ -1,5 +1,8 @@
 #include "experiment/record/session_header.h"
 
+#include <algorithm>
+#include <type_traits>
+
 namespace overt {
 
 std::vector<ListEntry> entries_of(const SessionHeader& header, std::size_t list) {
@@ -16,6 +19,22 @@ std::vector<ListEntry> entries_of(const SessionHeader& header, std::size_t list)
         entries.push_back({name, name, {}, {}});
     }
     return entries;
+}
+
+void record_entries(SessionHeader& header, std::size_t list, const std::vector<const ListEntry*>& entries) {
+    std::size_t at = 0;
+    const auto put = [&](auto of_list) {
+        if (at++ != list)
+            return;
+        auto& recorded = header.*of_list;
+        if constexpr (std::is_same_v<std::remove_reference_t<decltype(recorded)>, std::vector<ListEntry>>)
+            for (const ListEntry* entry : entries)
+                recorded.push_back({entry->id, entry->title, entry->columns, {}});
+        else
+            for (std::size_t i = 0; i < std::min(recorded.size(), entries.size()); ++i)
+                recorded[i].columns = entries[i]->columns;
+    };
+    std::apply([&](auto... of_list) { (put(of_list), ...); }, recorded_lists);
 }
 
 std::array<std::size_t, stimulus_lists.size()> entry_counts(const SessionHeader& header) {

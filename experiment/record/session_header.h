@@ -115,6 +115,9 @@ struct RecordedObject {
     /// do not say it; empty in sessions of earlier programs, which did not write it down.
     std::string unit = "mm";
     NamedWords columns = {}; ///< said of it in the protocol
+    /// Added to a place on the object, it gives the place in the coordinates of the mesh's file, turned and
+    /// scaled as the protocol says. Not 0 for a mesh far from its file's origin only (import_mesh).
+    glm::dvec3 origin{0.0};
 
     const Camera& camera(int view) const { return cameras.at(static_cast<std::size_t>(view)); }
 };
@@ -210,6 +213,9 @@ static_assert(std::tuple_size_v<decltype(recorded_lists)> == stimulus_lists.size
 
 /// The entries of a list, at least one; of objects what all lists have. `list`: index into `stimulus_lists`.
 std::vector<ListEntry> entries_of(const SessionHeader& header, std::size_t list);
+
+/// Puts the entries of a list into the header; of objects, which are described there already, the columns.
+void record_entries(SessionHeader& header, std::size_t list, const std::vector<const ListEntry*>& entries);
 
 /// How many entries each list has.
 std::array<std::size_t, stimulus_lists.size()> entry_counts(const SessionHeader& header);

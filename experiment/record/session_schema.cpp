@@ -133,6 +133,12 @@ CREATE TABLE IF NOT EXISTS missed_refresh (
 CREATE TABLE IF NOT EXISTS response_press (
     trial_id INTEGER PRIMARY KEY, uncertainty_ns INTEGER NOT NULL
 ) STRICT;
+CREATE TABLE IF NOT EXISTS step (
+    trial_id INTEGER NOT NULL, n INTEGER NOT NULL, kind TEXT NOT NULL, id TEXT NOT NULL,
+    planned_refreshes INTEGER, drawn_s REAL, still_frame INTEGER, begin_ns INTEGER, end_ns INTEGER,
+    ended_by TEXT, gaze_onset_us INTEGER, gaze_detected_us INTEGER,
+    PRIMARY KEY (trial_id, n)
+) STRICT, WITHOUT ROWID;
 CREATE TABLE IF NOT EXISTS swap_modes (
     trial_id INTEGER PRIMARY KEY, flipped INTEGER NOT NULL, copied INTEGER NOT NULL,
     suboptimal_copied INTEGER NOT NULL, skipped INTEGER NOT NULL
@@ -148,6 +154,13 @@ CREATE TABLE IF NOT EXISTS schedule_slot (
     trial INTEGER NOT NULL, place INTEGER NOT NULL, slot INTEGER NOT NULL, @stimulus,
     PRIMARY KEY (trial, place)
 ) STRICT, WITHOUT ROWID;
+CREATE TABLE IF NOT EXISTS schedule_level (
+    trial INTEGER NOT NULL, n INTEGER NOT NULL, factor TEXT NOT NULL, level TEXT NOT NULL,
+    PRIMARY KEY (trial, n)
+) STRICT, WITHOUT ROWID;
+CREATE TABLE IF NOT EXISTS schedule_answer (
+    trial INTEGER PRIMARY KEY, correct TEXT NOT NULL, role TEXT NOT NULL CHECK (role IN ('trial', 'catch', 'practice'))
+) STRICT;
 CREATE TABLE IF NOT EXISTS presentation (
     trial_id INTEGER NOT NULL, place INTEGER NOT NULL, slot INTEGER NOT NULL, @stimulus,
     first_refresh INTEGER, last_refresh INTEGER,

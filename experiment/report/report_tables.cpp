@@ -1,5 +1,7 @@
 #include "experiment/report/report_tables.h"
 
+#include "experiment/report/report_areas.h"
+
 namespace overt {
 
 Json report_tables(const StudyResults& results) {
@@ -33,7 +35,7 @@ Json report_tables(const StudyResults& results) {
             json["pooled_ci"] = {number(row.pooled_interval->low), number(row.pooled_interval->high)};
         areas.push_back(std::move(json));
     }
-    for (const AreaTransitionRow& row : results.area_transitions)
+    for (const SurfaceTransitionRow& row : results.surface_transitions)
         transitions.push_back({{"keys", json_of(row.keys)},
                                {"from", row.from},
                                {"to", row.to},
@@ -146,18 +148,20 @@ Json report_tables(const StudyResults& results) {
                           {"to", row.to_s},
                           {"share", json_of(row.share)},
                           {"observers", row.observers}});
-    return {{"areas", areas},
-            {"transitions", transitions},
-            {"area_pairs", area_pairs},
-            {"distributions", distributions},
-            {"pairs", pairs},
-            {"effects", effects},
-            {"motions", motions},
-            {"lights", lights},
-            {"predictions", predictions},
-            {"reliabilities", reliabilities},
-            {"exposures", exposures},
-            {"course", course}};
+    Json tables{{"surface_areas", areas},
+                {"surface_transitions", transitions},
+                {"area_pairs", area_pairs},
+                {"distributions", distributions},
+                {"pairs", pairs},
+                {"effects", effects},
+                {"motions", motions},
+                {"lights", lights},
+                {"predictions", predictions},
+                {"reliabilities", reliabilities},
+                {"exposures", exposures},
+                {"course", course}};
+    add_area_tables(tables, results);
+    return tables;
 }
 
 } // namespace overt

@@ -15,7 +15,7 @@ struct LookSums {
     double dwell_s = 0.0, first_arrival_s = 0.0, first_arrival_number = 0.0;
     int trials = 0, visits = 0, arrivals = 0;
 
-    void add(const AreaLook& look, double presentation_s) {
+    void add(const SurfaceAreaLook& look, double presentation_s) {
         ++trials;
         dwell_s += look.dwell_s;
         visits += look.visits;
@@ -29,13 +29,13 @@ struct LookSums {
 
 } // namespace
 
-std::optional<AreaLook> area_look(const StudyResults& results, const StudyTrial& trial,
-                                  std::string_view area) {
+std::optional<SurfaceAreaLook> area_look(const StudyResults& results, const StudyTrial& trial,
+                                         std::string_view area) {
     const StudyObject& object = results.objects[static_cast<std::size_t>(trial.object)];
     const std::optional<std::size_t> of = object.areas.find(area);
     if (!of)
         return std::nullopt;
-    AreaLook look;
+    SurfaceAreaLook look;
     bool is_in_run = false;
     int number = 0;
     for (std::size_t i = trial.first_fixation; i < trial.first_fixation + trial.fixations; ++i) {
@@ -66,7 +66,7 @@ void add_looks(AreaRow& row, const StudyResults& results,
         LookSums sums;
         for (const int trial : own) {
             const StudyTrial& of = results.trials[static_cast<std::size_t>(trial)];
-            if (const std::optional<AreaLook> look = area_look(results, of, row.area))
+            if (const std::optional<SurfaceAreaLook> look = area_look(results, of, row.area))
                 sums.add(*look, of.presentation_s);
         }
         row.looks += sums.trials;

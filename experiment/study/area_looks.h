@@ -12,7 +12,7 @@
 namespace overt {
 
 /// What one trial's counted fixations do with an area.
-struct AreaLook {
+struct SurfaceAreaLook {
     double dwell_s = 0.0; ///< time of fixation on it
     /// Runs of successive fixations on it: one elsewhere, or beside the object, ends a run. Fixations that
     /// are too short, or under way at the onset, neither end a run nor belong to it.
@@ -22,8 +22,8 @@ struct AreaLook {
 };
 
 /// Nothing if the trial's object does not have the area.
-std::optional<AreaLook> area_look(const StudyResults& results, const StudyTrial& trial,
-                                  std::string_view area);
+std::optional<SurfaceAreaLook> area_look(const StudyResults& results, const StudyTrial& trial,
+                                         std::string_view area);
 
 /// Sets the measures of trials in a row: of each observer's trials, which are one list, the means, then over
 /// observers.

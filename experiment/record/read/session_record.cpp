@@ -56,8 +56,13 @@ SessionRecord::SessionRecord(const std::filesystem::path& session)
         trials_ = read_trials(*database_);
         for (TrialRecord& trial : trials_) {
             const auto planned = static_cast<std::size_t>(trial.trial.index);
-            if (trial.trial.index >= 0 && planned < header_.schedule.trials.size())
-                trial.trial.block = header_.schedule.trials[planned].block;
+            if (trial.trial.index >= 0 && planned < header_.schedule.trials.size()) {
+                const Trial& of = header_.schedule.trials[planned];
+                trial.trial.block = of.block;
+                trial.trial.levels = of.levels;
+                trial.trial.correct = of.correct;
+                trial.trial.role = of.role;
+            }
         }
     });
     check_header(header_, file_);

@@ -18,6 +18,7 @@
 #include "experiment/study/read/exposure.h"
 #include "experiment/study/read/gaze_quality.h"
 #include "experiment/study/read/open_sessions.h"
+#include "experiment/study/read/trial_screen_areas.h"
 
 namespace overt {
 
@@ -265,7 +266,7 @@ class StudyReader {
 
     bool is_of(std::size_t session, const TrialRecord& trial, int object) const {
         const auto own = open_[session].objects.find(viewed(trial.trial.stimulus));
-        return trial.counts && own != open_[session].objects.end() && own->second == object;
+        return trial.gives_results() && own != open_[session].objects.end() && own->second == object;
     }
 
     /// From the first session that has it whole.
@@ -345,7 +346,7 @@ class StudyReader {
         for (std::size_t session = 0; session < open_.size(); ++session) {
             const std::vector<TrialRecord>& trials = open_[session].presentations;
             for (std::size_t t = 0; t < trials.size(); ++t) {
-                if (!trials[t].counts)
+                if (!trials[t].gives_results())
                     continue;
                 ReadTrial& read = read_[session].trials[t];
                 const int index = static_cast<int>(results().trials.size());
@@ -370,6 +371,7 @@ class StudyReader {
                 results().trials.push_back(std::move(read.trial));
             }
         }
+        add_screen_areas();
         for (int session = 0; session < static_cast<int>(open_.size()); ++session) {
             std::vector<const StudyQuality*> own;
             for (const StudyTrial& trial : results().trials) {
@@ -394,6 +396,43 @@ class StudyReader {
         }
     }
 
+    /// Those that recordings tell and those of the options, by trial.
+    void add_screen_areas() {
+        std::vector<std::vector<ScreenArea>>& areas = results().screen_areas;
+        std::vector<std::string> files, faults;
+        for (const OpenSession& open : open_) {
+            for (const TrialRecord& trial : open.presentations) {
+                if (!trial.counts)
+                    continue;
+                RecordedScreenAreas recorded = recorded_screen_areas(open.record(), trial);
+                for (ScreenArea& chosen :
+                     chosen_screen_areas(options_.screen_areas, results().trials[areas.size()]))
+                    recorded.areas.push_back(std::move(chosen));
+                areas.push_back(std::move(recorded.areas));
+                std::ranges::move(recorded.faults, std::back_inserter(faults));
+                for (std::string& file : recorded.files)
+                    if (std::ranges::find(files, file) == files.end())
+                        files.push_back(std::move(file));
+            }
+        }
+        if (std::ranges::all_of(areas, &std::vector<ScreenArea>::empty))
+            areas.clear();
+        if (!faults.empty())
+            results().remarks.push_back(
+                fmt::format("{} on areas of the screen cannot be read and {} left out; the first is {}.",
+                            faults.size() == 1 ? "A message" : fmt::format("{} messages", faults.size()),
+                            faults.size() == 1 ? "is" : "are", faults.front()));
+        if (!files.empty() && options_.screen_areas.empty())
+            results().remarks.push_back(fmt::format(
+                "Recordings name {} with areas of the screen, such as {}: give such a file with --areas.",
+                files.size() == 1 ? "a file" : fmt::format("{} files", files.size()), files.front()));
+        const std::vector<std::string> unknown = unknown_columns(options_.screen_areas, results());
+        if (!unknown.empty())
+            throw InputError(fmt::format(
+                "{}: no trial has a column {}: an area is of the trials that have the same word there",
+                options_.screen_areas_file, fmt::join(unknown, ", ")));
+    }
+
     /// What is given of them, and what is not.
     void remark_on_sessions_without_stimulus() {
         std::vector<std::string> folders;
@@ -411,9 +450,18 @@ class StudyReader {
                               folders.size() == 1 ? "knows" : "know");
         results().remarks.push_back(
             named +
-            ": fixations with their places on the screen, the quality of gaze, and trials are in the "
-            "tables fixations, quality and trials; saccades and blinks are in the exports. The gaze has "
-            "no places on a surface, so that none of it is in maps, in shares of parts or in comparisons.");
+            ": fixations with their places on the screen, the quality of gaze, and trials are in the tables "
+            "fixations, quality and trials, what gaze did with areas of the screen in screen_areas, where "
+            "there are "
+            "any; saccades and blinks are in the exports. Maps, shares of parts, comparisons of conditions "
+            "on a "
+            "surface, gaze on a moving surface and light at gaze were not computed of them: that takes the "
+            "object "
+            "that was shown, and when.");
+        if (results().screen_areas.empty())
+            results().remarks.push_back(
+                "No area of the screen is known: analyze takes a file of them with --areas, and messages "
+                "\"!V IAREA\" of a recording.");
     }
 
     const SurfaceFor& surface_for_;

@@ -23,16 +23,11 @@
 #include "experiment/scene/viewing.h"
 #include "experiment/screen_geometry.h"
 #include "experiment/statistics/estimate.h"
+#include "experiment/study/results/screen_area_rows.h"
 #include "experiment/study/results/session_setup.h"
+#include "experiment/study/results/study_key.h"
 
 namespace overt {
-
-/// A column of the table of trials, or a field of the observer's form, and what stands in it.
-struct StudyKey {
-    std::string column;
-    std::string value; ///< as in the exported tables; n/a where nothing stands
-    friend bool operator==(const StudyKey&, const StudyKey&) = default;
-};
 
 /// What was set, for the methods' text: every parameter that decides a number.
 struct StudyParameter {
@@ -88,6 +83,7 @@ struct StudyObject {
     glm::dvec3 axis_point{0.0}; ///< in the mesh's unit; the object turns about the vertical through it
     ScreenGeometry screen;
     std::string unit = "mm"; ///< of the mesh, as RecordedObject has it: "mm" if it is that
+    glm::dvec3 origin{0.0};  ///< in the mesh's unit, as RecordedObject has it
     // As ObjectScale has them; nothing without a known camera.
     std::optional<double> mm_per_unit, mm_per_deg, shown_size;
     /// By vertex of the mesh: how long one presentation shows it, in seconds; 0: never visible.
@@ -307,8 +303,8 @@ struct AreaRow {
     int arrivals = 0;                ///< of these, in which it was reached
 };
 
-/// How gaze goes from one area to another, or stays: see area_transitions.h.
-struct AreaTransitionRow {
+/// How gaze goes from one area to another, or stays: see surface_transitions.h.
+struct SurfaceTransitionRow {
     std::vector<StudyKey> keys; ///< a level of a column; empty: all
     std::string from, to;
     Estimate probability; ///< of the next fixation being on `to`, after one on `from`
@@ -502,7 +498,7 @@ struct StudyResults {
     std::string area;               ///< that of figure 4, the first of those that are compared; empty: none
     std::vector<std::string> compared_areas; ///< those that tests are corrected over
     std::vector<AreaRow> area_rows;          ///< by area, in their order
-    std::vector<AreaTransitionRow> area_transitions;
+    std::vector<SurfaceTransitionRow> surface_transitions;
     std::vector<AreaPairRow> area_pairs;
     std::vector<DistributionRow> distributions;
     std::vector<PairRow> pairs;
@@ -514,11 +510,18 @@ struct StudyResults {
     std::vector<GazeMotionRow> motions;
     std::vector<LightAtGazeRow> lights;
     std::vector<TimeCourseRow> time_course;
+    std::vector<std::vector<ScreenArea>> screen_areas; ///< by trial; empty: no trial has any
+    std::vector<ScreenAreaTrialRow> screen_area_trials;
+    std::vector<AreaTransitionRow> area_transitions;
+    std::vector<ScreenAreaRow> screen_area_groups;
     std::vector<StudyQuality> session_quality; ///< by session
     std::vector<ReportingItem> reporting;
     std::vector<MethodsParagraph> methods;
     std::vector<StudyTrace> traces; ///< of each trial with samples, in the order of the trials
 };
+
+/// Whether any session knows what it showed; imported recordings do not.
+bool knows_stimuli(const StudyResults& results);
 
 /// A few words for tables and sentences.
 std::string_view name_of(NotCounted why);

@@ -32,9 +32,8 @@ void add_figure_columns(StudyLayout<AreaRow>& to, const StudyResults& results) {
 } // namespace
 
 RowLayout<AreaRow> figure4_layout(const StudyResults& results) {
-    StudyLayout<AreaRow> to("figure4_area_share",
-                            "Share of counted fixations on one area: of "
-                            "groups, of each level of each column, and of all.");
+    StudyLayout<AreaRow> to("figure4_area_share", "Share of counted fixations on one area: of "
+                                                  "groups, of each level of each column, and of all.");
     add_figure_columns(to, results);
     return to;
 }
@@ -70,8 +69,8 @@ RowLayout<AreaRow> areas_layout(const StudyResults& results) {
     return to;
 }
 
-RowLayout<AreaTransitionRow> area_transitions_layout(const StudyResults& results) {
-    using Row = AreaTransitionRow;
+RowLayout<SurfaceTransitionRow> surface_transitions_layout(const StudyResults& results) {
+    using Row = SurfaceTransitionRow;
     StudyLayout<Row> to(
         "area_transitions",
         "Where the next fixation is, by the area of the one before: of all trials, and of each "

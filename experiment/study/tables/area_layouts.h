@@ -9,7 +9,7 @@ namespace overt {
 // `results` must outlive the layouts.
 RowLayout<AreaRow> figure4_layout(const StudyResults& results);
 RowLayout<AreaRow> areas_layout(const StudyResults& results);
-RowLayout<AreaTransitionRow> area_transitions_layout(const StudyResults& results);
+RowLayout<SurfaceTransitionRow> surface_transitions_layout(const StudyResults& results);
 RowLayout<AreaPairRow> area_pairs_layout(const StudyResults& results);
 
 } // namespace overt

@@ -9,7 +9,7 @@
 #include "app/power/power_simulation.h"
 #include "devices/simulated/gaze_plan.h"
 #include "experiment/study/area_shares.h"
-#include "experiment/study/area_transitions.h"
+#include "experiment/study/surface_transitions.h"
 #include "tests/support/figures.h"
 
 using namespace overt;
@@ -80,14 +80,14 @@ TEST_CASE(
     for (int number = 0; number < count; ++number) {
         const StudyResults results = study_of(studies, static_cast<std::uint64_t>(number), observers);
         const auto rows = area_rows(results, {}, options);
-        const auto moves = area_transitions(results, {}, options);
+        const auto moves = surface_transitions(results, {}, options);
         for (std::size_t i = 0; i < std::size(planted); ++i) {
             const auto row = std::ranges::find(rows, planted[i].name, &AreaRow::area);
             REQUIRE(row != rows.end());
             shares += row->by_count.interval->contains(planted[i].share);
             means[i] += *row->by_count.value / count;
             for (const PlantedArea& from : planted) {
-                const auto move = std::ranges::find_if(moves, [&](const AreaTransitionRow& of) {
+                const auto move = std::ranges::find_if(moves, [&](const SurfaceTransitionRow& of) {
                     return of.from == from.name && of.to == planted[i].name;
                 });
                 REQUIRE(move != moves.end());

@@ -221,15 +221,15 @@ inline StudyResults made_up_study() {
     study.reliabilities.push_back(reliability);
     study.areas = study.compared_areas = {"body", "head"};
     study.area = "head";
-    study.area_transitions.push_back({{},
-                                      "body",
-                                      "head",
-                                      Estimate::of(0.3, Interval{0.2, 0.4}),
-                                      Estimate::of(0.35, Interval{0.3, 0.4}),
-                                      Estimate::of(-0.05, Interval{-0.1, 0.0}),
-                                      3,
-                                      120,
-                                      400});
+    study.surface_transitions.push_back({{},
+                                         "body",
+                                         "head",
+                                         Estimate::of(0.3, Interval{0.2, 0.4}),
+                                         Estimate::of(0.35, Interval{0.3, 0.4}),
+                                         Estimate::of(-0.05, Interval{-0.1, 0.0}),
+                                         3,
+                                         120,
+                                         400});
     study.area_pairs.push_back({"head",
                                 {},
                                 "material",

@@ -38,7 +38,7 @@ TEST_CASE("the report's data come back from the page, whatever a session's texts
     CHECK(data["remarks"][1] == study.remarks[1]);
     CHECK(data["maps"].size() == study.maps.size());
     CHECK(data["maps"].back()["absent"] == "No fixation was counted.");
-    CHECK(data["tables"]["heads"][0]["duration"]["v"].is_null());
+    CHECK(data["tables"]["surface_areas"][0]["duration"]["v"].is_null());
     CHECK(data["trials"][3]["excluded"] == "More than half of its samples were lost.");
     CHECK(page.find("<title>A &lt;/script>") != page.npos);
     CHECK(page.find("<script src") == page.npos);

@@ -6,7 +6,7 @@
 #include "experiment/base/error.h"
 #include "experiment/study/area_pairs.h"
 #include "experiment/study/area_shares.h"
-#include "experiment/study/area_transitions.h"
+#include "experiment/study/surface_transitions.h"
 
 using namespace overt;
 
@@ -152,11 +152,11 @@ TEST_CASE("transitions are from each counted fixation to the next, and stay besi
           "[unit]") {
     // To and fro between rim and base, with a gap that breaks one transition.
     LookedStudy study(3, {{{1}, {3}, {1}, {3}, {-1}, {1}, {3}}});
-    const auto rows = area_transitions(study.results, {}, study.options);
+    const auto rows = surface_transitions(study.results, {}, study.options);
     CHECK(rows.size() == 16);
     const auto row = [&](const char* from, const char* to) {
         return *std::ranges::find_if(
-            rows, [&](const AreaTransitionRow& of) { return of.from == from && of.to == to; });
+            rows, [&](const SurfaceTransitionRow& of) { return of.from == from && of.to == to; });
     };
     CHECK(*row("rim", "base").probability.value == 1.0);
     CHECK(row("rim", "base").transitions == 9); // three of each of three observers
@@ -167,9 +167,9 @@ TEST_CASE("transitions are from each counted fixation to the next, and stay besi
     CHECK_FALSE(row("handle", "rim").probability.value);
     // A fixation in two areas departs from both.
     LookedStudy nested(3, {{{2}, {3}, {2}, {1}}});
-    const auto of_nested = area_transitions(nested.results, {}, nested.options);
+    const auto of_nested = surface_transitions(nested.results, {}, nested.options);
     const auto probability = [&](const char* from, const char* to) {
-        return *std::ranges::find_if(of_nested, [&](const AreaTransitionRow& of) {
+        return *std::ranges::find_if(of_nested, [&](const SurfaceTransitionRow& of) {
                     return of.from == from && of.to == to;
                 })->probability.value;
     };

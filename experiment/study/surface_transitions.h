@@ -15,7 +15,7 @@ namespace overt {
 /// fixations of all of the observer's transitions, which is what it would be if where gaze goes did not
 /// depend on where it is; each a mean over observers who have any from `from`. A fixation in several areas is
 /// in the rows of each.
-std::vector<AreaTransitionRow> area_transitions(const StudyResults& results, const LevelLists& order,
-                                                const StudyOptions& options);
+std::vector<SurfaceTransitionRow> surface_transitions(const StudyResults& results, const LevelLists& order,
+                                                      const StudyOptions& options);
 
 } // namespace overt

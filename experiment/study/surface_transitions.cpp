@@ -1,4 +1,4 @@
-#include "experiment/study/area_transitions.h"
+#include "experiment/study/surface_transitions.h"
 
 #include <algorithm>
 #include <utility>
@@ -76,16 +76,16 @@ Estimate within(Estimate estimate, double least, double most) {
 
 } // namespace
 
-std::vector<AreaTransitionRow> area_transitions(const StudyResults& results, const LevelLists& order,
-                                                const StudyOptions& options) {
-    std::vector<AreaTransitionRow> rows;
+std::vector<SurfaceTransitionRow> surface_transitions(const StudyResults& results, const LevelLists& order,
+                                                      const StudyOptions& options) {
+    std::vector<SurfaceTransitionRow> rows;
     for (const StudyGroup& group : all_and_levels(results, results.by, order)) {
         std::vector<std::vector<PartTransitions>> observers;
         for (const auto& [observer, own] : by_observer(results, group.trials))
             observers.push_back(part_transitions(results, own));
         for (const std::string& from : results.areas) {
             for (const std::string& to : results.areas) {
-                AreaTransitionRow row;
+                SurfaceTransitionRow row;
                 row.keys = group.keys;
                 row.from = from;
                 row.to = to;
