@@ -40,7 +40,9 @@ RowLayout<StepRow> steps_layout() {
             {session_seconds("begin_s", "When what it shows was lit"), time_of_step(&AttemptStep::begin)},
             {session_seconds("end_s", "When something else was lit"), time_of_step(&AttemptStep::end)},
             {{"drawn_s", "How long it was to last, as drawn or as written; n/a: no time ends it", "s"},
-             [](auto& row) { return row.step.drawn_s; }},
+             [](auto& row) {
+                 return Fixed{row.step.drawn_s, 6};
+             }},
             {{"planned_refreshes", "The same in refreshes of the display"},
              [](auto& row) { return row.step.planned_refreshes; }},
             {{"ended_by",
