@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "app/cli/progress_bar.h"
 #include "app/inputs/protocol_file.h"
@@ -139,6 +140,26 @@ void examine_frames(const Protocol& protocol, Diagnostics& diagnostics) {
     }
 }
 
+/// Gaze is waited for on areas that every object has: a trial of any of them can come.
+void examine_waited_areas(const Experiment& experiment, Diagnostics& diagnostics) {
+    for (const Task& task : experiment.protocol.tasks)
+        for (const StepSettings& step : task.steps)
+            for (const Object& object : experiment.objects) {
+                if (!step.gaze || step.gaze->area.empty())
+                    continue;
+                const std::vector<std::string>& parts = object.mesh.part_names;
+                if (object.has_mesh() && std::ranges::any_of(parts, [&](const std::string& part) {
+                        return part_is_in_area(part, step.gaze->area);
+                    }))
+                    continue;
+                diagnostics.error(
+                    experiment.protocol.file.string(), step.gaze->area_place,
+                    fmt::format("gaze_on: object \"{}\" has no area \"{}\"", object.id, step.gaze->area),
+                    object.has_mesh() ? fmt::format("it has {}", fmt::join(parts, ", "))
+                                      : "it has no mesh, and so no surface to look at");
+            }
+}
+
 /// Nothing if there is an error, now or before.
 std::optional<Experiment> look_into(std::optional<Protocol> protocol, const std::filesystem::path& cache,
                                     InputDepth depth, Diagnostics& diagnostics) {
@@ -146,6 +167,8 @@ std::optional<Experiment> look_into(std::optional<Protocol> protocol, const std:
         return std::nullopt;
     Experiment experiment{*std::move(protocol), {}};
     experiment.objects = examine_objects(experiment.protocol, cache, diagnostics);
+    if (!diagnostics.has_errors())
+        examine_waited_areas(experiment, diagnostics);
     examine_surroundings(experiment.protocol, diagnostics);
     if (depth == InputDepth::everything) {
         examine_frames(experiment.protocol, diagnostics);

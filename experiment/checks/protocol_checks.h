@@ -40,6 +40,8 @@ void check_ids(ProtocolExamination& examination);
 void check_objects(ProtocolExamination& examination, std::span<const std::string_view> shipped_sculptures);
 void check_materials(ProtocolExamination& examination);
 void check_frames(ProtocolExamination& examination);
+/// What a trial of each task does.
+void check_steps(ProtocolExamination& examination);
 /// Places on the screen, and in which of them each task shows its stimuli.
 void check_slots(ProtocolExamination& examination);
 /// After take_characterisation().

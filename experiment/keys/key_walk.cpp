@@ -180,6 +180,8 @@ void KeyWalk::read_key(const Key& key, const TomlValue& value, const std::string
             places_.note(path + "." + entry.key, entry.value.place);
     if (const ValueResult fault = key.type->read(value, key.rule, key.place.in(out))) {
         error(fault->place, fault->message, fault->hint);
+        for (const ValueFault& further : fault->more)
+            error(further.place, further.message, further.hint);
         faulty_.insert(path);
     }
 }

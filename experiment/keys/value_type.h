@@ -26,6 +26,7 @@ struct ValueFault {
     Place place;
     std::string message;
     std::string hint = {};
+    std::vector<ValueFault> more = {}; ///< of a value of several parts: what else is wrong
 };
 using ValueResult = std::optional<ValueFault>; ///< nothing: the value was taken
 

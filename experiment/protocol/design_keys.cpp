@@ -69,6 +69,11 @@ std::vector<Key> task() {
         {"stimuli", &T::stimuli,
          "Asked for every object in every material, or once per object with the material changing from "
          "observer to observer."},
+        {"steps", &T::steps,
+         left_out("the question until a key is pressed, the drift check, the stimulus for the motion's "
+                  "duration, the spoken answer"),
+         "What a trial does, one step after another, such as `[{ fixation = 0.5 }, { show = \"centre\" }, "
+         "{ answer = \"spoken\" }]`; see [design.md](design.md)."},
         {"slots", &T::slots, identifier().left_out("the only slot there is"),
          "Ids of the `[[slot]]`s in which the task's stimuli are shown, all at once; of a circle or a grid, "
          "all its places. Each shows the stimulus that the trial has for it."},

@@ -10,6 +10,7 @@
 
 #include "experiment/base/enum_names.h"
 #include "experiment/base/named_words.h"
+#include "experiment/protocol/step_settings.h"
 #include "experiment/stimulus_lists.h"
 
 namespace overt {
@@ -27,6 +28,8 @@ struct Task {
     double simulated_head_share =
         0.4; ///< share of a simulated observer's fixations that go to the part "head"
     std::vector<std::string> slots = {}; ///< see slots_of_task()
+    /// None: the question, a drift check, the stimulus, the answer.
+    std::vector<StepSettings> steps = {};
 };
 
 /// For each of `stimulus_lists`, the ids of the entries that are chosen; none: all.
