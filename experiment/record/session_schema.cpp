@@ -135,6 +135,12 @@ CREATE TABLE IF NOT EXISTS missed_refresh (
 CREATE TABLE IF NOT EXISTS response_press (
     trial_id INTEGER PRIMARY KEY, uncertainty_ns INTEGER NOT NULL
 ) STRICT;
+CREATE TABLE IF NOT EXISTS step (
+    trial_id INTEGER NOT NULL, n INTEGER NOT NULL, kind TEXT NOT NULL, id TEXT NOT NULL,
+    planned_refreshes INTEGER, drawn_s REAL, still_frame INTEGER, begin_ns INTEGER, end_ns INTEGER,
+    ended_by TEXT, gaze_onset_us INTEGER, gaze_detected_us INTEGER,
+    PRIMARY KEY (trial_id, n)
+) STRICT, WITHOUT ROWID;
 CREATE TABLE IF NOT EXISTS swap_modes (
     trial_id INTEGER PRIMARY KEY, flipped INTEGER NOT NULL, copied INTEGER NOT NULL,
     suboptimal_copied INTEGER NOT NULL, skipped INTEGER NOT NULL

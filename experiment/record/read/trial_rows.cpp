@@ -136,7 +136,44 @@ void add_swap_modes(const SQLite::Database& database, std::vector<TrialRecord>& 
     }
 }
 
+void add_steps(const SQLite::Database& database, std::vector<TrialRecord>& trials) {
+    if (!has_table(database, "step"))
+        return;
+    for (Query row(database, "SELECT trial_id, kind, id, planned_refreshes, drawn_s, still_frame, begin_ns, "
+                             "end_ns, ended_by, gaze_onset_us, gaze_detected_us FROM step "
+                             "ORDER BY trial_id, n");
+         row.step();) {
+        const auto trial = std::ranges::find(trials, row.integer(), &TrialRecord::id);
+        AttemptStep step;
+        std::optional<std::string> ended_by;
+        row.read(step.kind, step.id, step.planned_refreshes, step.drawn_s, step.still_frame, step.begin,
+                 step.end, ended_by, step.gaze_onset, step.gaze_detected);
+        const auto word = std::ranges::find(names_of<StepEnd>, ended_by.value_or(""));
+        if (word != names_of<StepEnd>.end())
+            step.ended_by = static_cast<StepEnd>(word - names_of<StepEnd>.begin());
+        if (trial != trials.end())
+            trial->outcome.steps.push_back(std::move(step));
+    }
+}
+
 } // namespace
+
+std::vector<const AttemptStep*> further_steps(const TrialRecord& trial) {
+    constexpr std::string_view question[] = {"text", "drift_check", "show", "answer"};
+    const std::vector<AttemptStep>& steps = trial.outcome.steps;
+    const bool is_one_question =
+        steps.size() <= std::size(question) &&
+        std::ranges::equal(steps, std::span(question).first(steps.size()), {}, &AttemptStep::kind);
+    std::vector<const AttemptStep*> further;
+    for (const AttemptStep& step : steps) {
+        const bool is_told = step.kind == "show" || step.kind == "answer" ||
+                             (step.kind == "text" && step.begin == trial.outcome.task_screen_onset) ||
+                             (step.kind == "drift_check" && is_one_question);
+        if (!is_told && step.begin)
+            further.push_back(&step);
+    }
+    return further;
+}
 
 std::string_view name_of(TrialOutcome::Afterwards afterwards) {
     constexpr std::string_view names[] = {"", "never", "now", "end-of-block"};
@@ -164,6 +201,7 @@ std::vector<TrialRecord> read_trials(const SQLite::Database& database) {
     add_swap_modes(database, trials);
     add_response_keys(database, trials);
     add_gaze(database, trials);
+    add_steps(database, trials);
     add_slots(database, trials);
     return trials;
 }

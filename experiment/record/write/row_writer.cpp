@@ -393,6 +393,15 @@ void RowWriter::write(const TrialFinish& finish) {
         insert_values(database_, "INTO swap_modes (trial_id, flipped, copied, suboptimal_copied, skipped)",
                       trial_counts_.trial_id, swaps->flipped, swaps->copied, swaps->suboptimal_copied,
                       swaps->skipped);
+    int number = 0;
+    for (const AttemptStep& step : outcome.steps)
+        insert_values(database_,
+                      "INTO step (trial_id, n, kind, id, planned_refreshes, drawn_s, still_frame, begin_ns, "
+                      "end_ns, ended_by, gaze_onset_us, gaze_detected_us)",
+                      trial_counts_.trial_id, ++number, step.kind, step.id, step.planned_refreshes,
+                      step.drawn_s, step.still_frame, step.begin, step.end,
+                      step.ended_by ? std::optional(name_of(*step.ended_by)) : std::nullopt,
+                      step.gaze_onset, step.gaze_detected);
     seals_.seal_trial(sitting_, trial_counts_.trial_id);
     forget_file_hash(database_);
     commit_to_disk();
