@@ -247,6 +247,10 @@ void AscTrial::write_down(const SessionRecord& record, const TrialRecord& trial,
     if (clock_map)
         for (const auto& [word, screen] : screens_of(trial))
             add(at(screen), std::string(word));
+    if (clock_map)
+        for (const AttemptStep* const step : further_steps(trial))
+            add(at(*step->begin),
+                fmt::format("STEP {}{}{}", step->kind, step->id.empty() ? "" : " ", step->id));
     if (span) {
         if (const std::string answer = answer_text(trial); !answer.empty())
             add(span->second, answer);

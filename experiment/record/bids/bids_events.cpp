@@ -75,6 +75,12 @@ RowLayout<BidsEvent> events_layout(const SessionHeader& header, SessionTime zero
                {"question", "the screen with the question"},
                {"presentation", "the stimulus"},
                {"response", "the screen during the answer"},
+               {"text", "words that are no question"},
+               {"fixation", "a target to be looked at"},
+               {"blank", "the background alone"},
+               {"mask", "noise where the stimulus stands"},
+               {"feedback", "words by what was answered"},
+               {"drift_check", "the target by which the tracker's drift is measured"},
                {"button", "a button of a response box was pressed"},
                {"key", "a key of a keyboard was pressed"},
                {"marker", "another device was told of an event"}}},
@@ -123,8 +129,9 @@ RowLayout<BidsEvent> events_layout(const SessionHeader& header, SessionTime zero
              of_ended(missed_refreshes_of(header))},
             {{"drift_deg", "Gaze error at the drift check", "deg"}, of_ended(attempt_drift)},
             {{"value",
-              "Of a button or a key, its name; of a marker, its code, or its text where it has none"},
-             [](auto& row) { return when(!row.device.empty(), row.value); }},
+              "Of a button or a key, its name; of a marker, its code, or its text where it has none; of a "
+              "step of the trial, its id"},
+             [](auto& row) { return when(!row.value.empty(), row.value); }},
             {{"device", "The response box, or the output of markers, as the protocol calls it; or keyboard"},
              &BidsEvent::device},
             {{"answer", "The answer, where it was taken down"},
@@ -175,6 +182,12 @@ void add_events(std::vector<BidsEvent>& to, const TrialRecord& trial, SessionTim
         to.push_back(
             {&trial, "response", outcome.response_screen_onset, outcome.responded_at, response_time});
     }
+    for (const AttemptStep* const step : further_steps(trial))
+        to.push_back({.attempt = &trial,
+                      .what = step->kind,
+                      .from = *step->begin,
+                      .to = step->end.value_or(*step->begin),
+                      .value = step->id});
 }
 
 /// Presses of buttons and keys in an attempt, and markers of it that were sent.
