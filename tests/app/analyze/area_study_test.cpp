@@ -119,20 +119,21 @@ TEST_CASE("four areas of a protocol go through a whole study, planted shares com
 }
 
 TEST_CASE("areas that cannot be are refused where they are written, all at once", "[session]") {
-    std::string text =
-        with(small_protocol, "mesh = \"meshes/bust.ply\"\n",
-             "mesh = \"meshes/bust.ply\"\nareas = { far = { spheres = [[0, 0, 9000, 5]] },\n"
-             "  cup = { groups = [\"handle\"] }, \"a b\" = { planes = [[[0, 0, 0], [0, 0, 1]]] } }\n");
+    std::string text = with(small_protocol, "mesh = \"meshes/bust.ply\"\n",
+                            "mesh = \"meshes/bust.ply\"\n[object.areas.far]\nspheres = [[0, 0, 9000, 5]]\n"
+                            "[object.areas.cup]\ngroups = [\"handle\"]\n"
+                            "[object.areas.\"a b\"]\nplanes = [[[0, 0, 0], [0, 0, 1]]]\n");
     text = with(text, "simulated_head_share = 1\n", "simulated_area_shares = { rim = 0.2 }\n");
     const SmallExperiment experiment(text);
     const ProgramRun run = experiment.overt({"check", experiment.protocol().string()});
     CHECK(run.exit_code == 2);
     INFO(run.err);
     CHECK(run.err.find("\"a b\" cannot be used in file names") != std::string::npos);
-    const SmallExperiment named(with(text, ", \"a b\" = { planes = [[[0, 0, 0], [0, 0, 1]]] } }", " }"));
+    const SmallExperiment named(with(text, "[object.areas.\"a b\"]", "[object.areas.top]"));
     const ProgramRun groups = named.overt({"check", named.protocol().string()});
     CHECK(groups.exit_code == 2);
     INFO(groups.err);
+    CHECK(groups.err.find("area 'far' contains no triangle") != std::string::npos);
     CHECK(groups.err.find("area 'cup' is said to have the group 'handle'") != std::string::npos);
     CHECK(groups.err.find("no object has an area \"rim\"") != std::string::npos);
 }
