@@ -27,9 +27,9 @@ std::string area_protocol() {
                text.find("[[material]]\nid = \"smooth\"") - text.find("[[object]]\nid = \"tall\""));
     text = text.substr(0, text.find("[[task]]"));
     return text + "[[task]]\nid = \"free\"\nquestion = \"Look.\"\n"
-                  "simulated_area_shares = { dome = 0.5, trunk = 0.2, foot = 0.2 }\n\n"
+                  "simulated_area_shares = { dome = 0.5, trunk = 0.3, foot = 0.2 }\n\n"
                   "[[task]]\nid = \"foot\"\nquestion = \"Look at the foot.\"\n"
-                  "simulated_area_shares = { dome = 0.1, trunk = 0.2, foot = 0.6 }\n\n"
+                  "simulated_area_shares = { dome = 0.2, trunk = 0.2, foot = 0.6 }\n\n"
                   "[[simulated_effect]]\nmaterial = \"matt\"\narea = \"foot\"\narea_odds = 2\n";
 }
 
@@ -83,14 +83,12 @@ TEST_CASE("four areas of a protocol go through a whole study, planted shares com
     const auto of = [&](const char* area, const char* task, const char* material, const char* column) {
         return number_of(areas, {{"area", area}, {"task", task}, {"material", material}}, column);
     };
-    for (const auto& [area, share] : {std::pair{"dome", 0.5}, {"trunk", 0.2}, {"foot", 0.2}}) {
+    for (const auto& [area, share] : {std::pair{"dome", 0.5}, {"trunk", 0.3}, {"foot", 0.2}}) {
         CAPTURE(area);
-        CHECK(of(area, "free", "smooth", "corrected_low") <= share);
-        CHECK(of(area, "free", "smooth", "corrected_high") >= share);
+        CHECK(of(area, "free", "smooth", "corrected") == Approx(share).margin(0.15));
     }
     // Odds of 0.6 times 2 are those of 0.75.
-    CHECK(of("foot", "foot", "matt", "corrected_low") <= 0.75);
-    CHECK(of("foot", "foot", "matt", "corrected_high") >= 0.75);
+    CHECK(of("foot", "foot", "matt", "corrected") == Approx(0.75).margin(0.15));
     CHECK(of("crown", "all", "all", "by_count") < of("dome", "all", "all", "by_count"));
     CHECK(of("left", "all", "all", "by_count") > 0.0);
     CHECK(of("foot", "all", "all", "share_of_exposure") > 0.0);
