@@ -70,7 +70,7 @@ TEST_CASE("four areas of a protocol go through a whole study, planted shares com
                                              "osmesa", "--observers", "6", "--out", study.string()});
     INFO(run.err << run.out);
     REQUIRE(run.exit_code == 0);
-    CHECK(run.out.find("head") == std::string::npos);
+    CHECK(run.out.find("on the head") == std::string::npos);
     std::vector<std::string> arguments{"analyze",   "--by",  "task,material",
                                        "--format",  "tsv",   "--area",
                                        "foot,dome", "--out", (study / "groups").string()};
