@@ -50,8 +50,9 @@ Texts words_of_coverage(const Protocol& protocol, int block, int task, const Blo
         if (count > 1)
             lists.push_back(std::move(factor));
     }
-    Texts sentences{rotates_materials(protocol, block, task)
-                        ? std::string("each object once, its material going round over the observers")
+    Texts sentences{rotates(protocol, block, task)
+                        ? fmt::format("each object once, its {} going round over the observers",
+                                      protocol.schedule.rotated_list)
                     : lists.empty() ? std::string("the only stimulus")
                                     : "every stimulus: " + with_levels(lists)};
     const Texts slots = ids_of_slots(protocol, task);
