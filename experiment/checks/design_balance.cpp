@@ -110,9 +110,10 @@ std::vector<std::string> balance_warnings(const Protocol& protocol, const Presen
                 "under task \"{}\" some stimuli are shown {} times and others {} times{}",
                 protocol.tasks[task].id, spread.least, spread.most, place_of_part(protocol, place));
             if (protocol.blocks.empty() && protocol.groups.empty())
-                warning += fmt::format(": let the number of observers be a multiple of {}",
-                                       rows_of_square(protocol.schedule.material_rotation,
-                                                      static_cast<int>(protocol.materials.size())));
+                warning += fmt::format(
+                    ": let the number of observers be a multiple of {}",
+                    rows_of_square(protocol.schedule.material_rotation,
+                                   static_cast<int>(ids_in_list(protocol, rotated_list(protocol)).size())));
             warnings.push_back(std::move(warning));
         }
     }

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <set>
 
 #include "experiment/base/random.h"
 #include "experiment/design/block_plan.h"
@@ -50,21 +51,21 @@ BlockScope scope_for(const Protocol& protocol, int block, const GroupSettings* g
     return scope;
 }
 
-constexpr std::size_t object_list = 0, material_list = 1;
-static_assert(stimulus_lists[object_list].name == "object" &&
-              stimulus_lists[material_list].name == "material");
+constexpr std::size_t object_list = 0;
+static_assert(stimulus_lists[object_list].index == &Stimulus::object);
 
-/// The material of a cell, c = task * S + object with the task's place among the rotated ones: column (c +
-/// floor(c / L)) mod M of the row, with L the least common multiple of S and M. So the M rows of a square
-/// fill all M materials of a cell once; each row has all materials equally often, to one; and an object
-/// changes its material from task to task.
+/// The rotated list's entry of a cell, c = task * S + object with the task's place among the rotated ones:
+/// column (c + floor(c / L)) mod M of the row, with L the least common multiple of S and M. So the M rows of
+/// a square fill all M entries of a cell once; each row has all entries equally often, to one; and an object
+/// changes its entry from task to task.
 int rotated(const Protocol& protocol, int row, int cell, const BlockScope& scope) {
-    const int objects = count_of(scope.lists[object_list]), materials = count_of(scope.lists[material_list]);
-    const int round = std::lcm(objects, materials);
-    const int column = (cell + cell / round) % materials;
-    return row_of_square(protocol.schedule.material_rotation, materials, row,
+    const int objects = count_of(scope.lists[object_list]), entries = rotated_entries(protocol, scope);
+    const int round = std::lcm(objects, entries);
+    const int column = (cell + cell / round) % entries;
+    return row_of_square(protocol.schedule.material_rotation, entries, row,
                          static_cast<std::uint64_t>(protocol.schedule.rotation_seed),
-                         "material rotation")[static_cast<std::size_t>(column)];
+                         std::string(protocol.schedule.rotated_list) +
+                             " rotation")[static_cast<std::size_t>(column)];
 }
 
 /// Whose trials are asked for.
@@ -85,7 +86,7 @@ std::vector<Trial> trials_in(const Protocol& protocol, int block, const BlockSco
         }
         const std::size_t first = trials.size();
         const TaskCoverage own = protocol.tasks[static_cast<std::size_t>(task)].stimuli;
-        const bool rotates = rotates_materials(protocol, block, task);
+        const bool is_rotated = rotates(protocol, block, task);
         // A rotated task's cells are numbered by its place among the rotated tasks, whatever block it is in.
         int rotating_task = task;
         if (own == TaskCoverage::once_per_object)
@@ -93,17 +94,18 @@ std::vector<Trial> trials_in(const Protocol& protocol, int block, const BlockSco
                 std::count_if(protocol.tasks.begin(), protocol.tasks.begin() + task, [](const Task& earlier) {
                     return earlier.stimuli == TaskCoverage::once_per_object;
                 }));
-        // Of a rotated task, an object has one material in all that the other lists make of it.
-        std::vector<int> material_of_object(protocol.objects.size(), -1);
+        // Of a rotated task, an object has one entry of the list in all that the other lists make of it.
+        const std::size_t list = rotated_list(protocol);
+        std::vector<int> entry_of_object(protocol.objects.size(), -1);
         const std::vector<int>& objects = scope.lists[object_list];
-        for (int i = 0; rotates && !scope.lists[material_list].empty() && i < count_of(objects); ++i) {
+        for (int i = 0; is_rotated && !scope.lists[list].empty() && i < count_of(objects); ++i) {
             const int cell = rotating_task * count_of(objects) + i;
-            material_of_object[static_cast<std::size_t>(objects[static_cast<std::size_t>(i)])] =
-                scope.lists[material_list][static_cast<std::size_t>(rotated(protocol, row, cell, scope))];
+            entry_of_object[static_cast<std::size_t>(objects[static_cast<std::size_t>(i)])] =
+                scope.lists[list][static_cast<std::size_t>(rotated(protocol, row, cell, scope))];
         }
         for (const Stimulus& stimulus : stimuli_in(scope)) {
-            if (!rotates ||
-                material_of_object[static_cast<std::size_t>(stimulus.object)] == stimulus.material)
+            if (!is_rotated || entry_of_object[static_cast<std::size_t>(stimulus.object)] ==
+                                   stimulus.*stimulus_lists[list].index)
                 trials.push_back({count_of(trials), task, stimulus, block});
         }
         std::for_each(trials.begin() + static_cast<std::ptrdiff_t>(first), trials.end(),
@@ -144,7 +146,15 @@ std::vector<int> order_of_blocks(const Protocol& protocol, const std::vector<int
 
 BlockScope scope_of(const Protocol& protocol, int block) { return scope_for(protocol, block, nullptr); }
 
-int materials_in(const BlockScope& scope) { return count_of(scope.lists[material_list]); }
+std::size_t rotated_list(const Protocol& protocol) {
+    return static_cast<std::size_t>(
+        std::ranges::find(stimulus_lists, protocol.schedule.rotated_list, &StimulusList::name) -
+        stimulus_lists.begin());
+}
+
+int rotated_entries(const Protocol& protocol, const BlockScope& scope) {
+    return count_of(scope.lists.at(rotated_list(protocol)));
+}
 
 std::vector<Stimulus> stimuli_in(const BlockScope& scope) {
     std::vector<Stimulus> stimuli{{}};
@@ -174,6 +184,19 @@ void fill_slots(const Protocol& protocol, Trial& trial) {
     trial.beside.clear();
     for (std::size_t i = 1; i < slots.size(); ++i)
         trial.beside.push_back({trial.stimulus, slots[i]});
+}
+
+int most_stimuli_at_once(const Protocol& protocol) {
+    std::size_t most = 1;
+    for (const BlockPlan& plan : block_plans(protocol, 1, 0)) {
+        for (const Trial& trial : plan.trials) {
+            std::set<Stimulus> stimuli{trial.stimulus};
+            for (const PlacedStimulus& placed : trial.beside)
+                stimuli.insert(placed.stimulus);
+            most = std::max(most, stimuli.size());
+        }
+    }
+    return static_cast<int>(most);
 }
 
 std::vector<int> levels_in(const Factors& factors, const BlockScope& scope, const Factor& factor) {
@@ -223,7 +246,7 @@ int length_of(const Protocol& protocol, const BlockPlan& plan) {
     return static_cast<int>(std::lround(length)) * block.repetitions;
 }
 
-bool rotates_materials(const Protocol& protocol, int block, int task) {
+bool rotates(const Protocol& protocol, int block, int task) {
     return block_at(protocol, block)
                .stimuli.value_or(protocol.tasks.at(static_cast<std::size_t>(task)).stimuli) ==
            TaskCoverage::once_per_object;
@@ -257,7 +280,7 @@ std::vector<BlockPlan> block_plans(const Protocol& protocol, int observer_number
         const auto drawn = drawn_list(protocol, scopes, block, observer_number, seed);
         if (drawn)
             plan.scope.lists[drawn->list] = drawn->entries;
-        plan.trials = trials_in(protocol, block, plan.scope, rotations.row_of(Kind::materials, -1, place.row),
+        plan.trials = trials_in(protocol, block, plan.scope, rotations.row_of(Kind::entries, -1, place.row),
                                 {observer_number, seed});
         if (drawn)
             mark_old_and_new(*drawn, plan.trials);

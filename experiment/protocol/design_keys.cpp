@@ -2,6 +2,19 @@
 
 namespace overt::key_rows {
 
+namespace {
+
+/// All but that of the objects, for each of which the task is asked.
+constexpr auto lists_to_rotate = [] {
+    std::array<std::string_view, stimulus_lists.size() - 1> names{};
+    for (std::size_t list = 0; list < names.size(); ++list)
+        names[list] = stimulus_lists[list + 1].name;
+    return names;
+}();
+static_assert(stimulus_lists[0].index == &Stimulus::object);
+
+} // namespace
+
 std::vector<Key> protocol() {
     using P = Protocol;
     return {
@@ -47,8 +60,11 @@ std::vector<Key> schedule() {
          "and the stimulus."},
         {"min_distance", &S::min_distance, range(0, 1000).left_out("no further limits"),
          "Least distance of trials with the same level, for any factors: { gloss = 2 }; 0 for no limit."},
+        {"rotated_list", &S::rotated_list, one_of(lists_to_rotate),
+         "Which list goes round over the observers in tasks that are asked once per object; of the others "
+         "each entry is shown."},
         {"material_rotation", &S::material_rotation,
-         "How the materials of tasks that are asked once per object go round over the observers: shifted "
+         "How the materials, or the entries of `rotated_list`, go round over the observers: shifted "
          "by one from observer to observer; by the rows of a balanced (Williams) square, in which each "
          "material also follows each other one equally often; or by random squares, a new one for each round "
          "of observers. A balanced square of an odd number of materials takes twice as many observers."},

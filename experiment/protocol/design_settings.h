@@ -100,6 +100,7 @@ struct ScheduleSettings {
     int min_stimulus_distance = 0;
     // The same by name, for any factor.
     NamedNumbers max_run, min_distance;
+    std::string rotated_list = "material"; ///< of tasks that are asked once per object
     SquareKind material_rotation = SquareKind::cyclic;
     LevelOrder block_order = LevelOrder::fixed;
     int rotation_seed = 1; ///< of random squares, which all observers share
