@@ -18,6 +18,14 @@ struct Stimulus {
     friend constexpr auto operator<=>(const Stimulus&, const Stimulus&) = default;
 };
 
+/// An object in a view: what maps show, whatever its material and its light.
+struct ViewedObject {
+    int object = 0;
+    int view = 0;
+    friend constexpr auto operator<=>(const ViewedObject&, const ViewedObject&) = default;
+};
+constexpr ViewedObject viewed(const Stimulus& stimulus) { return {stimulus.object, stimulus.view}; }
+
 /// A stimulus and where it is shown: an index into the protocol's slots.
 struct PlacedStimulus {
     Stimulus stimulus;

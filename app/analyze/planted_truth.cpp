@@ -9,7 +9,7 @@
 #include "devices/simulated/gaze_targets.h"
 #include "experiment/base/parallel.h"
 #include "experiment/base/random.h"
-#include "experiment/scene/mesh_parts.h"
+#include "experiment/scene/making/mesh_parts.h"
 #include "experiment/statistics/point_spread.h"
 
 namespace overt {
@@ -28,7 +28,7 @@ class Plans {
         : protocol_(&experiment.protocol),
           scene_(make_observed_scene(experiment.protocol, experiment.objects,
                                      screen_geometry_of(experiment.protocol))),
-          turn_(scene_) {
+          turns_(turns_of(scene_)) {
         for (const ObservedObject& object : scene_.objects) {
             spot_on_head_.emplace_back(scene_.effects.size(), false);
             targets_.emplace_back();
@@ -52,8 +52,7 @@ class Plans {
         for (int i = 0; i < plan.spot_count; ++i) {
             const GazePlan::Spot& spot = plan.spots[static_cast<std::size_t>(i)];
             elsewhere -= spot.share;
-            if (spot_on_head_[static_cast<std::size_t>(stimulus.object)]
-                             [static_cast<std::size_t>(spot.effect)])
+            if (spot_on_head_[scene_.index_of(stimulus)][static_cast<std::size_t>(spot.effect)])
                 spots += spot.share;
         }
         share = elsewhere * share + spots;
@@ -66,13 +65,13 @@ class Plans {
         std::vector<glm::dvec3> places;
         const std::optional<Known> known = known_of(trial);
         const GazeTargets* const targets =
-            known ? targets_[static_cast<std::size_t>(known->stimulus.object)].get() : nullptr;
+            known ? targets_[scene_.index_of(known->stimulus)].get() : nullptr;
         if (!targets)
             return places;
         GazeScript script(scene_, observer_);
-        const SessionDuration end = from_seconds(scene_.animation.duration_s);
+        const SessionDuration end = from_seconds(scene_.animation_of(known->stimulus.motion).duration_s);
         for (int repeat = 0; repeat < repeats; ++repeat) {
-            script.compose(scene_, targets, turn_, observer_,
+            script.compose(scene_, targets, turns_[static_cast<std::size_t>(known->stimulus.motion)], observer_,
                            RandomStream(seed, "meant places", static_cast<std::uint64_t>(repeat)).next_bits(),
                            trial.number, gaze_plan(scene_, seed, known->task, known->stimulus));
             // The first was under way at the onset.
@@ -99,10 +98,10 @@ class Plans {
 
     const Protocol* protocol_;
     ObservedScene scene_;
-    PursuedTurn turn_;
+    std::vector<PursuedTurn> turns_; ///< by motion
     ObserverSettings observer_;
-    std::vector<std::unique_ptr<GazeTargets>> targets_; ///< by object; null without a mesh
-    std::vector<std::vector<bool>> spot_on_head_;       ///< by object and effect
+    std::vector<std::unique_ptr<GazeTargets>> targets_; ///< as the scene has objects; null without a mesh
+    std::vector<std::vector<bool>> spot_on_head_;       ///< likewise, and by effect
 };
 
 bool is_of(const StudyTrial& trial, const std::vector<StudyKey>& keys) {

@@ -107,7 +107,7 @@ void add_bench(CLI::App& app, ChosenCommand& chosen) {
 BenchScene bench_scene(const BenchOptions& options) {
     BenchScene scene;
     scene.protocol.name = "bench";
-    scene.protocol.view.width_px = scene.protocol.view.height_px = options.size_px;
+    scene.protocol.views.front().width_px = scene.protocol.views.front().height_px = options.size_px;
     if (!options.mesh.empty()) {
         ObjectSettings settings;
         settings.id = options.mesh.stem().string();

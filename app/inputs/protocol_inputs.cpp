@@ -1,12 +1,15 @@
 #include "app/inputs/protocol_inputs.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "app/cli/progress_bar.h"
 #include "app/inputs/protocol_file.h"
 #include "experiment/base/error.h"
 #include "experiment/checks/checked_protocol.h"
-#include "experiment/scene/metal_table.h"
+#include "experiment/protocol/all_stimuli.h"
+#include "experiment/spectra/metal_table.h"
 #include "experiment/stimulus/object_size.h"
 #include "render/image/light_probe.h"
 #include "render/image/linear_image.h"
@@ -34,18 +37,21 @@ void examine(const Protocol& protocol, Place place, Diagnostics& diagnostics, co
     }
 }
 
-void examine_camera(const Protocol& protocol, const Object& object, Diagnostics& diagnostics) {
-    // A camera that overt places itself has the object in its picture.
-    if (!protocol.view.camera_position)
-        return;
-    for (const Degrees angle : distinct_poses(protocol.animation).angles) {
-        if (is_in_picture(object, angle))
+void examine_cameras(const Protocol& protocol, const Object& object, Diagnostics& diagnostics) {
+    const PoseTable poses = poses_of(protocol);
+    for (std::size_t view = 0; view < protocol.views.size(); ++view) {
+        // A camera that overt places itself has the object in its picture.
+        if (!protocol.views[view].camera_position)
+            continue;
+        const auto outside = std::ranges::find_if(poses.angles, [&](Degrees angle) {
+            return !is_in_picture(object, static_cast<int>(view), angle);
+        });
+        if (outside == poses.angles.end())
             continue;
         diagnostics.error(
-            protocol.file.string(), protocol.places.of("view.camera_position"),
-            fmt::format("object \"{}\" is nowhere in the picture at {:.3g} degrees", object.id, angle.value),
+            protocol.file.string(), protocol.places.of(fmt::format("view[{}].camera_position", view)),
+            fmt::format("object \"{}\" is nowhere in the picture at {:.3g} degrees", object.id, outside->value),
             "the camera looks at view.camera_target; lengths are in the unit of the mesh");
-        return;
     }
 }
 
@@ -62,7 +68,7 @@ std::vector<Object> examine_objects(const Protocol& protocol, const std::filesys
                 diagnostics.warning(protocol.file.string(), place, as_finding(remark));
             if (!object.has_mesh())
                 return;
-            examine_camera(protocol, object, diagnostics);
+            examine_cameras(protocol, object, diagnostics);
             const std::string unit = fmt::format("object[{}].unit", i);
             if (const auto doubt =
                     doubt_of_size(size_of(object, settings, protocol),
@@ -91,13 +97,16 @@ void examine_given_maps(const Protocol& protocol, Diagnostics& diagnostics) {
 }
 
 void examine_surroundings(const Protocol& protocol, Diagnostics& diagnostics) {
-    const Place probe = protocol.places.of("light.probe");
-    if (protocol.light.is_file()) {
+    for (std::size_t i = 0; i < protocol.lights.size(); ++i) {
+        const LightSettings& light = protocol.lights[i];
+        if (!light.is_file())
+            continue;
+        const Place probe = protocol.places.of(fmt::format("light[{}].probe", i));
         examine(protocol, probe, diagnostics, [&] {
-            if (const int negative = load_light_probe(protocol.light).negative_texels; negative > 0) {
+            if (const int negative = load_light_probe(light).negative_texels; negative > 0) {
                 diagnostics.warning(protocol.file.string(), probe,
                                     fmt::format("{} texels of {} hold negative light, which counts as none",
-                                                negative, protocol.light.probe));
+                                                negative, light.probe));
             }
         });
     }
@@ -114,8 +123,10 @@ void examine_frames(const Protocol& protocol, Diagnostics& diagnostics) {
         const FrameSequenceSettings& sequence = protocol.frames[static_cast<std::size_t>(i)];
         bar.update("reading ready-made frames", i, count);
         examine(protocol, protocol.places.of(fmt::format("frames[{}].files", i)), diagnostics, [&] {
-            check_frame_pixels(sequence, protocol.animation.frame_count,
-                               {protocol.view.width_px, protocol.view.height_px});
+            const Stimulus stimulus = stimulus_of(protocol, sequence);
+            const ViewSettings& view = protocol.view_of(stimulus);
+            check_frame_pixels(sequence, protocol.motion_of(stimulus).frame_count,
+                               {view.width_px, view.height_px});
             if (sequence.colour_space == FrameColours::display &&
                 has_other_primaries(frame_file(sequence, {0})))
                 diagnostics.warning(

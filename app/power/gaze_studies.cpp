@@ -8,6 +8,7 @@
 
 #include "experiment/base/error.h"
 #include "experiment/design/schedule.h"
+#include "experiment/protocol/all_stimuli.h"
 
 namespace overt {
 
@@ -71,18 +72,20 @@ GazeStudySettings gaze_study_settings(const Protocol& protocol) {
 GazeStudies::GazeStudies(const Experiment& experiment, std::vector<PowerEffect> effects,
                          const GazeStudySettings& settings)
     : experiment_(experiment), effects_(std::move(effects)), settings_(settings),
-      scene_(planned_scene(experiment, effects_, settings)), turn_(scene_),
+      scene_(planned_scene(experiment, effects_, settings)), turns_(turns_of(scene_)),
       spread_of_log_(effects_.size(), 0.0) {
     const Protocol& protocol = experiment.protocol;
-    for (std::size_t i = 0; i < experiment.objects.size(); ++i) {
+    for (const ViewedObject& viewed : all_viewed_objects(protocol)) {
+        const auto i = static_cast<std::size_t>(viewed.object);
         const Object& shown = experiment.objects[i];
-        targets_.push_back(std::make_unique<GazeTargets>(scene_.objects[i], scene_));
+        const SceneView& scene = shown.scene(viewed.view);
+        targets_.push_back(std::make_unique<GazeTargets>(scene_.objects[targets_.size()], scene_));
         StudyObject object;
         object.id = shown.id;
         object.part_names = shown.mesh.part_names;
         object.head = HeadParts(shown.mesh.part_names);
-        object.camera = shown.scene.view.camera;
-        object.axis_point = shown.scene.bounds.centre();
+        object.camera = scene.view.camera;
+        object.axis_point = scene.bounds.centre();
         object.screen = scene_.screen;
         ObjectSurface surface;
         surface.scale = object_scale(object.camera, object.axis_point, object.screen,
@@ -153,16 +156,17 @@ StudyResults GazeStudies::study(std::uint64_t seed, int observers,
 void GazeStudies::add_trial(const Trial& trial, std::uint64_t seed, const ObservedScene& planned,
                             GazeScript& script, StudyResults& results) const {
     const Protocol& protocol = experiment_.protocol;
-    const auto object = static_cast<std::size_t>(trial.stimulus.object);
+    const std::size_t object = scene_.index_of(trial.stimulus);
+    const PursuedTurn& turn = turns_[static_cast<std::size_t>(trial.stimulus.motion)];
     const GazeTargets& targets = *targets_[object];
     StudyTrial shown;
     shown.session = static_cast<int>(results.sessions.size()) - 1;
-    shown.object = trial.stimulus.object;
+    shown.object = static_cast<int>(object);
     shown.number = trial.index + 1;
-    shown.presentation_s = protocol.animation.duration_s;
+    shown.presentation_s = protocol.motion_of(trial.stimulus).duration_s;
     shown.keys = {{"observer", results.sessions.back().observer},
                   {"task", protocol.tasks[static_cast<std::size_t>(trial.task)].id},
-                  {"object", protocol.objects[object].id},
+                  {"object", protocol.object_of(trial.stimulus).id},
                   {"material", protocol.materials[static_cast<std::size_t>(trial.stimulus.material)].id}};
     shown.first_fixation = results.fixations.size();
 
@@ -170,7 +174,7 @@ void GazeStudies::add_trial(const Trial& trial, std::uint64_t seed, const Observ
     const double x = random.normal(), y = random.normal();
     const glm::dvec2 offset_px =
         settings_.accuracy_deg * glm::dvec2(x, y) * px_per_deg_at_centre(scene_.screen);
-    script.compose(scene_, &targets, turn_, observer_, seed, trial.index,
+    script.compose(scene_, &targets, turn, observer_, seed, trial.index,
                    gaze_plan(planned, seed, trial.task, trial.stimulus));
     const SessionDuration end = from_seconds(shown.presentation_s);
     for (const ScriptedFixation& fixation : script.fixations()) {
@@ -182,11 +186,11 @@ void GazeStudies::add_trial(const Trial& trial, std::uint64_t seed, const Observ
         found.trial = static_cast<int>(results.trials.size());
         found.onset_s = to_seconds(fixation.begin);
         found.duration_s = to_seconds(until - fixation.begin);
-        const ScreenPoint meant = place_of(fixation, middle, scene_, &targets, turn_);
+        const ScreenPoint meant = place_of(fixation, middle, scene_, &targets, turn);
         found.place = {meant.x_px + offset_px.x, meant.y_px + offset_px.y};
         const std::optional<SurfacePoint> point =
             surface_near(targets, scene_.screen.image_from_screen(found.place),
-                         turn_.angle_at(middle - fixation.light_delay));
+                         turn.angle_at(middle - fixation.light_delay));
         if (point) {
             found.triangle = point->triangle;
             found.barycentric = point->barycentric;

@@ -51,7 +51,7 @@ class GazeStudies {
     StudyResults study(std::uint64_t seed, int observers,
                        const std::function<bool(const Trial&)>& wanted = {}) const;
 
-    /// By object, only the scale.
+    /// By object in a view, only the scale.
     const std::vector<ObjectSurface>& surfaces() const { return surfaces_; }
     /// Objects with their scale, without trials.
     const StudyResults& frame() const { return frame_; }
@@ -74,7 +74,7 @@ class GazeStudies {
     GazeStudySettings settings_;
     ObserverSettings observer_;
     ObservedScene scene_;
-    PursuedTurn turn_;
+    std::vector<PursuedTurn> turns_; ///< by motion
     std::vector<double> spread_of_log_; ///< by effect
     std::vector<std::unique_ptr<GazeTargets>> targets_;
     std::vector<ObjectSurface> surfaces_;

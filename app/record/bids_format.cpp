@@ -21,7 +21,7 @@ class Bids final : public ExportFormat {
         RecordedSurfaces surfaces(request.record, RecordedSurfaces::Keep::all,
                                   CoordinateMaps::Use::few_lookups);
         const BidsExportCounts counts =
-            export_bids(request.record, [&](int object) { return surfaces.lookup_of(object); },
+            export_bids(request.record, [&](const ViewedObject& viewed) { return surfaces.lookup_of(viewed); },
                         request.folder, {request.overwrite, with_answers_, request.progress});
         std::string said;
         for (const std::string& remark : counts.remarks)

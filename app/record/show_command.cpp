@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/inputs/session_folders.h"
+#include "app/record/chosen_presentation.h"
 #include "app/record/plot_canvas.h"
 #include "app/record/record_commands.h"
 #include "app/record/recorded_order.h"
@@ -58,6 +59,13 @@ nlohmann::ordered_json session_json(const SessionRecord& record) {
                           {"gaze_share", gaze_share_of(trial)},
                           {"response_key", trial.response_key},
                           {"answer", trial.outcome.answer}});
+        for (std::size_t i = 0; i < trial.trial.shown_count() && !trial.trial.beside.empty(); ++i) {
+            const auto [stimulus, slot] = trial.trial.shown(i);
+            trials.back()["shown"].push_back(
+                {{"slot", header.slots[static_cast<std::size_t>(slot)].id},
+                 {"object", header.objects[static_cast<std::size_t>(stimulus.object)].id},
+                 {"material", header.materials[static_cast<std::size_t>(stimulus.material)].id}});
+        }
     }
     nlohmann::ordered_json json{{"session", record.directory().string()},
                                 {"protocol", header.protocol.name},
@@ -164,6 +172,11 @@ void print_session(const SessionRecord& record) {
                                                        : std::to_string(trial["missed_refreshes"].get<int>()),
                    gaze ? fmt::format("{:.1f} %", 100.0 * gaze->share()) : "n/a",
                    trial["answer"].get<std::string>());
+        for (std::size_t k = 0; trial.contains("shown") && k < trial["shown"].size(); ++k) {
+            const auto& shown = trial["shown"][k];
+            fmt::print("{:>5}  {:<12} {:<12} {:<12} in slot {}\n", "", "", shown["object"].get<std::string>(),
+                       shown["material"].get<std::string>(), shown["slot"].get<std::string>());
+        }
     }
     if (!record.closed_in_order())
         fmt::print("\nThe session was not closed in order: it is running, or was killed.\n");
@@ -182,10 +195,11 @@ void write_plot(const SessionRecord& record, const std::filesystem::path& file) 
 }
 
 /// Half a degree of visual angle, about the accuracy of a good calibration, in the unit of the mesh.
-double kernel_sigma(const SessionHeader& header, int object) {
-    const RecordedObject& recorded = header.objects[static_cast<std::size_t>(object)];
-    const double depth = glm::distance(recorded.camera.position, recorded.bounds.centre());
-    const double image_height = 2.0 * depth * std::tan(0.5 * to_radians(recorded.camera.vertical_fov).value);
+double kernel_sigma(const SessionHeader& header, const Stimulus& stimulus) {
+    const RecordedObject& recorded = header.objects[static_cast<std::size_t>(stimulus.object)];
+    const Camera& camera = header.camera_of(stimulus);
+    const double depth = glm::distance(camera.position, recorded.bounds.centre());
+    const double image_height = 2.0 * depth * std::tan(0.5 * to_radians(camera.vertical_fov).value);
     return 0.5 * header.display.screen.px_per_deg_at_centre() * image_height /
            header.display.screen.image_px.y;
 }
@@ -194,7 +208,7 @@ void write_picture(const SessionRecord& record, const TrialRecord& trial, const 
     const SessionHeader& header = record.header();
     const int object = trial.trial.stimulus.object;
     RecordedSurfaces surfaces(record);
-    const SurfaceLookup* surface = surfaces.lookup_of(object);
+    const SurfaceLookup* surface = surfaces.lookup_of(viewed(trial.trial.stimulus));
     if (!surface)
         throw InputError(fmt::format("object \"{}\" has no map: there is no surface to show gaze on",
                                      header.objects[static_cast<std::size_t>(object)].id));
@@ -209,11 +223,11 @@ void write_picture(const SessionRecord& record, const TrialRecord& trial, const 
     TrialPictureContent content;
     content.surface = surface;
     content.bounds = header.objects[static_cast<std::size_t>(object)].bounds;
-    content.pose = header.poses.pose_of({0});
+    content.pose = header.poses.pose_of(stimulus.motion, {0});
     content.frame =
         read_linear_image(record.directory() / preview_file(header, stimulus), FrameEncoding::srgb);
     content.gaze_on_surface = gaze;
-    content.kernel_sigma = kernel_sigma(header, object);
+    content.kernel_sigma = kernel_sigma(header, stimulus);
     content.frame_caption = fmt::format("{}, {}", header.objects[static_cast<std::size_t>(object)].title,
                                         header.materials[static_cast<std::size_t>(stimulus.material)].title);
     content.map_caption = "Hidden map: place on the surface as colour";
@@ -266,7 +280,10 @@ int run_show(const ShowOptions& options) {
                                      options.picture.empty() ? "plot" : "picture", sessions.size()));
     const SessionRecord record(sessions.front());
     if (!options.picture.empty())
-        write_picture(record, trial_numbered(record, options.trial.value_or(1)), options.picture);
+        write_picture(
+            record,
+            chosen_presentation(record, trial_numbered(record, options.trial.value_or(1)), options.slot),
+            options.picture);
     else
         write_plot(record, options.plot);
     return 0;

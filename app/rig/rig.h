@@ -45,6 +45,12 @@ struct RigRequest {
     std::string observer = "overt"; ///< whom files on a tracker's host are for
 };
 
+/// A fault that was simulated, as the record has it.
+struct StruckFault {
+    bool is_trackers = false; ///< else the display's
+    std::string what;
+};
+
 class Rig {
   public:
     /// `protocol` and `objects` must outlive the rig. Opens the display. Throws GraphicsError, also for a
@@ -110,12 +116,10 @@ class Rig {
     AnswerEquipment answer_equipment() const;
     /// What the operator should know once the session has ended, a line each.
     std::vector<std::string> closing_warnings() const;
-    /// The refresh of a display that only keeps time; null for a real screen in real time.
-    const VirtualRefresh* virtual_refresh() const { return display_.virtual_refresh(); }
     /// The simulated observer, the hidden pass if it is live, and a display that only keeps time.
     std::vector<PresentationListener*> listeners();
-    /// With what goes wrong as the faults say; null if they say nothing of the tracker.
-    FaultyTracker* faulty_tracker() { return faulty_tracker_; }
+    /// The simulated faults that struck since the last call: after each attempt.
+    std::vector<StruckFault> take_struck_faults();
     LiveMaps* live_maps() { return live_maps_.get(); } ///< null unless maps_are_live()
 
   private:

@@ -7,7 +7,7 @@
 #include "experiment/base/error.h"
 #include "experiment/maps/sight_lines.h"
 #include "experiment/record/read/session_record.h"
-#include "experiment/scene/mesh_reader.h"
+#include "experiment/scene/files/mesh_reader.h"
 
 namespace overt {
 
@@ -24,7 +24,7 @@ Recorded read_object(const std::filesystem::path& session, const std::string& id
     const SessionRecord record(session);
     const SessionHeader& header = record.header();
     const auto found = std::ranges::find(header.objects, id, &RecordedObject::id);
-    if (found == header.objects.end() || found->mesh_file.empty() || found->camera.vertical_fov.value <= 0.0)
+    if (found == header.objects.end() || found->mesh_file.empty() || found->camera(0).vertical_fov.value <= 0.0)
         throw InputError(fmt::format("{}: has no mesh in {}", id, session.string()));
     MeshCleaningReport unused;
     return {*found, header.display.screen, header.poses.angles,
@@ -39,7 +39,7 @@ WatchedObject::WatchedObject(const std::filesystem::path& session, const std::st
           unit_ = recorded.object.unit;
           mesh_ = std::move(recorded.mesh);
           screen_ = recorded.screen;
-          scene_ = {{recorded.object.camera, screen_.image_px}, mesh_.bounds()};
+          scene_ = {{recorded.object.camera(0), screen_.image_px}, mesh_.bounds()};
           angles_ = std::move(recorded.angles);
           return RayCaster(mesh_);
       }()) {}

@@ -27,13 +27,12 @@ constexpr double image_spread = 0.15;
 struct Composer {
     const ObservedScene& scene;
     std::span<const ObservedPresentation> shown;
-    const PursuedTurn& turn;
     const ObserverSettings& settings;
     RandomStream random;
     RandomStream which; ///< of the things shown
 
     ScreenPoint place(const ScriptedFixation& fixation, SessionDuration since_onset) const {
-        return place_of(fixation, since_onset, shown, turn);
+        return place_of(fixation, since_onset, shown);
     }
 
     /// Where and when a fixation ends: what all targets on one thing that may follow it have in common.
@@ -42,11 +41,11 @@ struct Composer {
         ScreenPoint place;
         glm::dmat4 world_from_object{1.0}; ///< then, in the middle of the screen
     };
-    Departure departure_of(const ScriptedFixation& before, const GazeTargets* targets) const {
+    Departure departure_of(const ScriptedFixation& before, const ObservedPresentation& on) const {
         Departure departure{before.end, place(before, before.end)};
-        if (targets)
-            departure.world_from_object = targets->world_from_object(
-                turn.angle_at(before.end - scene.light_delay(scene.screen.centre().y_px)));
+        if (on.targets)
+            departure.world_from_object = on.targets->world_from_object(
+                on.turn->angle_at(before.end - scene.light_delay(scene.screen.centre().y_px)));
         return departure;
     }
 
@@ -64,9 +63,10 @@ struct Composer {
     }
 
     bool stays_visible(const ScriptedFixation& fixation, SessionDuration from) const {
-        const int last = turn.step_at(fixation.end - fixation.light_delay);
-        for (int step = turn.step_at(from - fixation.light_delay); step <= last; ++step) {
-            if (!shown[fixation.shown].targets->is_visible(*fixation.target, step))
+        const ObservedPresentation& on = shown[fixation.shown];
+        const int last = on.turn->step_at(fixation.end - fixation.light_delay);
+        for (int step = on.turn->step_at(from - fixation.light_delay); step <= last; ++step) {
+            if (!on.targets->is_visible(*fixation.target, on.turn->motion(), step))
                 return false;
         }
         return true;
@@ -97,7 +97,7 @@ struct Composer {
     }
 
     bool find_target(const Departure& before, ScriptedFixation& next, double duration_s, Region region) {
-        const auto& [targets, screen, plan] = shown[next.shown];
+        const auto& [targets, screen, plan, turn] = shown[next.shown];
         return find_target(before, next, duration_s,
                            [&] { return targets->draw(random, region, plan.spread); });
     }
@@ -120,8 +120,8 @@ struct Composer {
         ScriptedFixation next;
         if (shown.size() > 1)
             next.shown = which.below(static_cast<std::uint32_t>(shown.size()));
-        const auto& [targets, screen, plan] = shown[next.shown];
-        const Departure before = departure_of(last, targets);
+        const auto& [targets, screen, plan, turn] = shown[next.shown];
+        const Departure before = departure_of(last, shown[next.shown]);
         const double duration_s =
             log_normal_within(random, settings.fixation_median_s, settings.fixation_log_sd,
                               settings.shortest_fixation_s, settings.longest_fixation_s);
@@ -150,11 +150,20 @@ struct Composer {
 
 } // namespace
 
-PursuedTurn::PursuedTurn(const ObservedScene& scene)
-    : frame_period_(scene.frame_period()), steps_(scene.animation.shown_frame_count()) {
+PursuedTurn::PursuedTurn(const ObservedScene& scene, int motion)
+    : frame_period_(scene.frame_period(motion)), steps_(scene.animation_of(motion).shown_frame_count()),
+      motion_(motion) {
     OVERT_EXPECTS(steps_ > 0);
-    for (int step = 0; step < scene.animation.steps_per_period(); ++step)
-        angles_.push_back(scene.animation.angle_of(scene.animation.frame_at_step(step)));
+    const Animation& animation = scene.animation_of(motion);
+    for (int step = 0; step < animation.steps_per_period(); ++step)
+        angles_.push_back(animation.angle_of(animation.frame_at_step(step)));
+}
+
+std::vector<PursuedTurn> turns_of(const ObservedScene& scene) {
+    std::vector<PursuedTurn> turns;
+    for (int motion = 0; motion < static_cast<int>(scene.animations.size()); ++motion)
+        turns.emplace_back(scene, motion);
+    return turns;
 }
 
 Degrees PursuedTurn::angle_at(SessionDuration since_lit) const noexcept {
@@ -172,19 +181,17 @@ int PursuedTurn::step_at(SessionDuration since_lit) const noexcept {
 }
 
 GazeScript::GazeScript(const ObservedScene& scene, const ObserverSettings& settings)
-    : horizon_(from_seconds(scene.animation.duration_s) + afterwards) {
+    : horizon_(from_seconds(scene.longest_s()) + afterwards) {
     const double shortest_s =
         settings.shortest_fixation_s + to_seconds(saccade_duration(Degrees{0.0})) + 1e-3;
     fixations_.reserve(static_cast<std::size_t>(to_seconds(horizon_) / shortest_s) + 2);
 }
 
 void GazeScript::compose(const ObservedScene& scene, std::span<const ObservedPresentation> shown,
-                         const PursuedTurn& turn, const ObserverSettings& settings, std::uint64_t seed,
-                         int trial) noexcept {
+                         const ObserverSettings& settings, std::uint64_t seed, int trial) noexcept {
     const auto number = static_cast<std::uint64_t>(trial);
     Composer composer{scene,
                       shown,
-                      turn,
                       settings,
                       RandomStream(seed, "scanpath", number),
                       RandomStream(seed, "slot of fixation", number)};
@@ -205,11 +212,11 @@ std::size_t GazeScript::fixation_at(SessionDuration since_onset) const noexcept 
 }
 
 ScreenPoint place_of(const ScriptedFixation& fixation, SessionDuration since_onset,
-                     std::span<const ObservedPresentation> shown, const PursuedTurn& turn) noexcept {
+                     std::span<const ObservedPresentation> shown) noexcept {
     if (!fixation.target)
         return fixation.place;
     const ObservedPresentation& on = shown[fixation.shown];
-    const Degrees angle = turn.angle_at(since_onset - fixation.light_delay);
+    const Degrees angle = on.turn->angle_at(since_onset - fixation.light_delay);
     return on.screen.screen_from_image(
         on.targets->project(fixation.target->position, on.targets->world_from_object(angle)));
 }
@@ -217,8 +224,8 @@ ScreenPoint place_of(const ScriptedFixation& fixation, SessionDuration since_ons
 ScreenPoint place_of(const ScriptedFixation& fixation, SessionDuration since_onset,
                      const ObservedScene& scene, const GazeTargets* targets,
                      const PursuedTurn& turn) noexcept {
-    const ObservedPresentation only{targets, scene.screen, {}};
-    return place_of(fixation, since_onset, {&only, 1}, turn);
+    const ObservedPresentation only{targets, scene.screen, {}, &turn};
+    return place_of(fixation, since_onset, {&only, 1});
 }
 
 } // namespace overt

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "experiment/scene/mesh_parts.h"
+#include "experiment/scene/making/mesh_parts.h"
 
 namespace overt {
 
@@ -41,9 +41,12 @@ GazeTargets::GazeTargets(const ObservedObject& object, const ObservedScene& scen
         region.add(i, weight);
     }
     find_middle();
-    for (int step = 0; step < scene.animation.steps_per_period(); ++step)
-        eyes_.push_back(turned_back(scene_.view.camera.position, scene_.pose_at(scene.animation.angle_of(
-                                                                     scene.animation.frame_at_step(step)))));
+    for (const Animation& motion : scene.animations) {
+        std::vector<glm::dvec3>& eyes = eyes_.emplace_back();
+        for (int step = 0; step < motion.steps_per_period(); ++step)
+            eyes.push_back(turned_back(scene_.view.camera.position,
+                                       scene_.pose_at(motion.angle_of(motion.frame_at_step(step)))));
+    }
     for (std::size_t effect = 0; effect < scene.effects.size(); ++effect) {
         RandomStream random(effect, "spot of an effect");
         const Region region = random.uniform() < 0.5 ? Region::head : Region::elsewhere;
@@ -51,8 +54,10 @@ GazeTargets::GazeTargets(const ObservedObject& object, const ObservedScene& scen
         for (int tries = 0; tries < most_tries; ++tries) {
             middle = draw(random, region);
             bool is_seen = true;
-            for (int step = 0; step < scene.animation.steps_per_period() && is_seen; ++step)
-                is_seen = is_visible(middle, step);
+            for (std::size_t motion = 0; motion < eyes_.size(); ++motion) {
+                for (std::size_t step = 0; step < eyes_[motion].size() && is_seen; ++step)
+                    is_seen = is_visible(middle, static_cast<int>(motion), static_cast<int>(step));
+            }
             if (is_seen)
                 break;
         }
@@ -150,8 +155,9 @@ SurfacePoint GazeTargets::draw_from(RandomStream& random, const WeightedTriangle
     return point;
 }
 
-bool GazeTargets::is_visible(const SurfacePoint& point, int step) const noexcept {
-    const glm::dvec3& eye = eyes_[static_cast<std::size_t>(step) % eyes_.size()];
+bool GazeTargets::is_visible(const SurfacePoint& point, int motion, int step) const noexcept {
+    const std::vector<glm::dvec3>& eyes = eyes_[static_cast<std::size_t>(motion)];
+    const glm::dvec3& eye = eyes[static_cast<std::size_t>(step) % eyes.size()];
     const glm::dvec3 normal = corners_of(*mesh_, point.triangle).normal_times_area();
     const glm::dvec3 to_eye = eye - point.position;
     const double facing = std::abs(glm::dot(normal, to_eye)) / (glm::length(normal) * glm::length(to_eye));

@@ -1,4 +1,4 @@
-/// Places on one object that an observer may look at.
+/// Places on one object in a view that an observer may look at.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ enum class Region : std::uint8_t { head, elsewhere };
 class GazeTargets {
   public:
     /// The object's mesh must outlive this and have triangles. Each effect of the scene has a spot on it,
-    /// the same for all observers: a place that is seen at every angle of the animation, if there is one, and
+    /// the same for all observers: a place that is seen at every angle of all motions, if there is one, and
     /// what of the surface lies within `spot_radius` of the mesh's height about it and faces the same way.
     GazeTargets(const ObservedObject& object, const ObservedScene& scene);
     static constexpr double spot_radius = 0.04;
@@ -36,9 +36,9 @@ class GazeTargets {
     /// A point of an effect's spot, all of its area equally probable.
     SurfacePoint draw_from_spot(RandomStream& random, int effect) const noexcept;
 
-    /// Whether the point is seen at a step of the animation, and not too obliquely (up to 78 degrees between
+    /// Whether the point is seen at a step of a motion, and not too obliquely (up to 78 degrees between
     /// line of sight and normal).
-    bool is_visible(const SurfacePoint& point, int step) const noexcept;
+    bool is_visible(const SurfacePoint& point, int motion, int step) const noexcept;
 
     /// What is seen at a place of the image.
     std::optional<SurfacePoint> surface_at(glm::dvec2 image_point_px, Degrees angle) const noexcept;
@@ -70,7 +70,8 @@ class GazeTargets {
     const Mesh* mesh_;
     SceneView scene_;
     RayCaster caster_;
-    std::vector<glm::dvec3> eyes_; ///< the camera as the object sees it, by step of a period
+    /// The camera as the object sees it, by motion and by step of a period.
+    std::vector<std::vector<glm::dvec3>> eyes_;
     WeightedTriangles head_, elsewhere_;
     std::vector<Spot> spots_;   ///< by effect
     glm::dvec3 middle_{0.0};    ///< of both regions by weighted area

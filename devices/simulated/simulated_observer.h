@@ -121,12 +121,16 @@ class SimulatedObserver final : public PresentationListener {
     ObservedScene scene_;
     std::uint64_t seed_;
     ObserverSettings settings_;
-    PursuedTurn turn_;
+    /// A motion as it is seen.
+    struct Motion {
+        PursuedTurn turn;
+        std::vector<Degrees> angle_of_frame;
+    };
+    std::vector<Motion> motions_;
     FixationalMotion wandering_;
     BlinkTrain blinks_;
     glm::dvec2 px_per_deg_;
-    std::vector<Degrees> angle_of_frame_;
-    std::vector<std::unique_ptr<GazeTargets>> targets_;        ///< by object; nullptr without a mesh
+    std::vector<std::unique_ptr<GazeTargets>> targets_; ///< as the scene has objects; nullptr without a mesh
     std::vector<std::unique_ptr<Presentation>> presentations_; ///< in order; the last ones still empty
     std::size_t begun_ = 0;                                    ///< presentations that have begun
     std::vector<Place> places_; ///< in order of their times; none: always in the middle

@@ -36,7 +36,7 @@ std::optional<Protocol> read_text(std::string_view text, const std::filesystem::
         check_image_fits(examination);
         check_sizes(examination);
         check_output(examination);
-        check_animation(examination);
+        check_motions(examination);
         check_screens(examination);
         check_ids(examination);
         check_blocks(examination);
@@ -53,6 +53,8 @@ std::optional<Protocol> read_text(std::string_view text, const std::filesystem::
         check_bake(examination);
         if (look_at_files)
             check_files(examination);
+        if (diagnostics.error_count() == errors_before)
+            check_slot_memory(examination);
         if (diagnostics.error_count() == errors_before)
             check_schedule(examination);
     }

@@ -25,9 +25,12 @@ struct DesignAssumptions {
     double answer_s = 10.0;       ///< answering aloud, kept within response_min_s … response_max_s
 };
 
+/// Of a motion.
 struct AnimationFacts {
+    std::string id;
+    Animation motion;
     int frames = 0;
-    int distinct_poses = 0;
+    int distinct_poses = 0; ///< pictures that differ, by the object's turn or the light's
     int shown_frames = 0;
     int refreshes_per_frame = 0;
     int refreshes = 0; ///< of one presentation
@@ -98,18 +101,18 @@ struct SurfaceFacts {
 struct DesignReport {
     std::string name, title;
     std::vector<std::string> tasks, objects, materials; ///< ids
-    int trials_per_observer = 0;                        ///< of the planned observer who has most
-    int fewest_trials = 0;                              ///< of the one who has fewest
-    int observers = 0;                                  ///< planned
-    std::vector<std::string> blocks;                    ///< ids; empty if the protocol has none
+    Factors factors;
+    int trials_per_observer = 0;     ///< of the planned observer who has most
+    int fewest_trials = 0;           ///< of the one who has fewest
+    int observers = 0;               ///< planned
+    std::vector<std::string> blocks; ///< ids; empty if the protocol has none
     std::vector<BlockFacts> block_facts;
     std::vector<GroupFacts> groups;
     int practice_trials = 0;
 
     DisplaySettings display;
     ViewSettings view;
-    Animation motion;
-    AnimationFacts animation;
+    std::vector<AnimationFacts> motions;
     VisualAngles angles;
     DesignAssumptions assumptions;
     SessionLength session;
@@ -119,7 +122,7 @@ struct DesignReport {
     std::vector<SurfaceFacts> surfaces; ///< of objects with a mesh
     std::optional<RecordingSize> recording;
 
-    std::vector<IncidenceCell> incidence; ///< task by task, object by object, material by material
+    std::vector<IncidenceCell> incidence; ///< task by task, stimulus by stimulus
     std::vector<RotationFacts> rotations; ///< of each group in which anything goes round
     std::vector<Schedule> schedules;
     std::vector<std::string> schedule_groups; ///< of each of their observers; empty without groups

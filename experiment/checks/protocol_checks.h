@@ -14,7 +14,7 @@ void check_image_fits(ProtocolExamination& examination);
 void check_sizes(ProtocolExamination& examination);
 /// What the video signal can carry, and where on the screen.
 void check_output(ProtocolExamination& examination);
-void check_animation(ProtocolExamination& examination);
+void check_motions(ProtocolExamination& examination);
 void check_screens(ProtocolExamination& examination);
 void check_schedule(ProtocolExamination& examination);
 /// Limits that are written in [schedule] and do not hold in a block, because of its order.
@@ -40,6 +40,8 @@ void check_ids(ProtocolExamination& examination);
 void check_objects(ProtocolExamination& examination, std::span<const std::string_view> shipped_sculptures);
 void check_materials(ProtocolExamination& examination);
 void check_frames(ProtocolExamination& examination);
+/// What the stimuli of a trial take of the frame store together. Of a protocol that is sound otherwise.
+void check_slot_memory(ProtocolExamination& examination);
 /// Places on the screen, and in which of them each task shows its stimuli.
 void check_slots(ProtocolExamination& examination);
 /// After take_characterisation().

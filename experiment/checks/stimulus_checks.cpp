@@ -1,15 +1,18 @@
 #include "experiment/checks/protocol_checks.h"
-#include "experiment/scene/metal_table.h"
+#include "experiment/spectra/metal_table.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "experiment/protocol/entry_ids.h"
 #include "experiment/protocol/protocol_keys.h"
+#include "experiment/protocol/all_stimuli.h"
 
 namespace overt {
 
@@ -19,23 +22,40 @@ std::string entry_path(std::string_view list, std::size_t index, std::string_vie
     return key.empty() ? fmt::format("{}[{}]", list, index) : fmt::format("{}[{}].{}", list, index, key);
 }
 
-template <class Entry>
-void check_list(ProtocolExamination& examination, std::string_view list, const std::vector<Entry>& entries) {
+void check_list(ProtocolExamination& examination, std::string_view list,
+                const std::vector<std::string_view>& ids) {
     // Indices into the lists travel as bytes in records and textures, 255 meaning none.
     constexpr std::size_t most_entries = 254;
-    if (entries.size() > most_entries) {
+    if (ids.size() > most_entries) {
         examination.error({entry_path(list, most_entries)},
                           fmt::format("more than {} entries of [[{}]]", most_entries, list));
     }
-    check_ids_differ(examination, list, ids_of<std::string_view>(entries));
+    check_ids_differ(examination, list, ids);
+}
+
+/// One of the lists that stimuli are made of. An entry may be without an id where it is the only one.
+void check_entries(ProtocolExamination& examination, std::size_t list) {
+    const std::string_view name = stimulus_lists[list].name;
+    std::vector<std::string_view> ids;
+    for (const ListEntry* entry : entries_of(std::as_const(examination.protocol), list)) {
+        const std::string id = entry_path(name, ids.size(), "id");
+        if (examination.is_written(id) || examination.faulty.contains(id)) {
+            ids.push_back(entry->id);
+            continue;
+        }
+        ids.push_back({});
+        if (entries_of(std::as_const(examination.protocol), list).size() > 1)
+            examination.error({id}, fmt::format("one of several [[{}]] has no \"id\"", name),
+                              "each entry of a list needs its own, by which tables name it");
+    }
+    check_list(examination, name, ids);
 }
 
 bool is_covered_by_frames(const Protocol& protocol, std::size_t object) {
-    for (std::size_t material = 0; material < protocol.materials.size(); ++material) {
-        if (!find_frames(protocol, static_cast<int>(object), static_cast<int>(material)))
-            return false;
-    }
-    return !protocol.materials.empty();
+    return !protocol.materials.empty() &&
+           std::ranges::all_of(all_stimuli(protocol), [&](const Stimulus& stimulus) {
+               return stimulus.object != static_cast<int>(object) || find_frames(protocol, stimulus);
+           });
 }
 
 /// Warns of keys that are written though they have no effect without another.
@@ -69,6 +89,16 @@ void check_lut(ProtocolExamination& examination, std::size_t index) {
             {path("lut")},
             fmt::format("object \"{}\" has maps, but not [[frames]] for every material", object.id),
             "without a mesh nothing can be rendered");
+    }
+    // Their files have the numbers of one motion's frames.
+    for (const auto& [list, entries] : {std::pair{"motion", examination.protocol.motions.size()},
+                                        std::pair{"view", examination.protocol.views.size()}}) {
+        if (entries > 1)
+            examination.error({path("lut"), entry_path(list, 1)},
+                              fmt::format("ready-made maps are of one {0}, and the protocol has {1}: nothing "
+                                          "says of which the maps of \"{2}\" are",
+                                          list, entries, object.id),
+                              "give the mesh, from which maps are made for all");
     }
     if (object.lut_min.has_value() != object.lut_max.has_value()) {
         examination.error({path("lut_min"), path("lut_max")}, "a box needs both \"lut_min\" and \"lut_max\"");
@@ -109,9 +139,9 @@ void check_frame_colours(ProtocolExamination& examination, std::size_t index) {
 } // namespace
 
 void check_ids(ProtocolExamination& examination) {
-    check_list(examination, "task", examination.protocol.tasks);
-    check_list(examination, "object", examination.protocol.objects);
-    check_list(examination, "material", examination.protocol.materials);
+    check_list(examination, "task", ids_of<std::string_view>(examination.protocol.tasks));
+    for (std::size_t list = 0; list < stimulus_lists.size(); ++list)
+        check_entries(examination, list);
 }
 
 void check_objects(ProtocolExamination& examination, std::span<const std::string_view> shipped_sculptures) {
@@ -178,17 +208,40 @@ void check_materials(ProtocolExamination& examination) {
     }
 }
 
+namespace {
+
+/// Frames are of one light, motion and view: where there are several, they say which.
+template <class Entry>
+void check_choice_of_frames(ProtocolExamination& examination, std::size_t index, std::string_view list,
+                            const std::string& id, const std::vector<Entry>& entries) {
+    const std::string path = entry_path("frames", index, list);
+    if (!id.empty()) {
+        is_known(examination, path, fmt::format("[[{}]]", list), id, ids_of<std::string_view>(entries));
+    } else if (entries.size() > 1) {
+        examination.error({path, entry_path("frames", index)},
+                          fmt::format("the frames do not say of which [[{}]] they are, and there are {}", list,
+                                      entries.size()),
+                          fmt::format("such as {} = \"{}\"", list, entries.front().id));
+    }
+}
+
+} // namespace
+
 void check_frames(ProtocolExamination& examination) {
     const Protocol& protocol = examination.protocol;
     const auto objects = ids_of<std::string_view>(protocol.objects),
                materials = ids_of<std::string_view>(protocol.materials);
-    std::map<std::pair<std::string, std::string>, std::size_t> seen;
+    std::map<std::array<std::string, 5>, std::size_t> seen;
     for (std::size_t i = 0; i < protocol.frames.size(); ++i) {
         const FrameSequenceSettings& sequence = protocol.frames[i];
         is_known(examination, entry_path("frames", i, "object"), "[[object]]", sequence.object, objects);
         is_known(examination, entry_path("frames", i, "material"), "[[material]]", sequence.material,
                  materials);
-        const auto [first, is_new] = seen.try_emplace({sequence.object, sequence.material}, i);
+        check_choice_of_frames(examination, i, "light", sequence.light, protocol.lights);
+        check_choice_of_frames(examination, i, "motion", sequence.motion, protocol.motions);
+        check_choice_of_frames(examination, i, "view", sequence.view, protocol.views);
+        const auto [first, is_new] = seen.try_emplace(
+            {sequence.object, sequence.material, sequence.light, sequence.motion, sequence.view}, i);
         if (!is_new) {
             examination.error(
                 {entry_path("frames", i, "object"), entry_path("frames", i, "material")},

@@ -1,12 +1,14 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <set>
 
 #include "experiment/base/random.h"
 #include "experiment/design/block_plan.h"
 #include "experiment/design/latin_square.h"
 #include "experiment/design/observer_groups.h"
 #include "experiment/design/schedule.h"
+#include "experiment/protocol/entry_ids.h"
 
 namespace overt {
 
@@ -16,13 +18,12 @@ int count_of(const auto& list) { return static_cast<int>(list.size()); }
 
 /// Indices of the entries that an id list names, in its order; of all, if it names none. Those that `group`
 /// names none of are left out.
-template <class Entry>
-std::vector<int> chosen(const std::vector<Entry>& entries, const std::vector<std::string>& ids,
+std::vector<int> chosen(const std::vector<std::string>& entries, const std::vector<std::string>& ids,
                         const std::vector<std::string>* group) {
     std::vector<int> indices;
     const auto add = [&](const auto& wanted) {
         for (int i = 0; i < count_of(entries); ++i) {
-            const std::string& id = entries[static_cast<std::size_t>(i)].id;
+            const std::string& id = entries[static_cast<std::size_t>(i)];
             if (wanted(id) &&
                 (!group || group->empty() || std::find(group->begin(), group->end(), id) != group->end()))
                 indices.push_back(i);
@@ -35,12 +36,29 @@ std::vector<int> chosen(const std::vector<Entry>& entries, const std::vector<std
     return indices;
 }
 
+/// What a block shows to a group, or to somebody whom none keeps anything from.
+BlockScope scope_for(const Protocol& protocol, int block, const GroupSettings* group) {
+    const BlockSettings& settings = block_at(protocol, block);
+    BlockScope scope;
+    scope.tasks = chosen(ids_of(protocol.tasks), settings.tasks, group ? &group->tasks : nullptr);
+    for (std::size_t list = 0; list < stimulus_lists.size(); ++list) {
+        const std::vector<std::string_view> ids = ids_in_list(protocol, list);
+        scope.lists[list] =
+            chosen({ids.begin(), ids.end()}, settings.chosen[list], group ? &group->chosen[list] : nullptr);
+    }
+    return scope;
+}
+
+constexpr std::size_t object_list = 0, material_list = 1;
+static_assert(stimulus_lists[object_list].name == "object" &&
+              stimulus_lists[material_list].name == "material");
+
 /// The material of a cell, c = task * S + object with the task's place among the rotated ones: column (c +
 /// floor(c / L)) mod M of the row, with L the least common multiple of S and M. So the M rows of a square
 /// fill all M materials of a cell once; each row has all materials equally often, to one; and an object
 /// changes its material from task to task.
 int rotated(const Protocol& protocol, int row, int cell, const BlockScope& scope) {
-    const int objects = count_of(scope.objects), materials = count_of(scope.materials);
+    const int objects = count_of(scope.lists[object_list]), materials = count_of(scope.lists[material_list]);
     const int round = std::lcm(objects, materials);
     const int column = (cell + cell / round) % materials;
     return row_of_square(protocol.schedule.material_rotation, materials, row,
@@ -60,17 +78,18 @@ std::vector<Trial> trials_in(const Protocol& protocol, int block, const BlockSco
                 std::count_if(protocol.tasks.begin(), protocol.tasks.begin() + task, [](const Task& earlier) {
                     return earlier.stimuli == TaskCoverage::once_per_object;
                 }));
-        for (int i = 0; i < count_of(scope.objects); ++i) {
-            const int object = scope.objects[static_cast<std::size_t>(i)];
-            if (rotates && !scope.materials.empty()) {
-                const int cell = rotating_task * count_of(scope.objects) + i;
-                const int material =
-                    scope.materials[static_cast<std::size_t>(rotated(protocol, row, cell, scope))];
-                trials.push_back({count_of(trials), task, {object, material}, block});
-                continue;
-            }
-            for (const int material : scope.materials)
-                trials.push_back({count_of(trials), task, {object, material}, block});
+        // Of a rotated task, an object has one material in all that the other lists make of it.
+        std::vector<int> material_of_object(protocol.objects.size(), -1);
+        const std::vector<int>& objects = scope.lists[object_list];
+        for (int i = 0; rotates && !scope.lists[material_list].empty() && i < count_of(objects); ++i) {
+            const int cell = rotating_task * count_of(objects) + i;
+            material_of_object[static_cast<std::size_t>(objects[static_cast<std::size_t>(i)])] =
+                scope.lists[material_list][static_cast<std::size_t>(rotated(protocol, row, cell, scope))];
+        }
+        for (const Stimulus& stimulus : stimuli_in(scope)) {
+            if (!rotates ||
+                material_of_object[static_cast<std::size_t>(stimulus.object)] == stimulus.material)
+                trials.push_back({count_of(trials), task, stimulus, block});
         }
     }
     for (Trial& trial : trials)
@@ -99,11 +118,22 @@ std::vector<int> order_of_blocks(const Protocol& protocol, const std::vector<int
 
 } // namespace
 
-BlockScope scope_of(const Protocol& protocol, int block) {
-    const BlockSettings& settings = block_at(protocol, block);
-    return {chosen(protocol.tasks, settings.tasks, nullptr),
-            chosen(protocol.objects, settings.objects, nullptr),
-            chosen(protocol.materials, settings.materials, nullptr)};
+BlockScope scope_of(const Protocol& protocol, int block) { return scope_for(protocol, block, nullptr); }
+
+int materials_in(const BlockScope& scope) { return count_of(scope.lists[material_list]); }
+
+std::vector<Stimulus> stimuli_in(const BlockScope& scope) {
+    std::vector<Stimulus> stimuli{{}};
+    for (std::size_t list = 0; list < stimulus_lists.size(); ++list) {
+        std::vector<Stimulus> more;
+        for (Stimulus stimulus : stimuli)
+            for (const int entry : scope.lists[list]) {
+                stimulus.*stimulus_lists[list].index = entry;
+                more.push_back(stimulus);
+            }
+        stimuli = std::move(more);
+    }
+    return stimuli;
 }
 
 const BlockSettings whole_session;
@@ -122,41 +152,45 @@ void fill_slots(const Protocol& protocol, Trial& trial) {
         trial.beside.push_back({trial.stimulus, slots[i]});
 }
 
-int level_of(const Protocol& protocol, const Trial& trial, TrialFactor factor) {
-    switch (factor) {
-    case TrialFactor::task:
-        return trial.task;
-    case TrialFactor::object:
-        return trial.stimulus.object;
-    case TrialFactor::material:
-        return trial.stimulus.material;
-    case TrialFactor::stimulus:
-        break;
+int most_stimuli_at_once(const Protocol& protocol) {
+    std::size_t most = 1;
+    for (const BlockPlan& plan : block_plans(protocol, 1, 0)) {
+        for (const Trial& trial : plan.trials) {
+            std::set<Stimulus> stimuli{trial.stimulus};
+            for (const PlacedStimulus& placed : trial.beside)
+                stimuli.insert(placed.stimulus);
+            most = std::max(most, stimuli.size());
+        }
     }
-    return trial.stimulus.object * count_of(protocol.materials) + trial.stimulus.material;
+    return static_cast<int>(most);
 }
 
-std::vector<int> levels_in(const Protocol& protocol, const BlockScope& scope, TrialFactor factor) {
-    if (factor == TrialFactor::task)
+std::vector<int> levels_in(const Factors& factors, const BlockScope& scope, const Factor& factor) {
+    if (factor.source == Factor::Source::task)
         return scope.tasks;
-    if (factor == TrialFactor::object)
-        return scope.objects;
-    if (factor == TrialFactor::material)
-        return scope.materials;
-    std::vector<int> stimuli;
-    for (const int object : scope.objects) {
-        for (const int material : scope.materials)
-            stimuli.push_back(level_of(protocol, {0, 0, {object, material}}, factor));
+    std::vector<int> levels;
+    if (factor.source == Factor::Source::stimulus) {
+        for (const Stimulus& stimulus : stimuli_in(scope))
+            levels.push_back(factors.level_of(factor, {}, stimulus));
+        return levels;
     }
-    return stimuli;
+    for (const int entry : scope.lists[factor.list]) {
+        const int level = factor.level_of_entry.at(static_cast<std::size_t>(entry));
+        if (std::ranges::find(levels, level) == levels.end())
+            levels.push_back(level);
+    }
+    if (factor.source == Factor::Source::column)
+        std::ranges::sort(levels);
+    return levels;
 }
 
-double weight_of(const Protocol& protocol, const Trial& trial) {
+double weight_of(const Protocol& protocol, const Factors& factors, const Trial& trial) {
     const BlockSettings& block = block_at(protocol, trial.block);
     if (block.order != OrderMethod::weighted || block.weights.empty())
         return 1.0;
-    const std::vector<int> levels = levels_in(protocol, scope_of(protocol, trial.block), block.by);
-    const auto at = std::find(levels.begin(), levels.end(), level_of(protocol, trial, block.by));
+    const Factor& by = factors.at(block.by);
+    const std::vector<int> levels = levels_in(factors, scope_of(protocol, trial.block), by);
+    const auto at = std::find(levels.begin(), levels.end(), factors.level_of(by, trial));
     return block.weights.at(static_cast<std::size_t>(at - levels.begin()));
 }
 
@@ -164,9 +198,12 @@ int length_of(const Protocol& protocol, const BlockPlan& plan) {
     const BlockSettings& block = block_at(protocol, plan.block);
     if (block.order == OrderMethod::weighted && block.draws)
         return *block.draws * block.repetitions;
+    if (block.order != OrderMethod::weighted)
+        return count_of(plan.trials) * block.repetitions;
+    const Factors factors = factors_of(protocol);
     double length = 0.0;
     for (const Trial& trial : plan.trials)
-        length += weight_of(protocol, trial);
+        length += weight_of(protocol, factors, trial);
     return static_cast<int>(std::lround(length)) * block.repetitions;
 }
 
@@ -180,16 +217,10 @@ std::vector<BlockScopeOf> blocks_of_group(const Protocol& protocol, int number) 
     const GroupSettings* group = number < 0 ? nullptr : &protocol.groups.at(static_cast<std::size_t>(number));
     std::vector<int> blocks{0};
     if (!protocol.blocks.empty())
-        blocks = chosen(protocol.blocks, {}, group ? &group->blocks : nullptr);
+        blocks = chosen(ids_of(protocol.blocks), {}, group ? &group->blocks : nullptr);
     std::vector<BlockScopeOf> scopes;
-    for (const int block : blocks) {
-        const BlockSettings& settings = block_at(protocol, block);
-        scopes.push_back(
-            {block,
-             {chosen(protocol.tasks, settings.tasks, group ? &group->tasks : nullptr),
-              chosen(protocol.objects, settings.objects, group ? &group->objects : nullptr),
-              chosen(protocol.materials, settings.materials, group ? &group->materials : nullptr)}});
-    }
+    for (const int block : blocks)
+        scopes.push_back({block, scope_for(protocol, block, group)});
     return scopes;
 }
 

@@ -16,9 +16,9 @@ int material_rows(const Protocol& protocol, const std::vector<BlockScopeOf>& blo
     int rows = 1;
     for (const auto& [block, scope] : blocks) {
         for (const int task : scope.tasks)
-            if (rotates_materials(protocol, block, task) && scope.materials.size() > 1)
-                rows = std::lcm(rows, rows_of_square(protocol.schedule.material_rotation,
-                                                     static_cast<int>(scope.materials.size())));
+            if (rotates_materials(protocol, block, task) && materials_in(scope) > 1)
+                rows =
+                    std::lcm(rows, rows_of_square(protocol.schedule.material_rotation, materials_in(scope)));
     }
     return rows;
 }
@@ -37,8 +37,10 @@ Rotations::Rotations(const Protocol& protocol, int group, RotationRule rule) : r
         add(Kind::blocks, -1, rows_of_square(square_of(by), static_cast<int>(blocks.size())));
     for (const auto& [block, scope] : blocks) {
         const BlockSettings& settings = block_at(protocol, block);
-        const auto levels = levels_in(protocol, scope, settings.by).size();
-        if (settings.order == OrderMethod::blocked && settings.levels >= LevelOrder::cyclic && levels > 1)
+        if (settings.order != OrderMethod::blocked || settings.levels < LevelOrder::cyclic)
+            continue;
+        const Factors factors = factors_of(protocol);
+        if (const auto levels = levels_in(factors, scope, factors.at(settings.by)).size(); levels > 1)
             add(Kind::levels, block, rows_of_square(square_of(settings.levels), static_cast<int>(levels)));
     }
 }

@@ -27,8 +27,10 @@ std::string Key::default_text() const {
 }
 
 std::string Section::heading() const {
-    return fmt::format(fmt::runtime(is_list() ? "[[{}]]" : "[{}]"), name);
+    return is_list() && alone.empty() ? list_heading() : fmt::format("[{}]", alone.empty() ? name : alone);
 }
+
+std::string Section::list_heading() const { return fmt::format("[[{}]]", name); }
 
 const Key* Section::find_key(std::string_view key) const {
     const auto found = std::ranges::find(keys, key, [](const Key& row) { return row.rule.name; });

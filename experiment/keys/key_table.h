@@ -3,6 +3,7 @@
 /// goes through the rows, and needs to know neither the structs nor the types.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -25,6 +26,10 @@ class MemberPlace {
     template <class Struct, class Member>
     explicit MemberPlace(Member Struct::*member)
         : struct_(&as_left_out<Struct>()), member_(&(as_left_out<Struct>().*member)) {}
+    /// An element of a member that is an array.
+    template <class Struct, class Value, std::size_t count>
+    MemberPlace(std::array<Value, count> Struct::*member, std::size_t index)
+        : struct_(&as_left_out<Struct>()), member_(&(as_left_out<Struct>().*member).at(index)) {}
     /// The object as a whole.
     template <class Struct> static MemberPlace whole() {
         return {&as_left_out<Struct>(), &as_left_out<Struct>()};
@@ -65,6 +70,11 @@ struct Key {
     template <class Struct, class Value>
     Key(std::string_view name, Value Struct::*member, std::string_view explanation)
         : Key(name, member, KeyLimits{}, explanation) {}
+    /// Of an element of a member that is an array.
+    template <class Struct, class Value, std::size_t count>
+    Key(std::string_view name, std::array<Value, count> Struct::*member, std::size_t index,
+        const KeyLimits& limits, std::string_view explanation)
+        : rule{limits, name, explanation}, type(&value_type(TypeTag<Value>())), place(member, index) {}
 
     /// The member of an object of the key's struct, if it is a Value; else null.
     template <class Value> const Value* get_if(const void* object) const {
@@ -91,7 +101,8 @@ class SectionHome {
     SectionHome(std::vector<Struct> Root::*list)
         : place_(list), left_out_(&as_left_out<Struct>()), add_([](void* entries) -> void* {
               return &static_cast<std::vector<Struct>*>(entries)->emplace_back();
-          }) {}
+          }),
+          clear_([](void* entries) { static_cast<std::vector<Struct>*>(entries)->clear(); }) {}
     /// Of a section whose keys are members of the whole file's struct itself.
     template <class Root> static SectionHome root() {
         SectionHome home;
@@ -103,6 +114,8 @@ class SectionHome {
     bool is_list() const { return add_ != nullptr; }
     /// The section's struct in `root`; of a list, a new entry of it.
     void* open(void* root) const { return is_list() ? add_(place_->in(root)) : place_->in(root); }
+    /// Takes out the entries of a list.
+    void clear(void* root) const { clear_(place_->in(root)); }
 
     const void* left_out_root() const { return place_ ? place_->left_out_struct() : nullptr; }
     const void* left_out_struct() const { return left_out_; }
@@ -111,6 +124,7 @@ class SectionHome {
     std::optional<MemberPlace> place_;
     const void* left_out_ = nullptr;
     void* (*add_)(void* list) = nullptr;
+    void (*clear_)(void* list) = nullptr;
 };
 
 /// A [section], the entries of a [[list]], or a table within one of them (`head = { … }` of an object).
@@ -120,9 +134,16 @@ struct Section {
     std::vector<Key> keys;
     std::string_view explanation = {};
     std::vector<Section> tables = {};
+    /// Of a list that is never empty: its only entry may be written as a [section] of this name.
+    std::string_view alone = {};
 
     bool is_list() const { return home.is_list(); }
-    std::string heading() const; ///< "[name]" or "[[name]]"
+    bool is_never_empty() const { return !alone.empty(); }
+    bool is_called(std::string_view heading) const {
+        return heading == name || (!alone.empty() && heading == alone);
+    }
+    std::string heading() const;      ///< "[name]" or "[[name]]"; "[alone]" of a list that may be one
+    std::string list_heading() const; ///< "[[name]]"
     /// The key of its own, and not of a table within it, that is called so; or null.
     const Key* find_key(std::string_view key) const;
 };

@@ -242,6 +242,56 @@ ValueResult read_value(const TomlValue& value, const KeyRule& rule, std::vector<
     return std::nullopt;
 }
 
+/// A word that goes into the cells of tables.
+ValueResult check_word(const TomlValue& value, const KeyRule& rule, std::string_view name,
+                       const std::string& word) {
+    const bool is_blank = word.find_first_not_of(' ') == std::string::npos;
+    if (!is_blank &&
+        std::none_of(word.begin(), word.end(), [](unsigned char character) { return character < 0x20; }))
+        return std::nullopt;
+    return ValueFault{
+        value.place,
+        fmt::format("{}.{}: {}", rule.name, name,
+                    is_blank ? "the word is empty" : "the word does not go into one cell of a table"),
+        "take letters, digits and signs on one line"};
+}
+
+ValueResult read_value(const TomlValue& value, const KeyRule& rule, NamedNumbers& out) {
+    if (!value.table())
+        return wrong_kind<NamedNumbers>(value, rule);
+    for (const TomlEntry& entry : *value.table()) {
+        NamedNumber& named = out.emplace_back(NamedNumber{entry.key});
+        if (ValueResult fault = read_value(entry.value, rule, named.number))
+            return fault;
+    }
+    return std::nullopt;
+}
+
+ValueResult read_value(const TomlValue& value, const KeyRule& rule, NamedWords& out) {
+    if (!value.table())
+        return wrong_kind<NamedWords>(value, rule);
+    for (const TomlEntry& entry : *value.table()) {
+        NamedWord& named = out.emplace_back(NamedWord{entry.key, {}, {}});
+        if (const auto* word = std::get_if<std::string>(&entry.value.content)) {
+            if (ValueResult fault = check_word(entry.value, rule, entry.key, *word))
+                return fault;
+            named.text = *word;
+            continue;
+        }
+        double number = 0.0;
+        const bool is_number = std::holds_alternative<double>(entry.value.content) ||
+                               std::holds_alternative<std::int64_t>(entry.value.content);
+        if (!is_number)
+            return ValueFault{entry.value.place, fmt::format("{}.{}: expected a word or a number, found {}",
+                                                             rule.name, entry.key, entry.value.kind())};
+        if (ValueResult fault = read_value(entry.value, rule, number))
+            return fault;
+        named.text = fmt::format("{}", number);
+        named.number = number;
+    }
+    return std::nullopt;
+}
+
 // JSON Schema.
 
 using Json = nlohmann::ordered_json;
@@ -276,6 +326,13 @@ Json path(const KeyRule&) { return {{"type", "string"}, {"minLength", 1}}; }
 Json three(const KeyRule& rule) { return list_of(number(rule), 3, 3); }
 Json spheres(const KeyRule& rule) { return list_of(list_of(number(rule), 4, 4), 0, 0); }
 Json planes(const KeyRule& rule) { return list_of(list_of(three(rule), 2, 2), 0, 0); }
+Json named_numbers(const KeyRule& rule) {
+    return {{"type", "object"}, {"additionalProperties", whole(rule)}};
+}
+Json named_words(const KeyRule& rule) {
+    return {{"type", "object"},
+            {"additionalProperties", {{"anyOf", {Json{{"type", "string"}}, number(rule)}}}}};
+}
 Json numbers(const KeyRule& rule) { return {{"anyOf", {number(rule), list_of(number(rule), 0, 0)}}}; }
 
 Json text(const KeyRule& rule) {
@@ -347,7 +404,11 @@ constexpr ValueType truth_type = plain<bool>("true or false", truth), whole_type
                     spheres_type = optional<std::vector<std::array<double, 4>>>(
                         "a list of spheres [x, y, z, radius]", spheres),
                     planes_type = optional<std::vector<std::array<double, 6>>>(
-                        "a list of planes [[x, y, z], [nx, ny, nz]]", planes);
+                        "a list of planes [[x, y, z], [nx, ny, nz]]", planes),
+                    named_numbers_type =
+                        optional<NamedNumbers>("a table of names with a whole number each", named_numbers),
+                    named_words_type =
+                        optional<NamedWords>("a table of names with a word or a number each", named_words);
 
 } // namespace
 
@@ -366,6 +427,9 @@ const ValueType& value_type(TypeTag<std::vector<double>>) { return numbers_type;
 const ValueType& value_type(TypeTag<std::vector<std::string>>) { return texts_type; }
 const ValueType& value_type(TypeTag<std::vector<std::array<double, 4>>>) { return spheres_type; }
 const ValueType& value_type(TypeTag<std::vector<std::array<double, 6>>>) { return planes_type; }
+
+const ValueType& value_type(TypeTag<NamedNumbers>) { return named_numbers_type; }
+const ValueType& value_type(TypeTag<NamedWords>) { return named_words_type; }
 
 ValueResult read_choice(const TomlValue& value, const KeyRule& rule, std::size_t& index) {
     std::string name;

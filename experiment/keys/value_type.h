@@ -14,6 +14,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "experiment/base/enum_names.h"
+#include "experiment/base/named_words.h"
 #include "experiment/keys/key_rule.h"
 #include "experiment/keys/toml_tree.h"
 #include "experiment/units.h"
@@ -57,6 +58,9 @@ const ValueType& value_type(TypeTag<std::vector<double>>); ///< one number is a 
 const ValueType& value_type(TypeTag<std::vector<std::string>>);
 const ValueType& value_type(TypeTag<std::vector<std::array<double, 4>>>);
 const ValueType& value_type(TypeTag<std::vector<std::array<double, 6>>>);
+/// Tables of names that no table of keys knows. The rule holds for each value.
+const ValueType& value_type(TypeTag<NamedNumbers>);
+const ValueType& value_type(TypeTag<NamedWords>);
 
 /// A text that is one of the rule's choices: which.
 ValueResult read_choice(const TomlValue& value, const KeyRule& rule, std::size_t& index);

@@ -41,6 +41,12 @@ std::vector<Key> schedule() {
         {"min_stimulus_distance", &S::min_stimulus_distance, range(0, 1000),
          "Least distance of trials with the same stimulus, in trials: 2 is never twice in a row, 3 leaves "
          "two others between them; 0 for no limit."},
+        {"max_run", &S::max_run, range(0, 1000).left_out("no further limits"),
+         "Longest run of trials with the same level, for any factors: { gloss = 3, light = 2 }; 0 for no "
+         "limit. Factors are the task, the lists that stimuli are made of, the columns of their entries, "
+         "and the stimulus."},
+        {"min_distance", &S::min_distance, range(0, 1000).left_out("no further limits"),
+         "Least distance of trials with the same level, for any factors: { gloss = 2 }; 0 for no limit."},
         {"material_rotation", &S::material_rotation,
          "How the materials of tasks that are asked once per object go round over the observers: shifted "
          "by one from observer to observer; by the rows of a balanced (Williams) square, in which each "

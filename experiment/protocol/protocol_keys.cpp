@@ -26,15 +26,30 @@ const KeyTable& protocol_keys() {
             {"events", &Protocol::events, events(),
              "Fixations, saccades and blinks in the record, and by which thresholds the program tells them "
              "apart; see [events.md](events.md)."},
-            {"view", &Protocol::view, view(),
-             "The image and its camera, the same for all stimuli. +z is up; an object turns about the "
-             "vertical through the middle of its bounding box."},
-            {"light", &Protocol::light, light(), "What surrounds the objects and is reflected in them."},
+            {"view",
+             &Protocol::views,
+             view(),
+             "The image and its camera; one section `[view]`, or several, `[[view]]`. +z is up; an object "
+             "turns about the vertical through the middle of its bounding box.",
+             {},
+             "view"},
+            {"light",
+             &Protocol::lights,
+             light(),
+             "What surrounds the objects and is reflected in them; one section `[light]`, or several, "
+             "`[[light]]`.",
+             {},
+             "light"},
             {"bake", &Protocol::bake, bake(),
              "How stimuli are rendered that are not given as `[[frames]]`. `overt bake` does it, and keeps "
              "each frame; see [bake.md](bake.md)."},
-            {"animation", &Protocol::animation, animation(),
-             "How the objects turn: to and fro about the vertical, as a sine."},
+            {"motion",
+             &Protocol::motions,
+             motion(),
+             "How the objects turn: to and fro about the vertical, as a sine; one section `[animation]`, or "
+             "several, `[[motion]]`.",
+             {},
+             "animation"},
             {"schedule", &Protocol::schedule, schedule(),
              "How many observers there will be, and what the order of their trials has to keep to. The "
              "limits hold within each block."},

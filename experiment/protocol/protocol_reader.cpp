@@ -6,7 +6,7 @@
 #include "experiment/protocol/old_words.h"
 #include "experiment/protocol/protocol_keys.h"
 #include "experiment/protocol/protocol_sources.h"
-#include "experiment/scene/metal_table.h"
+#include "experiment/spectra/metal_table.h"
 
 namespace overt {
 
@@ -31,11 +31,17 @@ void complete(Protocol& protocol) {
     for (std::size_t i = 0; i < protocol.observer_fields.size(); ++i)
         complete_field(protocol.observer_fields[i],
                        protocol.places.is_written(fmt::format("observer_field[{}].kind", i)));
+    for (std::size_t list = 0; list < stimulus_lists.size(); ++list) {
+        for (ListEntry* entry : entries_of(protocol, list)) {
+            if (entry->id.empty() && protocol_keys().section(stimulus_lists[list].name).is_never_empty())
+                entry->id = stimulus_lists[list].name;
+            if (entry->title.empty())
+                entry->title = entry->id;
+        }
+    }
     for (std::size_t i = 0; i < protocol.objects.size(); ++i) {
         ObjectSettings& object = protocol.objects[i];
         const auto folder = folder_of(protocol, fmt::format("object[{}]", i));
-        if (object.title.empty())
-            object.title = object.id;
         if (!object.mesh.empty())
             object.mesh = folder / object.mesh;
         if (!object.labels.empty())
@@ -45,8 +51,6 @@ void complete(Protocol& protocol) {
     }
     for (std::size_t i = 0; i < protocol.materials.size(); ++i) {
         MaterialSettings& material = protocol.materials[i];
-        if (material.title.empty())
-            material.title = material.id;
         if (is_metal_file(material.metal))
             material.metal = (folder_of(protocol, fmt::format("material[{}]", i)) / material.metal).string();
     }
@@ -60,8 +64,17 @@ void complete(Protocol& protocol) {
     if (!protocol.display.characterisation_file.empty())
         protocol.display.characterisation_file =
             folder_of(protocol, "display.characterisation") / protocol.display.characterisation_file;
-    if (protocol.light.is_file())
-        protocol.light.probe = (folder_of(protocol, "light.probe") / protocol.light.probe).string();
+    for (std::size_t i = 0; i < protocol.motions.size(); ++i) {
+        // What does not move has one frame.
+        MotionSettings& motion = protocol.motions[i];
+        if (!motion.moves() && !protocol.places.is_written(fmt::format("motion[{}].frame_count", i)))
+            motion.frame_count = 1;
+    }
+    for (std::size_t i = 0; i < protocol.lights.size(); ++i) {
+        LightSettings& light = protocol.lights[i];
+        if (light.is_file())
+            light.probe = (folder_of(protocol, fmt::format("light[{}].probe", i)) / light.probe).string();
+    }
 }
 
 } // namespace

@@ -78,9 +78,12 @@ Json protocol_schema() {
         Json schema = section_schema(section);
         if (section.is_list()) {
             const std::string description = schema["description"];
-            schema = list_of(std::move(schema));
+            Json list = list_of(schema);
+            schema = section.is_never_empty() ? Json{{"anyOf", {schema, std::move(list)}}} : std::move(list);
             schema["description"] = description;
         }
+        if (section.is_never_empty())
+            properties[std::string(section.alone)] = schema;
         properties[std::string(section.name)] = std::move(schema);
     }
     narrow(properties);

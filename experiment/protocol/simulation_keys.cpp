@@ -11,10 +11,9 @@ std::vector<Key> simulated_observers() {
 
 std::vector<Key> simulated_effect() {
     using E = SimulatedEffect;
-    return {
+    std::vector<Key> keys{
         {"task", &E::task, identifier().left_out("any"), "Id of the task."},
-        {"object", &E::object, identifier().left_out("any"), "Id of the object."},
-        {"material", &E::material, identifier().left_out("any"), "Id of the material."},
+        {"where", &E::where, left_out("any"), "Levels of columns of the entries: { gloss = \"high\" }."},
         {"head_odds", &E::head_odds, range(0.001, 1000),
          "How many times the odds of the task's `simulated_head_share` those of a fixation on the head are; "
          "1: the same."},
@@ -26,6 +25,8 @@ std::vector<Key> simulated_effect() {
          "distance from the object's middle are looked at exp(spread * r^2) times as often as their area "
          "says; 0: by area alone. `overt power --effect wss:…` tells which spread makes a ratio of WSS."},
     };
+    add_entry_keys(keys, &E::entries, "any");
+    return keys;
 }
 
 } // namespace overt::key_rows

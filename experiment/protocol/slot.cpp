@@ -61,14 +61,14 @@ std::vector<Slot> written_out(const std::vector<SlotSettings>& entries) {
 
 ScreenGeometry slot_geometry(const Protocol& protocol, const Slot& slot) {
     ScreenGeometry geometry = screen_geometry_of(protocol);
+    if (slot.entry < 0)
+        return geometry;
     const glm::dvec2 px_per_mm = glm::dvec2(geometry.screen_px) / geometry.screen_mm;
     const auto px_of = [&](double deg, int axis) {
         return std::tan(to_radians({deg}).value) * geometry.viewing_distance_mm * px_per_mm[axis];
     };
     const glm::dvec2 own_middle = glm::dvec2(geometry.image_origin_px) + 0.5 * glm::dvec2(geometry.image_px);
     const auto place = [&](std::optional<double> middle_px, std::optional<double> size_deg, int axis) {
-        if (!middle_px && !size_deg)
-            return;
         const int step = axis == 0 ? 2 : 1;
         if (size_deg)
             geometry.image_px[axis] = std::max(
@@ -87,18 +87,27 @@ ScreenGeometry slot_geometry(const Protocol& protocol, const Slot& slot) {
     return geometry;
 }
 
+std::vector<glm::ivec2> slot_places(const Protocol& protocol) {
+    std::vector<glm::ivec2> places;
+    for (const Slot& slot : protocol.slots)
+        if (slot.entry >= 0)
+            places.push_back(slot_geometry(protocol, slot).image_origin_px);
+    return places;
+}
+
 void fit_view_to_slots(Protocol& protocol) {
-    ViewSettings& view = protocol.view;
     const glm::ivec2 size = slot_geometry(protocol, protocol.slots.front()).image_px;
-    if (size == glm::ivec2(view.width_px, view.height_px))
-        return;
-    if (view.camera_position && !view.vertical_fov_deg) {
-        const double height_mm = view.height_px * protocol.display.height_mm / protocol.display.height_px;
-        view.vertical_fov_deg =
-            to_degrees({2.0 * std::atan(0.5 * height_mm / protocol.display.viewing_distance_mm)}).value;
+    for (ViewSettings& view : protocol.views) {
+        if (size == glm::ivec2(view.width_px, view.height_px))
+            continue;
+        if (view.camera_position && !view.vertical_fov_deg) {
+            const double height_mm = view.height_px * protocol.display.height_mm / protocol.display.height_px;
+            view.vertical_fov_deg =
+                to_degrees({2.0 * std::atan(0.5 * height_mm / protocol.display.viewing_distance_mm)}).value;
+        }
+        view.width_px = size.x;
+        view.height_px = size.y;
     }
-    view.width_px = size.x;
-    view.height_px = size.y;
 }
 
 std::vector<int> slots_of_task(const Protocol& protocol, int task) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -34,19 +35,25 @@ bool is_animation(const Animation& animation, double refresh_hz) {
     // Where a recording was imported, no rate is known.
     return (refresh_hz == 0.0 || is_within(refresh_hz, 0.1, 1e5)) &&
            is_within(animation.frame_rate_hz, 1e-3, 1e5) && is_within(animation.duration_s, 0.0, 1e6) &&
-           is_within(animation.amplitude.value, -1e6, 1e6) && is_within(animation.frame_count, 1, 1e6) &&
+           is_within(animation.amplitude.value, -1e6, 1e6) && is_within(animation.angle.value, -1e6, 1e6) &&
+           is_within(animation.light_amplitude.value, -1e6, 1e6) && is_within(animation.frame_count, 1, 1e6) &&
            animation.duration_s * refresh_hz <= most_refreshes &&
            animation.duration_s * animation.frame_rate_hz <= most_refreshes &&
            animation.frame_count / animation.frame_rate_hz * refresh_hz <= most_refreshes;
 }
 
-/// With a pose for each frame of the animation.
-bool is_pose_table(const PoseTable& poses, const Animation& animation) {
-    return !poses.angles.empty() &&
-           poses.of_frame.size() == static_cast<std::size_t>(animation.frame_count) &&
-           std::all_of(poses.of_frame.begin(), poses.of_frame.end(), [&](PoseIndex pose) {
-               return pose.value >= 0 && static_cast<std::size_t>(pose.value) < poses.angles.size();
-           });
+/// With a pose for each frame of each motion.
+bool is_pose_table(const PoseTable& poses, std::span<const Animation> animations) {
+    if (poses.angles.empty() || poses.of_motion.size() != animations.size())
+        return false;
+    for (std::size_t motion = 0; motion < animations.size(); ++motion) {
+        const std::vector<PoseIndex>& frames = poses.of_motion[motion];
+        const auto is_pose = [&](PoseIndex pose) { return pose.value >= 0 && pose.value < poses.count(); };
+        if (frames.size() != static_cast<std::size_t>(animations[motion].frame_count) ||
+            !std::ranges::all_of(frames, is_pose))
+            return false;
+    }
+    return true;
 }
 
 template <class Items> bool is_index(int index, const Items& items) {
@@ -74,12 +81,13 @@ void check_header(const SessionHeader& header, const std::filesystem::path& file
     };
     demand(is_label(header.schedule.observer.label), "the observer's label");
     demand(is_screen(header.display.screen), "the screen");
-    demand(is_animation(header.animation, header.display.refresh_hz),
-           "the animation, or the display's refresh rate,");
+    for (const Animation& animation : header.animations)
+        demand(is_animation(animation, header.display.refresh_hz),
+               "the animation, or the display's refresh rate,");
     demand(header.display.latency <= longest_latency && header.display.latency >= -longest_latency,
            "the display's latency");
     demand(is_within(header.tracker.sample_rate_hz, 0.0, 1e6), "the tracker's rate");
-    demand(is_pose_table(header.poses, header.animation), "the table of poses");
+    demand(is_pose_table(header.poses, header.animations), "the table of poses");
     // They name folders and files of exports, and files that are read.
     // An imported session may have none.
     demand(header.protocol.name.empty() || is_plain_name(header.protocol.name), "the protocol's name");
@@ -88,7 +96,8 @@ void check_header(const SessionHeader& header, const std::filesystem::path& file
                fmt::format("the id or the mesh file of object \"{}\"", object.id));
     for (const RecordedMap& map : header.maps) {
         demand(stays_inside(map.file), fmt::format("the map file \"{}\"", map.file));
-        demand(is_index(map.object, header.objects) && is_index(map.pose.value, header.poses.angles),
+        demand(is_index(map.viewed.object, header.objects) && is_index(map.pose.value, header.poses.angles) &&
+                   is_index(map.viewed.view, header.objects[static_cast<std::size_t>(map.viewed.object)].cameras),
                fmt::format("the object or the pose of map \"{}\"", map.file));
     }
     for (const RecordedStimulus& stimulus : header.stimuli)

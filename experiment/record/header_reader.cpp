@@ -77,6 +77,43 @@ void read_dataset(const SQLite::Database& database, SessionHeader& header) {
         header.dataset.push_back({row.text(), row.text()});
 }
 
+/// Sessions of earlier formats have one motion, which the session's own row tells, and one view.
+void read_motions(const SQLite::Database& database, SessionHeader& header) {
+    if (has_table(database, "animation"))
+        if (std::vector<Animation> motions = read_table(database, animation_table()); !motions.empty())
+            header.animations = std::move(motions);
+    header.poses.of_motion.resize(header.animations.size());
+    const bool has_motion = has_column(database, "animation_frame", "motion");
+    for (Query row(database, has_motion
+                                 ? "SELECT motion, pose FROM animation_frame ORDER BY motion, frame"
+                                 : "SELECT 0, pose FROM animation_frame ORDER BY frame");
+         row.step();) {
+        const auto motion = static_cast<std::size_t>(row.small());
+        if (motion >= header.poses.of_motion.size())
+            throw RecordError(fmt::format("table animation_frame: there is no motion {}", motion));
+        header.poses.of_motion[motion].push_back({row.small()});
+    }
+}
+
+void read_cameras(const SQLite::Database& database, SessionHeader& header) {
+    if (!has_table(database, "camera"))
+        return;
+    for (Query row(database, "SELECT object, view, x, y, z, target_x, target_y, target_z, vertical_fov_deg "
+                             "FROM camera ORDER BY object, view");
+         row.step();) {
+        const auto object = static_cast<std::size_t>(row.small()), view = static_cast<std::size_t>(row.small());
+        constexpr std::size_t most_views = 255;
+        if (object >= header.objects.size() || view > most_views)
+            throw RecordError(fmt::format("table camera: there is no object {} in view {}", object, view));
+        std::vector<Camera>& cameras = header.objects[object].cameras;
+        if (cameras.size() <= view)
+            cameras.resize(view + 1);
+        Camera& camera = cameras[view];
+        row.read(camera.position.x, camera.position.y, camera.position.z, camera.target.x, camera.target.y,
+                 camera.target.z, camera.vertical_fov.value);
+    }
+}
+
 void read_design(const SQLite::Database& database, SessionHeader& header) {
     for (Query row(database, "SELECT trial, task, object, material FROM schedule ORDER BY trial");
          row.step();)
@@ -90,8 +127,7 @@ void read_design(const SQLite::Database& database, SessionHeader& header) {
         header.materials.push_back({row.text(), row.text()});
     for (Query row(database, "SELECT angle_deg FROM pose ORDER BY pose"); row.step();)
         header.poses.angles.push_back({row.real()});
-    for (Query row(database, "SELECT pose FROM animation_frame ORDER BY frame"); row.step();)
-        header.poses.of_frame.push_back({row.small()});
+    read_motions(database, header);
 }
 
 void read_objects(const SQLite::Database& database, SessionHeader& header) {
@@ -102,16 +138,19 @@ void read_objects(const SQLite::Database& database, SessionHeader& header) {
             throw RecordError(fmt::format("table part: there is no object {}", object));
         header.objects[object].part_names.push_back(row.text());
     }
+    read_cameras(database, header);
     for (Query row(database, "SELECT object, material, source, frames_sha256 FROM stimulus"); row.step();)
         header.stimuli.push_back({{row.small(), row.small()}, row.text(), row.text()});
     // In version 1 all maps were of triangles.
     Query version(database, "PRAGMA user_version");
     const bool has_kind = version.step() && version.small() >= 2;
-    for (Query row(database, has_kind ? "SELECT object, pose, file, sha256, made, kind FROM map"
-                                      : "SELECT object, pose, file, sha256, made, 'triangles' FROM map");
+    const bool has_view = has_column(database, "map", "view");
+    for (Query row(database, fmt::format("SELECT object, {}, pose, file, sha256, made, {} FROM map",
+                                         has_view ? "view" : "0", has_kind ? "kind" : "'triangles'")
+                                 .c_str());
          row.step();)
         header.maps.push_back(
-            {row.small(),
+            {{row.small(), row.small()},
              {row.small()},
              row.text(),
              row.text(),
@@ -131,8 +170,9 @@ SessionHeader read_session_header(const SQLite::Database& database) {
     read_design(database, header);
     read_objects(database, header);
     // Imports of earlier programs have the motion of a protocol, which nothing went through, and one pose.
-    if (knows_no_stimulus(header) && header.poses.of_frame.size() == 1)
-        header.animation = no_animation;
+    if (knows_no_stimulus(header) && header.animations.size() == 1 &&
+        header.poses.of_motion.front().size() == 1)
+        header.animations = {no_animation};
     return std::move(header);
 }
 

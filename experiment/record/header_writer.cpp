@@ -46,9 +46,14 @@ void insert_design(SQLite::Database& database, const SessionHeader& header) {
     index = 0;
     for (const Degrees angle : header.poses.angles)
         insert_values(database, "INTO pose", index++, angle.value);
-    index = 0;
-    for (const PoseIndex pose : header.poses.of_frame)
-        insert_values(database, "INTO animation_frame", index++, pose.value);
+    int motion = 0;
+    for (const Animation& animation : header.animations) {
+        insert_row(database, animation_table(), motion, animation);
+        index = 0;
+        for (const PoseIndex pose : header.poses.frames_of(motion))
+            insert_values(database, "INTO animation_frame", motion, index++, pose.value);
+        ++motion;
+    }
 }
 
 void insert_slots(SQLite::Database& database, const SessionHeader& header) {
@@ -65,13 +70,17 @@ void insert_objects(SQLite::Database& database, const SessionHeader& header) {
         int part = 0;
         for (const std::string& name : object.part_names)
             insert_values(database, "INTO part", index, part++, name);
+        int view = 0;
+        for (const auto& [at, target, fov] : object.cameras)
+            insert_values(database, "INTO camera", index, view++, at.x, at.y, at.z, target.x, target.y,
+                          target.z, fov.value);
         ++index;
     }
     for (const RecordedStimulus& stimulus : header.stimuli)
         insert_values(database, "INTO stimulus", stimulus.stimulus.object, stimulus.stimulus.material,
                       stimulus.source, stimulus.frames_sha256);
     for (const RecordedMap& map : header.maps)
-        insert_values(database, "INTO map", map.object, map.pose.value, map.file, map.sha256,
+        insert_values(database, "INTO map", map.viewed.object, map.viewed.view, map.pose.value, map.file, map.sha256,
                       map.made == RecordedMap::Made::prepared ? "prepared" : "live",
                       map.kind == RecordedMap::Kind::triangles ? "triangles" : "coordinates");
 }

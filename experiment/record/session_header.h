@@ -102,12 +102,15 @@ struct RecordedObject {
     ContentHash mesh_sha256;
     std::string mesh_file;               ///< relative to the session's directory; empty without a mesh
     std::vector<std::string> part_names; ///< by PartIndex
-    Camera camera;              ///< a field of view of 0 if it is not known, as ready-made maps may leave it
+    /// By view; a field of view of 0 if it is not known, as ready-made maps may leave it.
+    std::vector<Camera> cameras = std::vector<Camera>(1);
     glm::dvec3 axis_point{0.0}; ///< through which the vertical axis of the turn goes
     Bounds bounds;              ///< by which the maps are coded
     /// Of all its lengths: "mm"; "own" if the protocol does not know it, or if maps came without a mesh and
     /// do not say it; empty in sessions of earlier programs, which did not write it down.
     std::string unit = "mm";
+
+    const Camera& camera(int view) const { return cameras.at(static_cast<std::size_t>(view)); }
 };
 
 struct RecordedMaterial {
@@ -130,12 +133,12 @@ struct RecordedSlot {
     bool operator==(const RecordedSlot&) const = default;
 };
 
-/// A coordinate-encoded map of an object in a pose.
+/// A coordinate-encoded map of an object in a view and a pose. It shows all materials and lights.
 struct RecordedMap {
     enum class Made : std::uint8_t { prepared, live };
     /// What its file holds: numbers of triangles (triangle_map.h), or coordinates (coordinate_image_file.h).
     enum class Kind : std::uint8_t { triangles, coordinates };
-    int object = 0;
+    ViewedObject viewed;
     PoseIndex pose;
     std::string file; ///< relative to the session's directory
     ContentHash sha256;
@@ -164,7 +167,7 @@ struct SessionHeader {
     std::string further_tracker = {};
     RecordedDisplay display;
     std::optional<RecordedCharacterisation> characterisation; ///< of the display, if the protocol names one
-    Animation animation;
+    std::vector<Animation> animations = std::vector<Animation>(1); ///< by motion
     PoseTable poses;
     std::vector<std::string> blocks; ///< ids; none: the protocol has no blocks
     std::vector<RecordedTask> tasks;
@@ -173,6 +176,17 @@ struct SessionHeader {
     std::vector<RecordedStimulus> stimuli;
     std::vector<RecordedMap> maps;
     std::vector<RecordedSlot> slots = {}; ///< as read: one at least, that of the image where none is recorded
+
+    const Animation& animation_of(const Stimulus& stimulus) const {
+        return animations.at(static_cast<std::size_t>(stimulus.motion));
+    }
+    const Camera& camera_of(const Stimulus& stimulus) const {
+        return objects.at(static_cast<std::size_t>(stimulus.object)).camera(stimulus.view);
+    }
+    /// What the plan has for each refresh of a presentation of a stimulus.
+    PageCycle page_cycle_of(const Stimulus& stimulus) const {
+        return make_page_cycle(animation_of(stimulus), poses.frames_of(stimulus.motion), display.refresh_hz);
+    }
 
     /// The screen with a slot's image on it.
     ScreenGeometry screen_of_slot(int slot) const {

@@ -25,11 +25,16 @@ CREATE TABLE material (material INTEGER PRIMARY KEY, id TEXT NOT NULL, title TEX
 CREATE TABLE stimulus (object INTEGER NOT NULL, material INTEGER NOT NULL, source TEXT NOT NULL,
                        frames_sha256 TEXT NOT NULL, PRIMARY KEY (object, material)) STRICT, WITHOUT ROWID;
 CREATE TABLE pose (pose INTEGER PRIMARY KEY, angle_deg REAL NOT NULL) STRICT;
-CREATE TABLE animation_frame (frame INTEGER PRIMARY KEY, pose INTEGER NOT NULL) STRICT;
-CREATE TABLE map (object INTEGER NOT NULL, pose INTEGER NOT NULL, file TEXT NOT NULL, sha256 TEXT NOT NULL,
+CREATE TABLE animation_frame (motion INTEGER NOT NULL DEFAULT 0, frame INTEGER NOT NULL, pose INTEGER NOT NULL,
+                              PRIMARY KEY (motion, frame)) STRICT, WITHOUT ROWID;
+CREATE TABLE camera (object INTEGER NOT NULL, view INTEGER NOT NULL, x REAL NOT NULL, y REAL NOT NULL,
+                     z REAL NOT NULL, target_x REAL NOT NULL, target_y REAL NOT NULL, target_z REAL NOT NULL,
+                     vertical_fov_deg REAL NOT NULL, PRIMARY KEY (object, view)) STRICT, WITHOUT ROWID;
+CREATE TABLE map (object INTEGER NOT NULL, view INTEGER NOT NULL DEFAULT 0, pose INTEGER NOT NULL,
+                  file TEXT NOT NULL, sha256 TEXT NOT NULL,
                   made TEXT NOT NULL CHECK (made IN ('prepared', 'live')),
                   kind TEXT NOT NULL DEFAULT 'triangles' CHECK (kind IN ('triangles', 'coordinates')),
-                  PRIMARY KEY (object, pose)) STRICT, WITHOUT ROWID;
+                  PRIMARY KEY (object, view, pose)) STRICT, WITHOUT ROWID;
 CREATE TABLE sitting (sitting INTEGER PRIMARY KEY, started_utc TEXT NOT NULL,
                       closed INTEGER NOT NULL,
                       resumed TEXT CHECK (resumed IN ('redo', 'skip', 'restart-block')),
@@ -224,7 +229,8 @@ CREATE TABLE IF NOT EXISTS run_option (
 
 void make_session_tables(SQLite::Database& database) {
     for (const std::string& sql :
-         {create_sql(session_table()), create_sql(characterisation_table()), create_sql(object_table())})
+         {create_sql(session_table()), create_sql(characterisation_table()), create_sql(object_table()),
+          create_sql(animation_table())})
         database.exec(sql);
     for (const char* const sql : {session_schema_sql, box_tables_sql, observer_tables_sql, ledger_tables_sql,
                                   slot_tables_sql, gaze_tables_sql, device_tables_sql, option_tables_sql})

@@ -19,6 +19,9 @@ struct Bounds {
     double diagonal() const { return glm::length(extent()); }
 };
 
+/// Largest number of vertices that a mesh may have, so that an index fits 31 bits.
+inline constexpr std::uint64_t max_mesh_vertices = 0x7fffffff;
+
 /// Index into Mesh::part_names.
 using PartIndex = std::uint8_t;
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "experiment/base/counted.h"
+#include "experiment/protocol/all_stimuli.h"
 #include "experiment/session/tracker_feed.h"
 #include "experiment/timing/refresh_ledger.h"
 #include "experiment/timing/slot_cycles.h"
@@ -32,9 +33,11 @@ std::string quantiles_of(std::vector<double> values) {
 PresentationCheck check_presentation(const Protocol& protocol, const Trial& trial,
                                      const PresentationCheckPorts& ports) {
     PresentationCheck check;
-    PageCycle cycle = make_page_cycle(protocol.animation, protocol.display.refresh_hz);
+    const Animation& motion = protocol.motion_of(trial.stimulus);
+    const std::vector<PageCycle> cycles = page_cycles(protocol);
+    PageCycle cycle = cycles[static_cast<std::size_t>(trial.stimulus.motion)];
     cycle.total_refreshes = std::min(cycle.total_refreshes, static_cast<int>(cycle.entry_of_refresh.size()));
-    RefreshLedger ledger(cycle, protocol.animation.when_late);
+    RefreshLedger ledger(cycle, motion.when_late);
     std::vector<TrackerFeed> feeds;
     for (const CheckedTracker& checked : ports.trackers)
         feeds.emplace_back(checked.tracker);
@@ -47,7 +50,10 @@ PresentationCheck check_presentation(const Protocol& protocol, const Trial& tria
 
     ports.presenter.load_slots(trial.all_shown());
     SlotCycles slots;
-    slots.begin(trial.index, std::vector<PageCycle>(trial.beside.size(), cycle));
+    std::vector<PageCycle> cycles_beside;
+    for (const PlacedStimulus& further : trial.beside)
+        cycles_beside.push_back(cycles[static_cast<std::size_t>(further.stimulus.motion)]);
+    slots.begin(trial.index, std::move(cycles_beside));
     ports.presenter.veil(true);
     ports.presenter.show({});
     ports.log.trial_started(trial, ports.clock.now());

@@ -147,8 +147,8 @@ void Session::run_practice(const SessionStep& step, const std::optional<Trial>& 
     TrialRun::Attempt attempt;
     do {
         state_.record().event({state_.now(), -1, practice_event,
-                               fmt::format("{}: {}, {}, {}", trial.index + 1, practice.task, practice.object,
-                                           practice.material)});
+                               fmt::format("{}: {}, {}", trial.index + 1, practice.task,
+                                           stimulus_in_words(state_.protocol, trial.stimulus))});
         state_.set_practice(true);
         attempt = trials_.run(trial, next, true);
         state_.set_practice(false);

@@ -8,6 +8,7 @@
 #include "experiment/base/counted.h"
 #include "experiment/ports/event_kinds.h"
 #include "experiment/ports/trial_mark.h"
+#include "experiment/protocol/all_stimuli.h"
 #include "experiment/session/session_screens.h"
 
 namespace overt {
@@ -35,8 +36,7 @@ void tell_of_flip(PresentationListener& listener, const FlipRecord& flip,
 TrialRun::TrialRun(SessionState& state, OperatorControl& control, const ScreenPoint& screen_centre)
     : state_(state), control_(control), drift_checks_(state, control, screen_centre),
       answers_(state, control),
-      cycle_(make_page_cycle(state.protocol.animation, state.protocol.display.refresh_hz)),
-      ledger_(cycle_, state.protocol.animation.when_late) {
+      cycles_(page_cycles(state.protocol)), ledger_(cycles_.front(), WhenLate::drop) {
     for (UsedTracker& used : state.trackers())
         feeds_.push_back({used, TrackerFeed(used.tracker)});
 }
@@ -111,11 +111,16 @@ void TrialRun::present(const Trial& trial, Attempt& attempt) {
     wait_and_take_items(trial.index, state_.now() + lead);
     for (PresentationListener* listener : ports.listeners)
         listener->presentation_begins(trial);
-    slots_.begin(trial.index, std::vector<PageCycle>(trial.beside.size(), cycle_));
+    std::vector<PageCycle> cycles_beside;
+    for (const PlacedStimulus& further : trial.beside)
+        cycles_beside.push_back(cycles_[static_cast<std::size_t>(further.stimulus.motion)]);
+    slots_.begin(trial.index, std::move(cycles_beside));
     ports.presenter.take_swap_modes(); // those before are not the presentation's
 
     const auto is_broken_off = [&] { return pressed_ && pressed_->key == ResponsePress::Key::abort; };
     // From here to the last flip nothing allocates, opens, throws or formats.
+    ledger_ = RefreshLedger(cycles_[static_cast<std::size_t>(trial.stimulus.motion)],
+                            state_.protocol.motion_of(trial.stimulus).when_late);
     ledger_.begin(trial.index);
     state_.markers.begin_presentation();
     while (!ledger_.is_complete() && !state_.went_away() && !is_broken_off() &&
@@ -244,6 +249,11 @@ void TrialRun::mark_result(const Trial& trial, const Attempt& attempt) {
     variable("task", state_.protocol.tasks[static_cast<std::size_t>(trial.task)].id);
     variable("object", state_.protocol.objects[static_cast<std::size_t>(trial.stimulus.object)].id);
     variable("material", state_.protocol.materials[static_cast<std::size_t>(trial.stimulus.material)].id);
+    for (const auto& [stimulus, slot] : trial.beside) {
+        const std::string in = state_.protocol.slots[static_cast<std::size_t>(slot)].id + ".";
+        variable(in + "object", state_.protocol.objects[static_cast<std::size_t>(stimulus.object)].id);
+        variable(in + "material", state_.protocol.materials[static_cast<std::size_t>(stimulus.material)].id);
+    }
     variable("missed_refreshes", fmt::format("{}", attempt.outcome.missed_refreshes));
     mark(MarkedEvent::result, now, fmt::format("TRIAL_RESULT {}", goes_on(attempt) ? 0 : 1));
 }

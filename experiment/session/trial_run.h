@@ -53,7 +53,7 @@ class TrialRun {
     OperatorControl& control_;
     DriftChecks drift_checks_;
     AnswerTaking answers_;
-    PageCycle cycle_;
+    std::vector<PageCycle> cycles_; ///< by motion
     RefreshLedger ledger_;
     SlotCycles slots_;
     /// Of one tracker of the session.

@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include "experiment/base/error.h"
-#include "experiment/scene/mesh_reader.h"
-#include "experiment/scene/ply_writer.h"
+#include "experiment/scene/files/mesh_reader.h"
+#include "experiment/scene/files/ply_writer.h"
 #include "experiment/scene/ray_caster.h"
 #include "experiment/scene/sculptures/sculptures.h"
 #include "experiment/scene/triangle_order.h"
@@ -66,8 +66,13 @@ Camera camera_of(const ViewSettings& settings, const Protocol& protocol, const M
     const Degrees natural =
         to_degrees({2.0 * std::atan(0.5 * image_px.y * mm_per_px / protocol.display.viewing_distance_mm)});
     const Degrees field = settings.vertical_fov_deg ? Degrees{*settings.vertical_fov_deg} : natural;
-    if (!settings.camera_position)
-        return fit_camera(mesh, field, image_px, protocol.animation.amplitude, settings.margin);
+    if (!settings.camera_position) {
+        // One camera for all motions, so that they share maps.
+        Degrees largest_turn{0.0};
+        for (const Animation& motion : protocol.motions)
+            largest_turn.value = std::max(largest_turn.value, motion.largest_turn().value);
+        return fit_camera(mesh, field, image_px, largest_turn, settings.margin);
+    }
     return {*settings.camera_position - origin,
             settings.camera_target ? *settings.camera_target - origin : mesh.bounds().centre(), field};
 }
@@ -97,6 +102,7 @@ Object load_object(const ObjectSettings& settings, const Protocol& protocol,
                    const std::filesystem::path& cache) {
     Object object;
     object.id = settings.id;
+    object.scenes.resize(protocol.views.size());
     if (!settings.shipped.empty()) {
         object.mesh = shipped_sculpture(settings.shipped, cache);
     } else if (!settings.mesh.empty()) {
@@ -114,20 +120,27 @@ Object load_object(const ObjectSettings& settings, const Protocol& protocol,
         return object;
     }
     object.mesh_hash = hash_of_mesh(object.mesh);
-    object.scene.view.image_px = {protocol.view.width_px, protocol.view.height_px};
-    object.scene.bounds = object.mesh.bounds();
-    object.scene.view.camera = camera_of(protocol.view, protocol, object.mesh, object.origin);
-    try {
-        depth_range(object.scene.bounds, object.scene.view);
-    } catch (const InputError& error) {
-        throw InputError(fmt::format("object \"{}\": {}", settings.id, error.what()));
+    for (std::size_t i = 0; i < object.scenes.size(); ++i) {
+        const ViewSettings& view = protocol.views[i];
+        SceneView& scene = object.scenes[i];
+        scene.view.image_px = {view.width_px, view.height_px};
+        scene.bounds = object.mesh.bounds();
+        scene.view.camera = camera_of(view, protocol, object.mesh, object.origin);
+        try {
+            depth_range(scene.bounds, scene.view);
+        } catch (const InputError& error) {
+            throw InputError(fmt::format("object \"{}\"{}: {}", settings.id,
+                                         protocol.views.size() == 1 ? "" : fmt::format(", view \"{}\"", view.id),
+                                         error.what()));
+        }
     }
     return object;
 }
 
-bool is_in_picture(const Object& object, Degrees angle) {
-    const View& view = object.scene.view;
-    const TurntablePose pose = object.scene.pose_at(angle);
+bool is_in_picture(const Object& object, int of_view, Degrees angle) {
+    const SceneView& scene = object.scene(of_view);
+    const View& view = scene.view;
+    const TurntablePose pose = scene.pose_at(angle);
     const glm::dmat4 world_from_object = pose.world_from_object();
     const glm::dvec2 size(view.image_px);
     const bool has_vertex =

@@ -1,4 +1,5 @@
-/// Coordinate-encoded maps that another program made of its own frames: the protocol's key `lut`.
+/// Coordinate-encoded maps that another program made of its own frames: the protocol's key `lut`. They have
+/// the numbers of a motion's frames, in one view: a protocol with such maps has one motion and one view.
 #pragma once
 
 #include <functional>
@@ -20,7 +21,7 @@ ContentHash hash_of_given_map(const Protocol& protocol, int object, AnimationFra
 /// InputError as read_given_map does, and if a head is described that no map shows.
 std::vector<std::string> check_given_maps(const Protocol& protocol, int object);
 
-/// The first frame that shows a pose.
+/// The first frame of the only motion that shows a pose.
 AnimationFrameIndex first_frame_of(const PoseTable& poses, PoseIndex pose);
 
 } // namespace overt

@@ -17,7 +17,7 @@ std::uint64_t bits(Degrees angle) { return std::bit_cast<std::uint64_t>(angle.va
 
 TEST_CASE("the 61 frames of a cycle go through 31 distinct poses", "[unit]") {
     const PoseTable poses = distinct_poses(Animation{});
-    CHECK(poses.of_frame.size() == 61);
+    CHECK(poses.frames_of(0).size() == 61);
     CHECK(poses.angles.size() == 31);
 }
 
@@ -61,7 +61,7 @@ TEST_CASE("every frame has the angle of its pose, whatever the number of frames"
             animation.playback = playback;
             const PoseTable poses = distinct_poses(animation);
             for (int k = 0; k < frames; ++k) {
-                const PoseIndex pose = poses.pose_of({k});
+                const PoseIndex pose = poses.pose_of(0, {k});
                 REQUIRE(bits(poses.angles[static_cast<std::size_t>(pose.value)]) ==
                         bits(animation.angle_of({k})));
             }
@@ -79,7 +79,7 @@ TEST_CASE("eight seconds at 120 Hz are 240 frames of 4 refreshes, four cycles of
     for (int refresh = 0; refresh < 960; ++refresh) {
         const PageCycleEntry& entry = cycle.entry_at(refresh);
         REQUIRE(entry.frame.value == refresh / 4 % 60);
-        REQUIRE(entry.pose == distinct_poses(animation).pose_of(entry.frame));
+        REQUIRE(entry.pose == distinct_poses(animation).pose_of(0, entry.frame));
         REQUIRE(entry.refreshes == 4);
     }
 }

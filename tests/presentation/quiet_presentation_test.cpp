@@ -77,8 +77,8 @@ void run_quietly(const DisplayFaults& faults) {
     Schedule schedule;
     schedule.trials = {{0, 0, {}}, {1, 1, {}}, {2, 0, {}}};
     SessionHeader header = testing::example_header();
-    header.animation = protocol.animation;
-    header.poses = distinct_poses(protocol.animation);
+    header.animations[0] = protocol.motions.front();
+    header.poses = distinct_poses(protocol.motions.front());
     const auto session = testing::make_session(root.path(), header);
     {
         SessionStore store(session / session_file_name, testing::patient());

@@ -21,7 +21,7 @@ SampleJoin::SampleJoin(const SessionRecord& record, const TrialRecord& trial, co
 SampleJoin::SampleJoin(const SessionRecord& record, const TrialRecord& trial,
                        const std::optional<TrialLedger>& ledger, const SurfaceLookup* lookup)
     : SampleJoin(record.header().screen_of_slot(trial.trial.slot), record.clock_map(trial),
-                 record.flip_history(ledger), lookup, !trial.trial.beside.empty()) {}
+                 record.flip_history(trial, ledger), lookup, !trial.trial.beside.empty()) {}
 
 SampleJoin::SampleJoin(const ScreenGeometry& screen, std::optional<ClockMap> clock_map, FlipHistory history,
                        const SurfaceLookup* lookup, bool has_other_slots)

@@ -81,11 +81,12 @@ std::vector<FlipRecord> SessionRecord::flips(const TrialRecord& trial) const {
                         has_column(*database_, "flip", "uncertainty_ns") ? "uncertainty_ns" : "0"),
             [&](Query& row) { return read_flip(row, trial.trial.index); }, trial.id);
     });
+    const int frame_count = header_.animation_of(trial.trial.stimulus).frame_count;
     if (trial.place > 0)
         take_slot_flips(*database_, trial, rows);
     for (const FlipRecord& flip : rows) {
         const auto is_frame = [&](AnimationFrameIndex frame) {
-            return frame == no_frame || (frame.value >= 0 && frame.value < header_.animation.frame_count);
+            return frame == no_frame || (frame.value >= 0 && frame.value < frame_count);
         };
         if (flip.pose.value < 0 || static_cast<std::size_t>(flip.pose.value) >= header_.poses.angles.size() ||
             !is_frame(flip.shown) || !is_frame(flip.planned))
@@ -199,14 +200,15 @@ std::optional<TrialLedger> SessionRecord::ledger(const TrialRecord& trial) const
     return TrialLedger{std::move(recorded), std::move(fit)};
 }
 
-FlipHistory SessionRecord::flip_history(const std::optional<TrialLedger>& ledger) const {
+FlipHistory SessionRecord::flip_history(const TrialRecord& trial,
+                                        const std::optional<TrialLedger>& ledger) const {
     const RecordedDisplay& display = header_.display;
     // Of an imported session not even the refresh rate may be known.
     if (!ledger)
         return FlipHistory({}, {{}, 1.0, 1.0}, {});
     return FlipHistory(ledger->fit.flips(),
                        {display.latency, display.refresh_hz, static_cast<double>(display.screen.screen_px.y)},
-                       make_page_cycle(header_.animation, display.refresh_hz));
+                       header_.page_cycle_of(trial.trial.stimulus));
 }
 
 } // namespace overt

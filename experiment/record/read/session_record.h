@@ -229,7 +229,7 @@ class SessionRecord {
     std::optional<TrialLedger> ledger(const TrialRecord& trial) const;
 
     /// A trial's frames as they were lit on this session's display, at the times of the ledger's line.
-    FlipHistory flip_history(const std::optional<TrialLedger>& ledger) const;
+    FlipHistory flip_history(const TrialRecord& trial, const std::optional<TrialLedger>& ledger) const;
 
     /// The latest session time that any row names: from here on a resumed session's clock may go on.
     SessionTime last_time() const;

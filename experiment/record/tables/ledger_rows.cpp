@@ -87,7 +87,7 @@ std::int64_t write_ledger(TableWriter& writer, const RowLayout<LedgerRow>& layou
     if (!ledger)
         return 0;
     const auto& [recorded, fit] = *ledger;
-    const PageCycle plan = make_page_cycle(header.animation, header.display.refresh_hz);
+    const PageCycle plan = header.page_cycle_of(trial.trial.stimulus);
     const auto planned_at = [&](int refresh) {
         return refresh < plan.total_refreshes ? plan.entry_at(refresh).frame : no_frame;
     };

@@ -85,7 +85,7 @@ SampleCounts SampleRows::write(TableWriter& to, const TrialRecord& trial,
 
 SampleCounts SampleRows::write_after(TableWriter& to, const TrialRecord& trial) {
     const SampleJoin join(header_.display.screen, record_.clock_map(trial),
-                          record_.flip_history(std::nullopt), nullptr);
+                          record_.flip_history(trial, std::nullopt), nullptr);
     return write_all(to, trial, join, nullptr, nullptr);
 }
 

@@ -46,8 +46,8 @@ class TableExport {
             writers_.try_emplace(table, directory, *table, format_);
     }
 
-    /// What the samples of the object's presentations are to be joined with.
-    void begin_object(int object, const SurfaceLookup* lookup);
+    /// What the samples of presentations of the object in a view are to be joined with.
+    void begin_object(const ViewedObject& viewed, const SurfaceLookup* lookup);
     /// Puts the samples and events of a presentation aside: those of one object come one after another.
     void join_samples(const TrialRecord& trial);
     /// With what was put aside.
@@ -112,10 +112,10 @@ class TableExport {
     const std::vector<RecordedAccuracy> validations_;
 };
 
-void TableExport::begin_object(int object, const SurfaceLookup* lookup) {
-    const RecordedObject& recorded = item(header_.objects, object);
+void TableExport::begin_object(const ViewedObject& viewed, const SurfaceLookup* lookup) {
+    const RecordedObject& recorded = item(header_.objects, viewed.object);
     lookup_ = lookup;
-    scale_ = object_scale(recorded.camera, recorded.axis_point, header_.display.screen, recorded.unit);
+    scale_ = object_scale(recorded.camera(viewed.view), recorded.axis_point, header_.display.screen, recorded.unit);
     ways_.reset();
     const auto* maps = dynamic_cast<const CoordinateMaps*>(lookup);
     if (maps && scale_)
@@ -295,15 +295,15 @@ TableExportCounts export_tables(const SessionRecord& record, const LookupFor& lo
     const int all = static_cast<int>(record.trials().size());
     int done = 0;
     // Object by object, for the maps of one take much memory, and making them ready much time.
-    std::set<int> objects;
+    std::set<ViewedObject> seen;
     const std::vector<TrialRecord> presentations = record.presentations();
     for (const TrialRecord& trial : presentations)
         if (trial.counts)
-            objects.insert(trial.trial.stimulus.object);
-    for (const int object : objects) {
+            seen.insert(viewed(trial.trial.stimulus));
+    for (const ViewedObject& object : seen) {
         tables.begin_object(object, lookup_for(object));
         for (const TrialRecord& trial : presentations) {
-            if (!trial.counts || trial.trial.stimulus.object != object)
+            if (!trial.counts || viewed(trial.trial.stimulus) != object)
                 continue;
             tables.join_samples(trial);
             if (options.progress && trial.place == 0)

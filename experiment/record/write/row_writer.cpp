@@ -58,7 +58,7 @@ RowWriter::RowWriter(const std::filesystem::path& session_file, const Sitting& s
       insert_clock_pair_(database_, "INSERT INTO clock_pair VALUES (NULL,?,?,?,?)"),
       insert_event_(database_, "INSERT INTO event VALUES (NULL,?,?,?,?,?)"),
       insert_map_(database_,
-                  "INSERT OR REPLACE INTO map (object, pose, file, sha256, made) VALUES (?,?,?,?,?)"),
+                  "INSERT OR REPLACE INTO map (object, view, pose, file, sha256, made) VALUES (?,?,?,?,?,?)"),
       insert_trial_(database_,
                     "INSERT INTO trial (trial_id, sitting, trial, attempt, task, object, material, "
                     "status, started_ns) VALUES (?,?,?,?,?,?,?,'open',?)"),
@@ -274,7 +274,7 @@ void RowWriter::write(const EventRow& event) {
 
 void RowWriter::write(const RecordedMap& map) {
     begin_sealed();
-    run_statement(insert_map_, map.object, map.pose.value, map.file, map.sha256,
+    run_statement(insert_map_, map.viewed.object, map.viewed.view, map.pose.value, map.file, map.sha256,
                   map.made == RecordedMap::Made::prepared ? "prepared" : "live");
 }
 

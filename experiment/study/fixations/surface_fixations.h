@@ -42,7 +42,7 @@ struct FixationContext {
     const GazeCone* cone = nullptr;         ///< the same
     const ScreenGeometry* screen = nullptr; ///< for the error of the look-up; null: it is not reckoned
     const LightScores* light = nullptr;     ///< of the stimulus; null: not known
-    std::span<const double> pose_seconds{}; ///< how long a presentation shows each pose, by PoseIndex
+    const ShownPictures* pictures = nullptr; ///< of the stimulus's motion; with `light`
     /// Of the presentation in one of several slots: fixations in no frame of it are others', and left out.
     bool has_other_slots = false;
 };

@@ -106,11 +106,10 @@ PoseExposure exposure_of_pose(const CoordinateMaps& maps, PoseIndex pose) {
 
 } // namespace
 
-Exposure exposure_of(const CoordinateMaps& maps, const Animation& animation, const PoseTable& poses) {
+Exposure exposure_of(const CoordinateMaps& maps, std::span<const double> seconds) {
     const std::size_t vertices = maps.mesh().positions.size();
     Exposure exposure{std::vector<float>(vertices, 0.0f), std::vector<double>(vertices, 0.0),
                       std::vector<double>(maps.mesh().part_names.size(), 0.0)};
-    const std::vector<double> seconds = seconds_of_poses(animation, poses);
     // A few poses at a time: what each gives is added in their order.
     constexpr std::size_t at_a_time = 8;
     for (std::size_t begin = 0; begin < seconds.size(); begin += at_a_time) {

@@ -103,11 +103,11 @@ StimulusSetup stimuli_of(const SessionHeader& header) {
         stimuli.image_deg = {angle_deg(image_mm.x, screen.viewing_distance_mm),
                              angle_deg(image_mm.y, screen.viewing_distance_mm)};
     }
-    stimuli.frame_count = header.animation.frame_count;
-    stimuli.frame_rate_hz = header.animation.frame_rate_hz;
-    stimuli.amplitude_deg = header.animation.amplitude.value;
-    stimuli.playback = header.animation.playback;
-    stimuli.duration_s = header.animation.duration_s;
+    stimuli.frame_count = header.animations.front().frame_count;
+    stimuli.frame_rate_hz = header.animations.front().frame_rate_hz;
+    stimuli.amplitude_deg = header.animations.front().amplitude.value;
+    stimuli.playback = header.animations.front().playback;
+    stimuli.duration_s = header.animations.front().duration_s;
     return stimuli;
 }
 

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <map>
 #include <mutex>
+#include <numeric>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -99,8 +100,11 @@ class StudyReader {
         if (header.slots.size() > 1)
             take_levels("slot", header.slots, id_of);
         take_levels("block", header.blocks, [](const std::string& block) { return block; });
-        for (int i = 0; i < static_cast<int>(header.objects.size()); ++i)
-            open_[index].objects.push_back(object_of(index, i));
+        for (int object = 0; object < static_cast<int>(header.objects.size()); ++object) {
+            const std::size_t views = header.objects[static_cast<std::size_t>(object)].cameras.size();
+            for (int view = 0; view < static_cast<int>(views); ++view)
+                open_[index].objects[{object, view}] = object_of(index, {object, view});
+        }
         results().sessions.push_back(describe_session(open_[index], path));
     }
 
@@ -122,8 +126,8 @@ class StudyReader {
         }
     }
 
-    /// The study's index of a session's object, which is new or was in a session before.
-    int object_of(std::size_t session, int own) {
+    /// The study's index of a session's object in a view, which is new or was in a session before.
+    int object_of(std::size_t session, const ViewedObject& own) {
         const SessionHeader& header = open_[session].record().header();
         for (std::size_t i = 0; i < shown_in_.size(); ++i) {
             const auto [other, index] = shown_in_[i];
@@ -175,8 +179,17 @@ class StudyReader {
         });
     }
 
-    /// Of an object's stimuli by the hash of their frames.
-    using LightOfStimuli = std::map<ContentHash, LightScores>;
+    /// Of an object's stimuli by the hash of their frames, and the angles of their pictures, which are not in
+    /// the hash.
+    using LightKey = std::pair<ContentHash, std::vector<Degrees>>;
+    using LightOfStimuli = std::map<LightKey, LightScores>;
+
+    static LightKey light_key(const SessionHeader& header, const RecordedStimulus& stimulus) {
+        LightKey key{stimulus.frames_sha256, {}};
+        for (const Pose& pose : header.animation_of(stimulus.stimulus).pictures())
+            key.second.push_back(pose.object);
+        return key;
+    }
 
     /// Each from the first session that has it. A file that cannot be read is as good as none.
     LightOfStimuli load_light(int index, const SurfaceLookup* lookup) {
@@ -185,15 +198,15 @@ class StudyReader {
             const SessionRecord& record = open_[session].record();
             const SessionHeader& header = record.header();
             for (const RecordedStimulus& stimulus : header.stimuli) {
-                const auto own = static_cast<std::size_t>(stimulus.stimulus.object);
+                LightKey key = light_key(header, stimulus);
+                const auto pictures = static_cast<int>(key.second.size());
                 const std::filesystem::path file = record.directory() / light_file(header, stimulus.stimulus);
-                if (open_[session].objects[own] != index || light.contains(stimulus.frames_sha256) ||
+                if (open_[session].objects.at(viewed(stimulus.stimulus)) != index || light.contains(key) ||
                     !std::filesystem::exists(file))
                     continue;
                 try {
-                    light.emplace(stimulus.frames_sha256, LightScores(read_light_pictures(
-                                                              file, header.display.screen.image_px,
-                                                              static_cast<int>(header.poses.angles.size()))));
+                    light.emplace(std::move(key), LightScores(read_light_pictures(
+                                                      file, header.display.screen.image_px, pictures)));
                 } catch (const InputError& error) {
                     results().remarks.push_back(
                         fmt::format("The light of a stimulus is left out: {}", error.what()));
@@ -206,7 +219,7 @@ class StudyReader {
     static const LightScores* light_of(const LightOfStimuli& light, const SessionHeader& header,
                                        const TrialRecord& trial) {
         const RecordedStimulus* const stimulus = stimulus_of(header, trial.trial.stimulus);
-        const auto found = stimulus ? light.find(stimulus->frames_sha256) : light.end();
+        const auto found = stimulus ? light.find(light_key(header, *stimulus)) : light.end();
         return found == light.end() ? nullptr : &found->second;
     }
 
@@ -252,8 +265,8 @@ class StudyReader {
     }
 
     bool is_of(std::size_t session, const TrialRecord& trial, int object) const {
-        const auto own = static_cast<std::size_t>(trial.trial.stimulus.object);
-        return trial.counts && own < open_[session].objects.size() && open_[session].objects[own] == object;
+        const auto own = open_[session].objects.find(viewed(trial.trial.stimulus));
+        return trial.counts && own != open_[session].objects.end() && own->second == object;
     }
 
     /// From the first session that has it whole.
@@ -261,13 +274,12 @@ class StudyReader {
         const SurfaceLookup* lookup = nullptr;
         std::string fault;
         for (std::size_t session = 0; session < open_.size() && !lookup; ++session) {
-            const std::vector<int>& own = open_[session].objects;
-            const auto found = std::find(own.begin(), own.end(), index);
+            const std::map<ViewedObject, int>& own = open_[session].objects;
+            const auto found = std::ranges::find(own, index, [](const auto& one) { return one.second; });
             if (found == own.end())
                 continue;
             try {
-                lookup =
-                    surface_for_(open_[session].record(), session, static_cast<int>(found - own.begin()));
+                lookup = surface_for_(open_[session].record(), session, found->first);
             } catch (const Error& error) {
                 if (fault.empty())
                     fault = error.what();
@@ -278,16 +290,43 @@ class StudyReader {
         return lookup;
     }
 
+    /// How long a presentation of an object shows each pose as planned, by PoseIndex: the mean over the trials
+    /// that count, and over all motions if there is none.
+    std::vector<double> seconds_shown(int index) const {
+        const SessionHeader& header =
+            open_[shown_in_[static_cast<std::size_t>(index)].first].record().header();
+        std::vector<double> trials(header.animations.size(), 0.0);
+        // Sessions of one object have the same poses; motions have their numbers in the session.
+        for (std::size_t session = 0; session < open_.size(); ++session) {
+            for (const TrialRecord& trial : open_[session].record().trials()) {
+                const auto motion = static_cast<std::size_t>(trial.trial.stimulus.motion);
+                if (is_of(session, trial, index) && motion < trials.size())
+                    trials[motion] += 1.0;
+            }
+        }
+        double all = std::accumulate(trials.begin(), trials.end(), 0.0);
+        if (!(all > 0.0)) {
+            trials.assign(trials.size(), 1.0);
+            all = static_cast<double>(trials.size());
+        }
+        std::vector<double> seconds(header.poses.angles.size(), 0.0);
+        for (std::size_t motion = 0; motion < trials.size(); ++motion) {
+            const std::vector<double> of_motion =
+                seconds_of_poses(header.animations[motion], header.poses, static_cast<int>(motion));
+            for (std::size_t pose = 0; pose < seconds.size(); ++pose)
+                seconds[pose] += trials[motion] / all * of_motion[pose];
+        }
+        return seconds;
+    }
+
     void find_exposure(int index, const SurfaceLookup* lookup) {
         StudyObject& object = results().objects[static_cast<std::size_t>(index)];
         ObjectSurface& surface = study_.surfaces[static_cast<std::size_t>(index)];
         const auto* maps = dynamic_cast<const CoordinateMaps*>(lookup);
         if (!maps)
             return;
-        const SessionHeader& header =
-            open_[shown_in_[static_cast<std::size_t>(index)].first].record().header();
         progress_(fmt::format("exposure of {}", object.id), 0, 1);
-        Exposure exposure = exposure_of(*maps, header.animation, header.poses);
+        Exposure exposure = exposure_of(*maps, seconds_shown(index));
         if (surface.scale) {
             const ScreenGeometry& screen = object.screen;
             const double px_mm = screen.screen_mm.y / screen.screen_px.y / surface.scale->shown_size;
@@ -316,7 +355,7 @@ class StudyReader {
                     if (key.column == "observer")
                         key.value = results().sessions[session].observer;
                 read.trial.object =
-                    open_[session].objects[static_cast<std::size_t>(trials[t].trial.stimulus.object)];
+                    open_[session].objects.at(viewed(trials[t].trial.stimulus));
                 read.trial.first_fixation = results().fixations.size();
                 read.trial.fixations = read.fixations.size();
                 for (StudyFixation& fixation : read.fixations) {
@@ -383,7 +422,8 @@ class StudyReader {
     const StudyOptions& options_;
     const StudyProgress& progress_;
     std::vector<OpenSession> open_;
-    std::vector<std::pair<std::size_t, int>> shown_in_; ///< by object: a session that has it, and its index
+    /// By object: a session that has it, and what it is there.
+    std::vector<std::pair<std::size_t, ViewedObject>> shown_in_;
     std::vector<ReadSession> read_;                     ///< by session
     ReadStudy study_;
 };

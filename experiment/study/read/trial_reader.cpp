@@ -155,7 +155,9 @@ ReadTrial read_trial(const SessionRecord& record, const TrialRecord& trial, cons
     if (surface.lookup && surface.scale)
         cone.emplace(screen, Degrees{of.quality.accuracy_deg.value_or(GazeCone::usual_accuracy.value)},
                      cone_directions);
-    const std::vector<double> pose_seconds = seconds_of_poses(header.animation, header.poses);
+    const Stimulus& stimulus = trial.trial.stimulus;
+    const ShownPictures pictures =
+        shown_pictures(header.animation_of(stimulus), header.poses.frames_of(stimulus.motion));
     const FixationContext context{options,
                                   placed.samples,
                                   clock_map,
@@ -171,7 +173,7 @@ ReadTrial read_trial(const SessionRecord& record, const TrialRecord& trial, cons
                                   cone ? &*cone : nullptr,
                                   &screen,
                                   surface.light,
-                                  pose_seconds,
+                                  &pictures,
                                   has_other_slots};
     for (const GazeEvent& event : events) {
         if (event.kind != GazeEvent::Kind::fixation)

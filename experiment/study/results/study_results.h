@@ -18,7 +18,7 @@
 
 #include "experiment/animation.h"
 #include "experiment/gaze_event.h"
-#include "experiment/scene/mesh_parts.h"
+#include "experiment/scene/making/mesh_parts.h"
 #include "experiment/scene/viewing.h"
 #include "experiment/screen_geometry.h"
 #include "experiment/statistics/estimate.h"

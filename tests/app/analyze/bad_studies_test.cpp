@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sched.h>
 
-#include "experiment/scene/ply_writer.h"
+#include "experiment/scene/files/ply_writer.h"
 #include "tests/app/analyze/small_study.h"
 #include "tests/support/tsv_file.h"
 

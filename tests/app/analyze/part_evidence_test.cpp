@@ -28,10 +28,10 @@ class PlantedStudies {
     PlantedStudies() {
         const View view{fit_camera(mesh_, {11.9}, {1024, 1024}, {25.0}, 0.06), {1024, 1024}};
         scene_.objects = {{&mesh_, SceneView{view, mesh_.bounds()}}};
-        scene_.animation.frame_count = 31;
+        scene_.animations[0].frame_count = 31;
         for (const double share : planted)
             scene_.tasks.push_back({"", share});
-        poses_ = distinct_poses(scene_.animation);
+        poses_ = distinct_poses(scene_.animations[0]);
         targets_ = std::make_unique<GazeTargets>(scene_.objects[0], scene_);
         turn_ = std::make_unique<PursuedTurn>(scene_);
     }
@@ -55,11 +55,11 @@ class PlantedStudies {
                 const glm::dvec2 off = error * glm::dvec2(random.normal(), random.normal());
                 for (std::size_t i = 1; i < script.fixations().size(); ++i) {
                     const ScriptedFixation& of = script.fixations()[i];
-                    if (!of.target || to_seconds(of.begin) >= scene_.animation.duration_s)
+                    if (!of.target || to_seconds(of.begin) >= scene_.animations[0].duration_s)
                         continue;
                     const SessionDuration middle = (of.begin + of.end) / 2 - of.light_delay;
                     const PoseIndex pose =
-                        poses_.pose_of(scene_.animation.frame_at_step(turn_->step_at(middle)));
+                        poses_.pose_of(0, scene_.animations[0].frame_at_step(turn_->step_at(middle)));
                     const glm::dvec2 place =
                         targets_->project(of.target->position,
                                           targets_->world_from_object(turn_->angle_at(middle))) +

@@ -33,12 +33,12 @@ Experiment busts(int tasks) {
         protocol.tasks.push_back(task);
     }
     protocol.schedule.max_object_run = 0;
-    protocol.view.width_px = protocol.view.height_px = 512;
+    protocol.views.front().width_px = protocol.views.front().height_px = 512;
     Object bust;
     bust.id = "bust";
     bust.mesh = test::bust();
     const View view{fit_camera(bust.mesh, {11.9}, {512, 512}, {25.0}, 0.06), {512, 512}};
-    bust.scene = {view, bust.mesh.bounds()};
+    bust.scenes = {{view, bust.mesh.bounds()}};
     experiment.objects.push_back(std::move(bust));
     return experiment;
 }

@@ -6,7 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include "app/stimuli/head_outline.h"
-#include "experiment/scene/mesh_reader.h"
+#include "experiment/scene/files/mesh_reader.h"
 #include "tests/app/small_experiment.h"
 #include "tests/experiment/protocol/protocol_fixtures.h"
 #include "tests/support/running_program.h"

@@ -35,7 +35,7 @@ TEST_CASE("a view meets the surface where the session's own maps have it, and ad
     RecordedSurfaces surfaces(record);
     const ScreenGeometry& screen = record.header().display.screen;
     const auto object = std::make_shared<const WatchedObject>(folder, "bust");
-    const SurfaceLookup* const maps = surfaces.lookup_of(0);
+    const SurfaceLookup* const maps = surfaces.lookup_of({0});
     REQUIRE(maps);
     int met = 0, missed = 0;
     std::optional<RayHit> first, last;

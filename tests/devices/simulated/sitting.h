@@ -46,7 +46,7 @@ class Sitting {
         const Trial& trial, const std::vector<int>& missed = {},
         const std::function<void()>& at_flip = [] {}) {
         const ObservedScene& scene = observer.scene();
-        const PageCycle cycle = make_page_cycle(scene.animation, scene.refresh_hz);
+        const PageCycle cycle = make_page_cycle(scene.animations[0], scene.refresh_hz);
         flips.clear();
         flips.reserve(static_cast<std::size_t>(cycle.total_refreshes));
         observer.screen_shown({}, next_blank());

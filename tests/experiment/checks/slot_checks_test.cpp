@@ -102,12 +102,12 @@ TEST_CASE("the object takes the same share of a slot as of the image of the view
     const ScreenGeometry at = slot_geometry(*fitted.protocol, fitted.protocol->slots[0]);
     CHECK(screen_geometry_of(*fitted.protocol).image_px == at.image_px);
     CHECK(at.image_px.x > at.image_px.y);
-    CHECK(!fitted.protocol->view.vertical_fov_deg); // what the observer sees of the slot
+    CHECK(!fitted.protocol->views.front().vertical_fov_deg); // what the observer sees of the slot
     // A camera that stands somewhere sees as much of the object as in the image of the view.
     const ReadText placed(minimal_protocol,
                           slot + "[view]\ncamera_position = [0, -900, 0]\nheight_px = 1000\n");
     REQUIRE(placed.protocol);
-    CHECK(std::tan(0.5 * to_radians({*placed.protocol->view.vertical_fov_deg}).value) ==
+    CHECK(std::tan(0.5 * to_radians({*placed.protocol->views.front().vertical_fov_deg}).value) ==
           Approx(0.5 * 1000 * (392.9 / 1080) / 1750.0));
 }
 

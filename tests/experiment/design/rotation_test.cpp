@@ -71,7 +71,7 @@ Protocol random_design(RandomStream& random) {
         BlockSettings block;
         block.id = "b" + std::to_string(i);
         block.order = OrderMethod::blocked;
-        block.by = random.below(2) == 0 ? TrialFactor::task : TrialFactor::material;
+        block.by = random.below(2) == 0 ? "task" : "material";
         block.levels = squares[random.below(3)];
         protocol.blocks.push_back(block);
     }

@@ -38,9 +38,10 @@ std::vector<Row> rows_of(const std::string& tsv) {
 /// How the frames of a row's stimulus were made, by the session's header.
 std::string frames_of(const SessionHeader& header, const Row& row) {
     for (const RecordedStimulus& stimulus : header.stimuli) {
-        const auto& [object, material] = stimulus.stimulus;
-        if (header.objects[static_cast<std::size_t>(object)].id == row.at("object") &&
-            header.materials[static_cast<std::size_t>(material)].id == row.at("material"))
+        const auto object = static_cast<std::size_t>(stimulus.stimulus.object),
+                   material = static_cast<std::size_t>(stimulus.stimulus.material);
+        if (header.objects[object].id == row.at("object") &&
+            header.materials[material].id == row.at("material"))
             return stimulus.source;
     }
     return "n/a";

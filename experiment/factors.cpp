@@ -1,0 +1,134 @@
+#include "experiment/factors.h"
+
+#include <algorithm>
+
+#include "experiment/base/error.h"
+
+namespace overt {
+
+namespace {
+
+Factor factor_of_ids(std::string name, Factor::Source source, const std::vector<std::string>& ids) {
+    Factor factor{std::move(name), source, 0, {}, {}};
+    for (const std::string& id : ids)
+        factor.levels.push_back({id});
+    return factor;
+}
+
+Factor factor_of_list(std::size_t list, const std::vector<ListEntry>& entries) {
+    Factor factor{std::string(stimulus_lists[list].name), Factor::Source::list, list, {}, {}};
+    for (const ListEntry& entry : entries) {
+        factor.level_of_entry.push_back(static_cast<int>(factor.levels.size()));
+        factor.levels.push_back({entry.id});
+    }
+    return factor;
+}
+
+const NamedWord* column_of(const ListEntry& entry, std::string_view name) {
+    const auto found = std::ranges::find(entry.columns, name, &NamedWord::name);
+    return found == entry.columns.end() ? nullptr : &*found;
+}
+
+Factor factor_of_column(std::string_view name, std::size_t list, const std::vector<ListEntry>& entries) {
+    Factor factor{std::string(name), Factor::Source::column, list, {}, {}};
+    const auto level_of = [&](const ListEntry& entry) {
+        const NamedWord* column = column_of(entry, name);
+        return column ? FactorLevel{column->text, column->number} : FactorLevel{std::string(no_level)};
+    };
+    for (const ListEntry& entry : entries)
+        if (std::ranges::find(factor.levels, level_of(entry)) == factor.levels.end())
+            factor.levels.push_back(level_of(entry));
+    // Words keep the order of the file, and come behind the numbers.
+    std::ranges::stable_sort(factor.levels, [](const FactorLevel& one, const FactorLevel& other) {
+        return one.number && (!other.number || *one.number < *other.number);
+    });
+    for (const ListEntry& entry : entries)
+        factor.level_of_entry.push_back(
+            static_cast<int>(std::ranges::find(factor.levels, level_of(entry)) - factor.levels.begin()));
+    return factor;
+}
+
+} // namespace
+
+Factors::Factors(const FactorSources& sources) {
+    all_.push_back(factor_of_ids("task", Factor::Source::task, sources.tasks));
+    for (std::size_t list = 0; list < stimulus_lists.size(); ++list) {
+        entries_[list] = sources.lists[list].size();
+        all_.push_back(factor_of_list(list, sources.lists[list]));
+    }
+    all_.push_back(factor_of_ids("stimulus", Factor::Source::stimulus, {}));
+    if (!sources.blocks.empty())
+        all_.push_back(factor_of_ids("block", Factor::Source::block, sources.blocks));
+    for (std::size_t list = 0; list < stimulus_lists.size(); ++list)
+        for (const ListEntry& entry : sources.lists[list])
+            for (const NamedWord& column : entry.columns)
+                if (!find(column.name))
+                    all_.push_back(factor_of_column(column.name, list, sources.lists[list]));
+}
+
+const Factor* Factors::find(std::string_view name) const {
+    const auto found = std::ranges::find(all_, name, &Factor::name);
+    return found == all_.end() ? nullptr : &*found;
+}
+
+const Factor& Factors::at(std::string_view name) const {
+    const Factor* factor = find(name);
+    OVERT_EXPECTS(factor != nullptr);
+    return *factor;
+}
+
+std::vector<std::string_view> Factors::names() const {
+    std::vector<std::string_view> names;
+    for (const Factor& factor : all_)
+        names.push_back(factor.name);
+    return names;
+}
+
+int Factors::level_of(const Factor& factor, const Trial& trial) const {
+    return level_of(factor, trial, trial.stimulus);
+}
+
+int Factors::level_of(const Factor& factor, const Trial& trial, const Stimulus& stimulus) const {
+    int number = 0;
+    switch (factor.source) {
+    case Factor::Source::task:
+        return trial.task;
+    case Factor::Source::block:
+        return trial.block;
+    case Factor::Source::list:
+    case Factor::Source::column:
+        return factor.level_of_entry.at(
+            static_cast<std::size_t>(stimulus.*stimulus_lists[factor.list].index));
+    case Factor::Source::stimulus:
+        break;
+    }
+    for (std::size_t list = 0; list < stimulus_lists.size(); ++list)
+        number = number * static_cast<int>(entries_[list]) + stimulus.*stimulus_lists[list].index;
+    return number;
+}
+
+std::size_t Factors::stimulus_count() const {
+    std::size_t count = 1;
+    for (const std::size_t entries : entries_)
+        count *= entries;
+    return count;
+}
+
+Stimulus Factors::stimulus_at(int number) const {
+    Stimulus stimulus;
+    for (std::size_t list = stimulus_lists.size(); list-- > 0;) {
+        stimulus.*stimulus_lists[list].index = number % static_cast<int>(entries_[list]);
+        number /= static_cast<int>(entries_[list]);
+    }
+    return stimulus;
+}
+
+bool is_name_of_factor(std::string_view name) {
+    constexpr std::string_view others[] = {"task",    "stimulus", "block", "trial",   "attempt", "observer",
+                                           "group",   "session",  "day",   "slot",    "step",    "side",
+                                           "correct", "phase",    "onset", "duration"};
+    return std::ranges::find(others, name) != std::end(others) ||
+           std::ranges::find(stimulus_lists, name, &StimulusList::name) != stimulus_lists.end();
+}
+
+} // namespace overt
