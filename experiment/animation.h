@@ -47,8 +47,8 @@ struct Pose {
     friend constexpr bool operator==(const Pose&, const Pose&) = default;
 };
 
-/// Whether two turns are one: motions come to the same angle by different sums, and 25 sin(30 deg) is not 12.5
-/// to the last bit.
+/// Whether two turns are one: motions come to the same angle by different sums, and 25 sin(30 deg) is
+/// not 12.5 to the last bit.
 constexpr bool is_same_turn(Degrees a, Degrees b) {
     constexpr double rounding_deg = 1e-9;
     return a.value - b.value <= rounding_deg && b.value - a.value <= rounding_deg;
@@ -70,8 +70,8 @@ struct Animation {
     Degrees light_amplitude{0.0}; ///< the light's turn to each side, in step with the object's
 
     /// The angle of the object in a frame, counter-clockwise seen from above: `angle`, and of `turn` with
-    /// cycle a sin(2 pi k / (n-1)), with ping_pong -a cos(pi k / (n-1)) on top of it. Frames that share a pose
-    /// get bit-identical angles.
+    /// cycle a sin(2 pi k / (n-1)), with ping_pong -a cos(pi k / (n-1)) on top of it. Frames that share a
+    /// pose get bit-identical angles.
     Degrees angle_of(AnimationFrameIndex frame) const;
 
     /// Object and light. The light's turn has the light's amplitude in place of a, and no angle on top.

@@ -13,6 +13,7 @@ struct ListEntry {
     std::string title;
     /// What is said of it besides, for orders and tables; what a series sets is among it.
     NamedWords columns;
+    Series series; ///< that it was written out from
 };
 
 } // namespace overt

@@ -64,14 +64,14 @@ class Plans {
     std::vector<glm::dvec3> meant_places(const StudyTrial& trial, std::uint64_t seed, int repeats) const {
         std::vector<glm::dvec3> places;
         const std::optional<Known> known = known_of(trial);
-        const GazeTargets* const targets =
-            known ? targets_[scene_.index_of(known->stimulus)].get() : nullptr;
+        const GazeTargets* const targets = known ? targets_[scene_.index_of(known->stimulus)].get() : nullptr;
         if (!targets)
             return places;
         GazeScript script(scene_, observer_);
         const SessionDuration end = from_seconds(scene_.animation_of(known->stimulus.motion).duration_s);
         for (int repeat = 0; repeat < repeats; ++repeat) {
-            script.compose(scene_, targets, turns_[static_cast<std::size_t>(known->stimulus.motion)], observer_,
+            script.compose(scene_, targets, turns_[static_cast<std::size_t>(known->stimulus.motion)],
+                           observer_,
                            RandomStream(seed, "meant places", static_cast<std::uint64_t>(repeat)).next_bits(),
                            trial.number, gaze_plan(scene_, seed, known->task, known->stimulus));
             // The first was under way at the onset.

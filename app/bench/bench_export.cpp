@@ -86,7 +86,7 @@ class ExportBench {
 
     /// Each in turn, on a session and on one four times as long.
     BenchFigures measure() {
-        const auto no_surface = [](int) -> const SurfaceLookup* { return nullptr; };
+        const auto no_surface = [](const ViewedObject&) -> const SurfaceLookup* { return nullptr; };
         for (const int times : {1, 4})
             sessions_.push_back(
                 record_session(scratch_.path() / fmt::format("session_{}", times), recorded_trials * times));

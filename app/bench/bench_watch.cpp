@@ -43,8 +43,14 @@ SessionHeader lay_out_session(const std::filesystem::path& folder, const Object&
     header.tracker = {"metronome", Metronome::rate_hz, Eye::right};
     header.poses = distinct_poses(header.animations.front());
     header.tasks = {{"free", "Look around"}};
-    header.objects = {{object.id, object.id, object.mesh_hash, "mesh.ply", object.mesh.part_names,
-                       {object.scene().view.camera}, object.scene().bounds.centre(), object.scene().bounds}};
+    header.objects = {{object.id,
+                       object.id,
+                       object.mesh_hash,
+                       "mesh.ply",
+                       object.mesh.part_names,
+                       {object.scene().view.camera},
+                       object.scene().bounds.centre(),
+                       object.scene().bounds}};
     header.materials = {{"gold", "Gold"}};
     header.stimuli = {{{0, 0}, "made up", ""}};
     header.display.screen.image_px = object.scene().view.image_px;

@@ -99,11 +99,11 @@ MatchedFrames match_sequence(const Experiment& experiment, const FrameSequenceSe
             matched.has_silhouette = false;
             return;
         }
-        matches[static_cast<std::size_t>(frame)] = match_silhouettes(
-            *pixels,
-            silhouette_of_map(library, viewed(stimulus), has_mesh,
-                              library.cache().poses().pose_of(stimulus.motion, {frame})),
-            protocol.view_of(stimulus).width_px);
+        matches[static_cast<std::size_t>(frame)] =
+            match_silhouettes(*pixels,
+                              silhouette_of_map(library, viewed(stimulus), has_mesh,
+                                                library.cache().poses().pose_of(stimulus.motion, {frame})),
+                              protocol.view_of(stimulus).width_px);
     });
     std::size_t both = 0, either = 0;
     for (int frame = 0; frame < count; ++frame) {

@@ -40,9 +40,9 @@ Observer observer_labelled(const std::string& label);
 /// those there are.
 Stimulus stimulus_called(const Protocol& protocol, const std::string& name);
 
-/// A stimulus with the object called OBJECT, with that called OBJECT/VIEW where there are several views, or the
-/// stimulus of that name; what the name leaves open is the first of its list. Throws InputError naming those
-/// there are.
+/// A stimulus with the object called OBJECT, with that called OBJECT/VIEW where there are several views, or
+/// the stimulus of that name; what the name leaves open is the first of its list. Throws InputError naming
+/// those there are.
 Stimulus object_called(const Protocol& protocol, const std::string& name);
 
 } // namespace overt

@@ -48,10 +48,11 @@ void examine_cameras(const Protocol& protocol, const Object& object, Diagnostics
         });
         if (outside == poses.angles.end())
             continue;
-        diagnostics.error(
-            protocol.file.string(), protocol.places.of(fmt::format("view[{}].camera_position", view)),
-            fmt::format("object \"{}\" is nowhere in the picture at {:.3g} degrees", object.id, outside->value),
-            "the camera looks at view.camera_target; lengths are in the unit of the mesh");
+        diagnostics.error(protocol.file.string(),
+                          protocol.places.of(fmt::format("view[{}].camera_position", view)),
+                          fmt::format("object \"{}\" is nowhere in the picture at {:.3g} degrees", object.id,
+                                      outside->value),
+                          "the camera looks at view.camera_target; lengths are in the unit of the mesh");
     }
 }
 

@@ -27,10 +27,13 @@ ObservedEffect planted(const PowerEffect& effect, const Protocol& protocol) {
     const auto hold_in = [&](const std::string& column, const std::string& level) {
         if (column == "task")
             planted.task = index_of(protocol.tasks, level);
-        else if (column == "material")
-            planted.material = index_of(protocol.materials, level);
-        else
-            planted.object = index_of(protocol.objects, level);
+        for (std::size_t list = 0; list < stimulus_lists.size(); ++list) {
+            if (column != stimulus_lists[list].name)
+                continue;
+            planted.entries[list].clear();
+            for (const ListEntry* entry : entries_of(protocol, list))
+                planted.entries[list].push_back(entry->id == level);
+        }
     };
     hold_in(effect.column, effect.level);
     for (const StudyKey& key : effect.within)

@@ -74,7 +74,7 @@ class GazeStudies {
     GazeStudySettings settings_;
     ObserverSettings observer_;
     ObservedScene scene_;
-    std::vector<PursuedTurn> turns_; ///< by motion
+    std::vector<PursuedTurn> turns_;    ///< by motion
     std::vector<double> spread_of_log_; ///< by effect
     std::vector<std::unique_ptr<GazeTargets>> targets_;
     std::vector<ObjectSurface> surfaces_;

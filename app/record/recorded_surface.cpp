@@ -29,7 +29,8 @@ Mesh recorded_mesh(const std::filesystem::path& file) {
 }
 
 /// An object's maps of one kind, by pose; null where there is none.
-std::vector<const RecordedMap*> maps_of(const SessionHeader& header, const ViewedObject& viewed, RecordedMap::Kind kind) {
+std::vector<const RecordedMap*> maps_of(const SessionHeader& header, const ViewedObject& viewed,
+                                        RecordedMap::Kind kind) {
     std::vector<const RecordedMap*> maps(header.poses.angles.size(), nullptr);
     for (const RecordedMap& map : header.maps)
         if (map.viewed == viewed && map.kind == kind)

@@ -10,8 +10,8 @@
 
 namespace overt {
 
-/// Loads an object's mesh and its maps in a view when they are first asked for. Every one of these throws InputError or
-/// RecordError for damaged or missing files.
+/// Loads an object's mesh and its maps in a view when they are first asked for. Every one of these throws
+/// InputError or RecordError for damaged or missing files.
 class RecordedSurfaces {
   public:
     enum class Keep : std::uint8_t { all, last };
@@ -21,7 +21,8 @@ class RecordedSurfaces {
                               CoordinateMaps::Use use = CoordinateMaps::Use::many_lookups)
         : record_(&record), keep_(keep), use_(use) {}
 
-    /// Where gaze on an object in a view goes, be its maps of triangles or of coordinates; null if it has none.
+    /// Where gaze on an object in a view goes, be its maps of triangles or of coordinates; null if it has
+    /// none.
     const SurfaceLookup* lookup_of(const ViewedObject& viewed);
 
   private:

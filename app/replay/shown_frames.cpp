@@ -28,7 +28,8 @@ ShownFrames::ShownFrames(const SessionRecord& record, const TrialRecord& trial, 
     const std::optional<TrialLedger> ledger = record.ledger(trial);
     first_light_ = first_light_of(record, trial, ledger);
     const double refresh_hz = header.display.refresh_hz;
-    const int held = std::max(1, refreshes_per_frame(header.animation_of(trial.trial.stimulus).frame_rate_hz, refresh_hz));
+    const int held =
+        std::max(1, refreshes_per_frame(header.animation_of(trial.trial.stimulus).frame_rate_hz, refresh_hz));
     period_s_ = held / refresh_hz;
     const SessionTime last = ledger->recorded.back().report.vertical_blank + header.display.latency;
     const double lit_s = to_seconds(last - first_light_) + 1.0 / refresh_hz;

@@ -51,10 +51,15 @@ OperatorServer::Options operator_view_of(const SessionHeader& header, const Prot
     options.completed = completed;
     for (const Trial& trial : header.schedule.trials) {
         const Task& task = protocol.tasks[static_cast<std::size_t>(trial.task)];
-        ViewedTrial viewed{task.id, task.question,
-                           protocol.objects[static_cast<std::size_t>(trial.stimulus.object)].id,
-                           protocol.materials[static_cast<std::size_t>(trial.stimulus.material)].id,
-                           light_file(header, trial.stimulus)};
+        ViewedTrial viewed{
+            task.id,
+            task.question,
+            protocol.objects[static_cast<std::size_t>(trial.stimulus.object)].id,
+            protocol.materials[static_cast<std::size_t>(trial.stimulus.material)].id,
+            light_file(header, trial.stimulus),
+            trial.stimulus.view,
+            shown_pictures(header.animation_of(trial.stimulus), header.poses.frames_of(trial.stimulus.motion))
+                .of_frame};
         // Where gaze meets the surface is shown of one object in the place of the image: else only what is
         // where.
         if (!protocol.slot_entries.empty()) {

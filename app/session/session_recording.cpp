@@ -25,7 +25,8 @@ void copy_into(const std::filesystem::path& from, const std::filesystem::path& t
 }
 
 /// Of an object in one of so many views.
-std::string map_name(const std::string& object, const ViewedObject& viewed, std::size_t views, PoseIndex pose) {
+std::string map_name(const std::string& object, const ViewedObject& viewed, std::size_t views,
+                     PoseIndex pose) {
     const std::string view = views > 1 ? fmt::format("view_{}/", viewed.view + 1) : "";
     return fmt::format("maps/{}/{}pose_{:02}.exr", object, view, pose.value);
 }

@@ -95,8 +95,7 @@ BakeJob job_of(const BakeOptions& options, const Protocol& protocol, const Stimu
                       : options.half ? ExportedFile::half_exr
                                      : ExportedFile::exr;
     job.output.force = options.force;
-    job.units =
-        bake_units(job.stimuli, job.output.frames, library.cache(), job.quality, job.exports());
+    job.units = bake_units(job.stimuli, job.output.frames, library.cache(), job.quality, job.exports());
     if (!options.shard.empty())
         job.units = dealt_to(shard_called(options.shard), job.units);
     return job;
@@ -180,9 +179,10 @@ void remove_remnants(const BakeJob& job, const StimulusLibrary& library, const F
     std::set<std::filesystem::path> folders;
     for (const BakeUnit& unit : job.units) {
         folders.insert(library.cache().frame_file_of(unit.stimulus, job.quality, unit.pose).parent_path());
-        folders.insert(library.cache()
-                           .map_file(viewed(unit.stimulus), library.cache().poses().index_of(unit.pose.object))
-                           .parent_path());
+        folders.insert(
+            library.cache()
+                .map_file(viewed(unit.stimulus), library.cache().poses().index_of(unit.pose.object))
+                .parent_path());
         if (job.exports())
             folders.insert(output.folder_of(unit.stimulus));
     }

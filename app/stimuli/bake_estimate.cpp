@@ -99,8 +99,7 @@ BakeEstimate bake_estimate(const Experiment& experiment, const StimulusLibrary& 
     for (const BakeQuality quality :
          {BakeQuality::preview, BakeQuality::draft, BakeQuality::standard, BakeQuality::reference}) {
         QualityEstimate one{quality_of(quality, experiment.protocol.bake)};
-        for (const BakeUnit& unit :
-             bake_units(stimuli, all_frames, library.cache(), one.quality, false)) {
+        for (const BakeUnit& unit : bake_units(stimuli, all_frames, library.cache(), one.quality, false)) {
             ++one.frames;
             if (std::filesystem::exists(
                     library.cache().frame_file_of(unit.stimulus, one.quality, unit.pose))) {

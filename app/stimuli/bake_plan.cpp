@@ -38,8 +38,8 @@ std::vector<BakeUnit> bake_units(const std::vector<Stimulus>& stimuli, const Fra
         const std::span<const Pose> pictures = cache.pictures_of(stimulus);
         const std::span<const int> picture_of = cache.picture_of_frame(stimulus);
         std::vector<bool> is_shown(pictures.size());
-        for (int frame = frames.first; frame <= std::min(frames.last, static_cast<int>(picture_of.size()) - 1);
-             ++frame)
+        for (int frame = frames.first;
+             frame <= std::min(frames.last, static_cast<int>(picture_of.size()) - 1); ++frame)
             is_shown[static_cast<std::size_t>(picture_of[static_cast<std::size_t>(frame)])] = true;
         for (std::size_t picture = 0; picture < pictures.size(); ++picture) {
             if (is_shown[picture] &&

@@ -29,7 +29,8 @@ FrameRange frame_range_called(const std::string& text, const Protocol& protocol,
 /// All frames of the stimuli, in their order and that of pictures; a picture is among them if a frame of the
 /// range shows it. A frame that stimuli share is the first one's, unless each has files of its own.
 std::vector<BakeUnit> bake_units(const std::vector<Stimulus>& stimuli, const FrameRange& frames,
-                                 const StimulusCache& cache, const FrameQuality& quality, bool is_each_its_own);
+                                 const StimulusCache& cache, const FrameQuality& quality,
+                                 bool is_each_its_own);
 
 /// What one shard has to do of it: dealt out by expected cost, the dearest first, each to the shard that has
 /// least so far. It depends on nothing but the arguments, and the shards 1/n … n/n have each unit once.

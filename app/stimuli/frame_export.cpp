@@ -83,8 +83,7 @@ FrameExport::FrameExport(const FrameExportOptions& options, const Protocol& prot
     : options_(&options), protocol_(&protocol), objects_(objects), library_(&library), quality_(&quality) {}
 
 std::filesystem::path FrameExport::folder_of(const Stimulus& stimulus) const {
-    return options_->folder /
-           stimulus_name(*protocol_, stimulus, '_');
+    return options_->folder / stimulus_name(*protocol_, stimulus, '_');
 }
 
 std::vector<std::filesystem::path> FrameExport::files_of(const BakeUnit& unit) const {
@@ -102,8 +101,8 @@ std::vector<std::filesystem::path> FrameExport::files_of(const BakeUnit& unit) c
 
 ContentHash FrameExport::key_of(const BakeUnit& unit) const {
     ContentHasher hasher;
-    hasher.add(export_version).add(std::string_view(
-        library_->cache().picture_key(unit.stimulus, *quality_, unit.pose.light)));
+    hasher.add(export_version)
+        .add(std::string_view(library_->cache().picture_key(unit.stimulus, *quality_, unit.pose.light)));
     hasher.add(unit.pose.object.value);
     hasher.add(static_cast<int>(options_->as)).add(static_cast<int>(options_->file));
     hasher.add(protocol_->light_of(unit.stimulus).exposure);

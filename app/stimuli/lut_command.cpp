@@ -114,11 +114,10 @@ CoordinateMaps draw_maps(StimulusLibrary& library, const Object& object, const V
         angles.push_back(library.cache().poses().angles[static_cast<std::size_t>(pose.value)]);
         maps.push_back(library.maps().draw_map(viewed, pose));
         if (maps.back().covered_pixels() == 0) {
-            throw InputError(
-                fmt::format("object \"{}\" is nowhere in the picture at {:.3g} degrees: correct the camera "
-                            "under {}",
-                            object.id, angles.back().value,
-                            section_of_view(library.cache().protocol(), viewed.view)));
+            throw InputError(fmt::format(
+                "object \"{}\" is nowhere in the picture at {:.3g} degrees: correct the camera "
+                "under {}",
+                object.id, angles.back().value, section_of_view(library.cache().protocol(), viewed.view)));
         }
     }
     return {object.mesh, object.scene(viewed.view), angles, std::move(maps)};
@@ -153,8 +152,8 @@ int run_lut(const LutOptions& options) {
 
     const auto context = make_headless_context(options.context);
     StimulusLibrary library(*context, protocol, objects, cache_folder());
-    const auto frames = frames_by_pose(protocol.motion_of(stimulus), library.cache().poses().frames_of(stimulus.motion),
-                                       options.frame);
+    const auto frames = frames_by_pose(protocol.motion_of(stimulus),
+                                       library.cache().poses().frames_of(stimulus.motion), options.frame);
     const SceneView& scene = object.scenes[static_cast<std::size_t>(stimulus.view)];
     const MapFiles files(options, viewed_name(protocol, viewed(stimulus), '_'));
     // A check alone leaves nothing behind.
@@ -169,7 +168,8 @@ int run_lut(const LutOptions& options) {
         rays.emplace(object.mesh);
     std::optional<MapCheck> check;
     std::vector<std::string> written;
-    MapDescription description = description_of(object, stimulus.view, unit_of_lengths(settings), options.scale);
+    MapDescription description =
+        description_of(object, stimulus.view, unit_of_lengths(settings), options.scale);
     std::future<void> writing; // one map is compressed and written while the next is worked out
     int drawn = 0;
     for (const auto& [pose, numbers] : frames) {
@@ -198,8 +198,7 @@ int run_lut(const LutOptions& options) {
         writing.get();
     bar.update(fmt::format("{} {}", writes ? "writing maps of" : "checking", object.id), drawn, drawn);
     bar.finish();
-    const BenchFigures figures =
-        check ? figures_of(*check, scene.view.image_px, object.id) : BenchFigures{};
+    const BenchFigures figures = check ? figures_of(*check, scene.view.image_px, object.id) : BenchFigures{};
     print_outcome(options, written, figures, files.folder());
     return all_hold(figures) ? 0 : 1;
 }

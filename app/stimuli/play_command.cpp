@@ -67,8 +67,8 @@ int run_play(const PlayOptions& options) {
     const Stimulus stimulus = stimulus_called(protocol, options.stimulus);
     const int frame_count = protocol.motion_of(stimulus).frame_count;
     if (options.frame.value_or(0) >= frame_count) {
-        throw InputError(fmt::format("--frame {}: the animation has frames 0 to {}", *options.frame,
-                                     frame_count - 1));
+        throw InputError(
+            fmt::format("--frame {}: the animation has frames 0 to {}", *options.frame, frame_count - 1));
     }
     const bool in_window = options.picture.empty();
     if (options.live)

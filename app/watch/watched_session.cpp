@@ -29,18 +29,18 @@ ViewedPicture grey_of(const ViewedCamera& camera) {
 
 /// A view without a surface is still a view: what cannot be read is left out.
 void WatchedSession::read_object() {
-    const std::string& now = client_.view().object;
+    const SeenObject now{client_.view().object, client_.view().seen_in};
     if (reading_.valid() && reading_.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
         object_ = reading_.get();
-    if (now == wanted_ || now.empty() || reading_.valid())
+    if (now == wanted_ || now.id.empty() || reading_.valid())
         return;
     wanted_ = now;
     object_.reset();
     reading_ = std::async(std::launch::async,
                           [folder = std::filesystem::path(client_.facts().folder),
-                           id = now]() -> std::shared_ptr<const WatchedObject> {
+                           object = now]() -> std::shared_ptr<const WatchedObject> {
                               try {
-                                  return std::make_shared<const WatchedObject>(folder, id);
+                                  return std::make_shared<const WatchedObject>(folder, object.id, object.view);
                               } catch (const Error&) {
                                   return nullptr;
                               }
@@ -56,7 +56,8 @@ bool WatchedSession::read(std::chrono::milliseconds wait) {
     while (events_.size() > most_kept_events)
         events_.pop_front();
     new_gaze_.clear();
-    const bool is_known = object_ && object_->id() == client_.view().object;
+    const bool is_known = object_ && object_->id() == client_.view().object &&
+                          object_->view() == client_.view().seen_in;
     for (const ViewedGaze& one : client_.take_gaze()) {
         gaze_.push_back(one);
         new_gaze_.push_back({one, is_known && one.place && one.trial == client_.view().trial

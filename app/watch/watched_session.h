@@ -55,7 +55,12 @@ class WatchedSession {
     std::vector<GazeOnSurface> new_gaze_;
     std::optional<GazeOnSurface> last_gaze_;
     ViewedPictures pictures_;
-    std::string wanted_; ///< object
+    struct SeenObject {
+        std::string id;
+        int view = 0;
+        bool operator==(const SeenObject&) const = default;
+    };
+    SeenObject wanted_;
     std::shared_ptr<const WatchedObject> object_;
     std::future<std::shared_ptr<const WatchedObject>> reading_;
     std::optional<ViewedCamera> camera_;

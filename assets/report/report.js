@@ -12,6 +12,10 @@ function fill(select, options) {
   select.replaceChildren(...options.map(([value, text]) => element('option', {value}, text)));
 }
 
+// A fixation of a trial, as the data have it, that counts; without a known stimulus all do that an area of the screen counts.
+const counts = f => f[5] || (!data.knows_stimuli && f[6] === 'no stimulus known');
+const seconds_of_fixation = () => (data.knows_stimuli ? data.glance.seconds : data.trials.filter(t => !t.excluded).flatMap(t => t.fixations.filter(counts)).reduce((sum, f) => sum + f[1], 0));
+
 // At a glance.
 {
   const g = data.glance;
@@ -21,9 +25,11 @@ function fill(select, options) {
   card(g.observers, 'observers');
   card(g.trials, 'trials' + (g.excluded ? `, ${g.excluded} excluded` : ''));
   card(g.samples.toLocaleString('en'), 'gaze samples');
-  card(g.counted.toLocaleString('en'), `fixations counted of ${g.fixations.toLocaleString('en')}`);
-  card(digits(g.seconds / 60), 'minutes of fixation');
-  card(data.maps.filter(m => m.values && m.by === 'duration').length, 'maps');
+  if (data.knows_stimuli) card(g.counted.toLocaleString('en'), `fixations counted of ${g.fixations.toLocaleString('en')}`);
+  else card(g.fixations.toLocaleString('en'), 'fixations on the screen');
+  card(digits(seconds_of_fixation() / 60), 'minutes of fixation');
+  if (data.knows_stimuli) card(data.maps.filter(m => m.values && m.by === 'duration').length, 'maps');
+  if (data.tables.areas.length) card(new Set(data.tables.areas.map(a => a.area)).size - 1, 'areas of the screen');
   for (const remark of data.remarks) by_id('remarks').append(element('p', {class: 'remark'}, remark));
 }
 
@@ -230,9 +236,9 @@ draw_figure5();
       note: 'Aspects of Holmqvist et al. (2022, table 7), on which the minimum reporting guideline of Dunn et al. (2023) rests. What is not recorded has to be added by hand.'}));
   const excluded = data.trials.filter(t => t.excluded);
   by_id('exclusions').append(element('p', {class: 'note'}, excluded.length ? `${excluded.length} trials are excluded: ` + excluded.map(t => `${t.label} (${t.excluded})`).join(' ') : 'No trial is excluded.'));
-  by_id('exclusions').append(element('p', {class: 'note'}, data.glance.not_counted.length ? 'Fixations not counted: ' + data.glance.not_counted.map(([why, n]) => `${n} ${why}`).join(', ') + '.' : 'All fixations are counted.'));
+  by_id('exclusions').append(element('p', {class: 'note'}, !data.knows_stimuli ? 'Of the object that was shown nothing is known, so that no fixation counts on a surface.' : data.glance.not_counted.length ? 'Fixations not counted: ' + data.glance.not_counted.map(([why, n]) => `${n} ${why}`).join(', ') + '.' : 'All fixations are counted.'));
 
-  const durations = data.trials.flatMap(t => t.fixations.filter(f => f[5]).map(f => 1000 * f[1]));
+  const durations = data.trials.flatMap(t => (t.excluded ? [] : t.fixations.filter(counts)).map(f => 1000 * f[1]));
   if (durations.length) {
     const width_ms = 25, most_ms = 1000, bins = new Array(most_ms / width_ms).fill(0);
     for (const d of durations) bins[Math.min(bins.length - 1, Math.floor(d / width_ms))]++;

@@ -58,7 +58,7 @@ class WatchedLog final : public SessionLog {
     std::int64_t missed_ = 0, missed_in_trial_ = 0;
     SampleListener* gaze_;
     std::optional<TrackerTime> told_samples_;
-    int told_pose_ = -1;
+    int told_frame_ = -1;
     std::optional<SessionTime> told_level_;
 };
 

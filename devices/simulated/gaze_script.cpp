@@ -190,10 +190,7 @@ GazeScript::GazeScript(const ObservedScene& scene, const ObserverSettings& setti
 void GazeScript::compose(const ObservedScene& scene, std::span<const ObservedPresentation> shown,
                          const ObserverSettings& settings, std::uint64_t seed, int trial) noexcept {
     const auto number = static_cast<std::uint64_t>(trial);
-    Composer composer{scene,
-                      shown,
-                      settings,
-                      RandomStream(seed, "scanpath", number),
+    Composer composer{scene, shown, settings, RandomStream(seed, "scanpath", number),
                       RandomStream(seed, "slot of fixation", number)};
     fixations_.clear();
     ScriptedFixation first;

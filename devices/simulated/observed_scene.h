@@ -52,7 +52,7 @@ struct ObservedScene {
     SessionDuration display_latency{};   ///< from vertical blank to the first row's light
     std::vector<ObservedObject> objects; ///< see index_of(): each object in each view
     int views = 1;
-    std::vector<ObservedTask> tasks;     ///< by Trial::task
+    std::vector<ObservedTask> tasks; ///< by Trial::task
     std::vector<ObservedEffect> effects = {};
     double head_share_sd = 0.0;             ///< of the logit, over observers
     std::vector<ScreenGeometry> slots = {}; ///< the screen with each slot's image; none: `screen` alone
@@ -68,9 +68,7 @@ struct ObservedScene {
     /// How long a frame of a motion is lit.
     SessionDuration frame_period(int motion) const;
 
-    const Animation& animation_of(int motion) const {
-        return animations[static_cast<std::size_t>(motion)];
-    }
+    const Animation& animation_of(int motion) const { return animations[static_cast<std::size_t>(motion)]; }
     /// Of the longest presentation that there is.
     double longest_s() const;
     /// Where `objects` has what is seen of a stimulus.

@@ -23,4 +23,9 @@ struct NamedWord {
 };
 using NamedWords = std::vector<NamedWord>;
 
+/// Keys that a series sets, one value for each entry that it is written out into.
+struct Series {
+    std::vector<std::string> keys;
+};
+
 } // namespace overt

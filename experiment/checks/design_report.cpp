@@ -115,7 +115,8 @@ MemoryNeed memory_need(const Protocol& protocol) {
     const int at_once = protocol.slots.size() > 1 ? most_stimuli_at_once(protocol) : 1;
     need.next_fits = 2.0 * at_once * need.pages_per_stimulus_bytes <= 1e6 * protocol.display.frame_store_mb;
     const ViewSettings& view = protocol.views.front();
-    need.maps_per_object_bytes = bytes_per_map_px * poses_of(protocol).count() * view.width_px * view.height_px;
+    need.maps_per_object_bytes =
+        bytes_per_map_px * poses_of(protocol).count() * view.width_px * view.height_px;
     return need;
 }
 
@@ -163,8 +164,7 @@ void add_observers(DesignReport& report, const Protocol& protocol) {
 
 /// The observer who sits longest, among those who differ.
 SessionLength longest_session(const Protocol& protocol, ScheduleMaker& maker, std::uint64_t seed,
-                              std::span<const AnimationFacts> motions,
-                              const DesignAssumptions& assumptions) {
+                              std::span<const AnimationFacts> motions, const DesignAssumptions& assumptions) {
     SessionLength longest;
     const std::size_t different = std::max<std::size_t>(1, protocol.groups.size());
     std::vector<Observer> observers = planned_observers(protocol);

@@ -72,13 +72,15 @@ void check_files(ProtocolExamination& examination) {
     for (std::size_t i = 0; i < protocol.frames.size(); ++i) {
         const std::string path = fmt::format("frames[{}].files", i);
         // An unknown motion has been found already.
-        const auto motion = std::ranges::find(protocol.motions, protocol.frames[i].motion, &MotionSettings::id);
+        const auto motion =
+            std::ranges::find(protocol.motions, protocol.frames[i].motion, &MotionSettings::id);
         if (!protocol.frames[i].files.empty() && !examination.faulty.contains(path))
             check_sequence(examination, path,
                            motion == protocol.motions.end()
                                ? 0
                                : static_cast<std::size_t>(motion - protocol.motions.begin()),
-                           "frames", [&](AnimationFrameIndex frame) { return frame_file(protocol.frames[i], frame); });
+                           "frames",
+                           [&](AnimationFrameIndex frame) { return frame_file(protocol.frames[i], frame); });
     }
 }
 

@@ -241,21 +241,21 @@ void check_frame_store(ProtocolExamination& examination) {
         const double stimulus_mb = page_mb * pages;
         if (stimulus_mb <= store_mb)
             continue;
-        const std::string named =
-            protocol.motions.size() > 1
-                ? fmt::format(" in motion \"{}\" takes, with {},", protocol.motions[motion].id,
-                              counted(pages, "picture"))
-                : " takes";
+        const std::string named = protocol.motions.size() > 1
+                                      ? fmt::format(" in motion \"{}\" takes, with {},",
+                                                    protocol.motions[motion].id, counted(pages, "picture"))
+                                      : " takes";
         const std::string frames = fmt::format("motion[{}].frame_count", motion),
                           store = "display.frame_store_mb";
         const bool is_one_of_several = protocol.motions.size() > 1;
-        examination.error({is_one_of_several ? frames : store, is_one_of_several ? store : frames,
-                           "view[0].width_px", "view[0].height_px"},
-                          fmt::format("a stimulus{} {:.4g} MB of the frame store, which may take {}", named,
-                                      stimulus_mb, store_mb),
-                          fmt::format("write frame_store_mb = {:.0f}, if the graphics card has as much ({:.0f} "
-                                      "with the next stimulus), or show fewer or smaller frames",
-                                      std::ceil(stimulus_mb), std::ceil(2.0 * stimulus_mb)));
+        examination.error(
+            {is_one_of_several ? frames : store, is_one_of_several ? store : frames, "view[0].width_px",
+             "view[0].height_px"},
+            fmt::format("a stimulus{} {:.4g} MB of the frame store, which may take {}", named, stimulus_mb,
+                        store_mb),
+            fmt::format("write frame_store_mb = {:.0f}, if the graphics card has as much ({:.0f} "
+                        "with the next stimulus), or show fewer or smaller frames",
+                        std::ceil(stimulus_mb), std::ceil(2.0 * stimulus_mb)));
     }
 }
 

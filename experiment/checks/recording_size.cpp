@@ -60,8 +60,7 @@ RecordingSize recording_size(const Protocol& protocol, std::span<const Object> o
     size.maps = picture_bytes * mapped * views * poses_of(protocol).count();
     const glm::ivec2 image_px(view.width_px, view.height_px);
     const LightPictures light{.image_px = image_px, .square_px = light_square_px(image_px)};
-    const auto per_object =
-        static_cast<double>(protocol.materials.size() * protocol.lights.size()) * views;
+    const auto per_object = static_cast<double>(protocol.materials.size() * protocol.lights.size()) * views;
     const double light_bytes = bytes_per_px * static_cast<double>(light.squares());
     for (const Animation& motion : protocol.motions)
         size.pictures += per_object * (picture_bytes * object_count +

@@ -10,9 +10,9 @@
 
 #include <fmt/format.h>
 
+#include "experiment/protocol/all_stimuli.h"
 #include "experiment/protocol/entry_ids.h"
 #include "experiment/protocol/protocol_keys.h"
-#include "experiment/protocol/all_stimuli.h"
 
 namespace overt {
 
@@ -33,6 +33,15 @@ void check_list(ProtocolExamination& examination, std::string_view list,
     check_ids_differ(examination, list, ids);
 }
 
+bool is_column_name(std::string_view name) {
+    return !name.empty() && name.front() >= 'a' && name.front() <= 'z' &&
+           std::ranges::all_of(name, [](char letter) {
+               return (letter >= 'a' && letter <= 'z') || (letter >= '0' && letter <= '9') || letter == '_';
+           });
+}
+
+void check_columns(ProtocolExamination& examination, std::size_t list);
+
 /// One of the lists that stimuli are made of. An entry may be without an id where it is the only one.
 void check_entries(ProtocolExamination& examination, std::size_t list) {
     const std::string_view name = stimulus_lists[list].name;
@@ -49,6 +58,44 @@ void check_entries(ProtocolExamination& examination, std::size_t list) {
                               "each entry of a list needs its own, by which tables name it");
     }
     check_list(examination, name, ids);
+    check_columns(examination, list);
+}
+
+/// Words or numbers, the same in all entries; a name that no other list and no table has.
+void check_columns(ProtocolExamination& examination, std::size_t list) {
+    const Protocol& protocol = examination.protocol;
+    std::map<std::string, std::pair<std::string, bool>, std::less<>> known; // path of the first, is a number
+    const auto entries = entries_of(protocol, list);
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+        for (const NamedWord& column : entries[i]->columns) {
+            const std::string path = entry_path(stimulus_lists[list].name, i, "columns." + column.name);
+            const auto [first, is_new] =
+                known.try_emplace(column.name, std::pair(path, column.number.has_value()));
+            if (!is_new && first->second.second != column.number.has_value())
+                examination.error({path},
+                                  fmt::format("the column \"{}\" has a {} here and a {} in {}", column.name,
+                                              column.number ? "number" : "word",
+                                              column.number ? "word" : "number",
+                                              examination.line_of(first->second.first, path)),
+                                  "a column holds words or numbers, not both");
+            if (!is_new)
+                continue;
+            if (!is_column_name(column.name))
+                examination.error({path}, fmt::format("\"{}\" is no name for a column", column.name),
+                                  "letters a to z, digits and _, beginning with a letter");
+            else if (is_name_of_factor(column.name))
+                examination.error({path}, fmt::format("tables have a column \"{}\" already", column.name),
+                                  "call it otherwise");
+            for (std::size_t earlier = 0; earlier < list; ++earlier)
+                for (const ListEntry* other : entries_of(protocol, earlier))
+                    if (std::ranges::find(other->columns, column.name, &NamedWord::name) !=
+                        other->columns.end())
+                        examination.error({path},
+                                          fmt::format("entries of [[{}]] have a column \"{}\", too",
+                                                      stimulus_lists[earlier].name, column.name),
+                                          "call one of them otherwise");
+        }
+    }
 }
 
 bool is_covered_by_frames(const Protocol& protocol, std::size_t object) {
@@ -142,6 +189,14 @@ void check_ids(ProtocolExamination& examination) {
     check_list(examination, "task", ids_of<std::string_view>(examination.protocol.tasks));
     for (std::size_t list = 0; list < stimulus_lists.size(); ++list)
         check_entries(examination, list);
+    // All of them are counted, task by task.
+    constexpr double most_stimuli = 100000.0;
+    double stimuli = 1.0;
+    for (std::size_t list = 0; list < stimulus_lists.size(); ++list)
+        stimuli *= static_cast<double>(ids_in_list(examination.protocol, list).size());
+    if (stimuli > most_stimuli)
+        examination.error({"object[0]"}, fmt::format("the lists make {:.0f} stimuli; {:.0f} is the most",
+                                                     stimuli, most_stimuli));
 }
 
 void check_objects(ProtocolExamination& examination, std::span<const std::string_view> shipped_sculptures) {
@@ -219,8 +274,8 @@ void check_choice_of_frames(ProtocolExamination& examination, std::size_t index,
         is_known(examination, path, fmt::format("[[{}]]", list), id, ids_of<std::string_view>(entries));
     } else if (entries.size() > 1) {
         examination.error({path, entry_path("frames", index)},
-                          fmt::format("the frames do not say of which [[{}]] they are, and there are {}", list,
-                                      entries.size()),
+                          fmt::format("the frames do not say of which [[{}]] they are, and there are {}",
+                                      list, entries.size()),
                           fmt::format("such as {} = \"{}\"", list, entries.front().id));
     }
 }

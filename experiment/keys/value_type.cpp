@@ -82,18 +82,25 @@ ValueResult read_value(const TomlValue& value, const KeyRule& rule, Degrees& out
     return read_value(value, rule, out.value);
 }
 
+/// A point stands within, as in a number.
+bool has_points_within(const std::string& text) {
+    return text.front() != '.' && text.back() != '.' && text.find("..") == std::string::npos;
+}
+
 bool is_identifier_character(char character) {
     return (character >= 'a' && character <= 'z') || (character >= 'A' && character <= 'Z') ||
-           (character >= '0' && character <= '9') || character == '-' || character == '_';
+           (character >= '0' && character <= '9') || character == '-' || character == '_' || character == '.';
 }
 
 ValueResult check_identifier(const TomlValue& value, const KeyRule& rule, const std::string& text) {
     constexpr std::size_t longest = 40;
     if (!text.empty() && text.size() <= longest &&
-        std::all_of(text.begin(), text.end(), is_identifier_character))
+        std::all_of(text.begin(), text.end(), is_identifier_character) && has_points_within(text))
         return std::nullopt;
-    return ValueFault{value.place, fmt::format("{}: \"{}\" cannot be used in file names", rule.name, text),
-                      fmt::format("take 1 to {} of the letters a to z and A to Z, digits, - and _", longest)};
+    return ValueFault{
+        value.place, fmt::format("{}: \"{}\" cannot be used in file names", rule.name, text),
+        fmt::format("take 1 to {} of the letters a to z and A to Z, digits, - and _, with points within",
+                    longest)};
 }
 
 ValueResult read_value(const TomlValue& value, const KeyRule& rule, std::string& out) {
@@ -292,6 +299,14 @@ ValueResult read_value(const TomlValue& value, const KeyRule& rule, NamedWords& 
     return std::nullopt;
 }
 
+ValueResult read_value(const TomlValue& value, const KeyRule& rule, Series& out) {
+    if (!value.table())
+        return wrong_kind<Series>(value, rule);
+    for (const TomlEntry& entry : *value.table())
+        out.keys.push_back(entry.key);
+    return std::nullopt;
+}
+
 // JSON Schema.
 
 using Json = nlohmann::ordered_json;
@@ -333,6 +348,9 @@ Json named_words(const KeyRule& rule) {
     return {{"type", "object"},
             {"additionalProperties", {{"anyOf", {Json{{"type", "string"}}, number(rule)}}}}};
 }
+Json series(const KeyRule&) {
+    return {{"type", "object"}, {"additionalProperties", {{"type", "array"}, {"minItems", 1}}}};
+}
 Json numbers(const KeyRule& rule) { return {{"anyOf", {number(rule), list_of(number(rule), 0, 0)}}}; }
 
 Json text(const KeyRule& rule) {
@@ -340,7 +358,7 @@ Json text(const KeyRule& rule) {
     if (!rule.choices.empty())
         schema["enum"] = rule.choices;
     else if (rule.is_identifier)
-        schema["pattern"] = "^[A-Za-z0-9_-]{1,40}$";
+        schema["pattern"] = "^(?=.{1,40}$)[A-Za-z0-9_-]+(\\.[A-Za-z0-9_-]+)*$";
     else if (rule.is_required)
         schema["pattern"] = "[^ \\t\\r\\n]";
     return schema;
@@ -408,7 +426,8 @@ constexpr ValueType truth_type = plain<bool>("true or false", truth), whole_type
                     named_numbers_type =
                         optional<NamedNumbers>("a table of names with a whole number each", named_numbers),
                     named_words_type =
-                        optional<NamedWords>("a table of names with a word or a number each", named_words);
+                        optional<NamedWords>("a table of names with a word or a number each", named_words),
+                    series_type = optional<Series>("a table of keys with a list each", series);
 
 } // namespace
 
@@ -430,6 +449,7 @@ const ValueType& value_type(TypeTag<std::vector<std::array<double, 6>>>) { retur
 
 const ValueType& value_type(TypeTag<NamedNumbers>) { return named_numbers_type; }
 const ValueType& value_type(TypeTag<NamedWords>) { return named_words_type; }
+const ValueType& value_type(TypeTag<Series>) { return series_type; }
 
 ValueResult read_choice(const TomlValue& value, const KeyRule& rule, std::size_t& index) {
     std::string name;

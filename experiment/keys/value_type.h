@@ -61,6 +61,7 @@ const ValueType& value_type(TypeTag<std::vector<std::array<double, 6>>>);
 /// Tables of names that no table of keys knows. The rule holds for each value.
 const ValueType& value_type(TypeTag<NamedNumbers>);
 const ValueType& value_type(TypeTag<NamedWords>);
+const ValueType& value_type(TypeTag<Series>);
 
 /// A text that is one of the rule's choices: which.
 ValueResult read_choice(const TomlValue& value, const KeyRule& rule, std::size_t& index);

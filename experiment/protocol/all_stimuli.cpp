@@ -4,7 +4,6 @@
 
 #include "experiment/base/error.h"
 
-
 namespace overt {
 
 std::vector<Stimulus> all_stimuli(const Protocol& protocol) {

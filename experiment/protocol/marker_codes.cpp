@@ -91,7 +91,10 @@ MarkerCodes::MarkerCodes(const Protocol& protocol, const MarkerOutputSettings& o
         if (words.size() != 2)
             throw InputError(fmt::format("\"{}\" is not a refresh and its code, such as \"120 4\"", entry));
         const int refreshes = std::max(
-            1, static_cast<int>(std::ranges::max(protocol.motions, {}, &MotionSettings::duration_s).duration_s * protocol.display.refresh_hz + 0.5));
+            1,
+            static_cast<int>(std::ranges::max(protocol.motions, {}, &MotionSettings::duration_s).duration_s *
+                                 protocol.display.refresh_hz +
+                             0.5));
         const int refresh = number_in(entry, words[0], 0, refreshes - 1, "a refresh of the animation");
         if (std::ranges::find(refreshes_, refresh, &RefreshCode::refresh) != refreshes_.end())
             throw InputError(fmt::format("\"{}\": the refresh {} has a code already", entry, refresh));

@@ -6,6 +6,7 @@
 #include "experiment/protocol/old_words.h"
 #include "experiment/protocol/protocol_keys.h"
 #include "experiment/protocol/protocol_sources.h"
+#include "experiment/protocol/written_series.h"
 #include "experiment/spectra/metal_table.h"
 
 namespace overt {
@@ -87,6 +88,7 @@ bool read_written_keys(ProtocolExamination& examination, std::string_view text, 
     JoinedToml joined = read_joined_toml(text, protocol.file, reader, diagnostics);
     protocol.included = std::move(joined.included);
     put_todays_words(joined.toml, protocol.file.string(), diagnostics);
+    write_out_series(joined.toml, protocol.file.string(), diagnostics);
     KeyWalk(protocol_keys(), protocol.file.string(), protocol.places, examination.faulty, diagnostics)
         .read(joined.toml, protocol);
     complete(protocol);

@@ -17,6 +17,14 @@ template <class Entry> std::vector<Key> entry_keys(std::vector<Key> own, bool is
                         : identifier().required(),
          "Short name, used in file names and tables."},
         {"title", member_of<Entry>(&ListEntry::title), left_out("the id"), "Name for figures and reports."},
+        {"columns", member_of<Entry>(&ListEntry::columns), left_out("none"),
+         "What tables are to say of it besides, words or numbers: { gloss = \"high\", size_cm = 12 }. Each "
+         "name is a factor, by which trials are ordered, limited and analysed as by the list itself."},
+        {"series", member_of<Entry>(&ListEntry::series), left_out("one entry"),
+         "Several entries in place of this one, which differ in the value of a key that takes a number, a "
+         "word or a file: { roughness = [0.02, 0.05, 0.1] } makes three, with the ids ID-0.02 and so on, and "
+         "a "
+         "column of the key's name. Of several keys the first values belong together, then the second."},
     };
     keys.insert(keys.end(), own.begin(), own.end());
     return keys;
@@ -94,7 +102,8 @@ std::vector<Key> motion() {
             {"amplitude_deg", member_of<M>(&A::amplitude), range(0, 180, "deg"),
              "Largest turn to each side of `angle_deg`; with `still` it has no effect."},
             {"angle_deg", member_of<M>(&A::angle), range(-360, 360, "deg"),
-             "Where a still object stands, or the middle of its turn: counter-clockwise from the front view, seen "
+             "Where a still object stands, or the middle of its turn: counter-clockwise from the front view, "
+             "seen "
              "from above."},
             {"light_amplitude_deg", member_of<M>(&A::light_amplitude), range(0, 180, "deg"),
              "Largest turn of the surroundings to each side of where `[light]` has them, in step with the "

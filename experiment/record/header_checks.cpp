@@ -36,8 +36,8 @@ bool is_animation(const Animation& animation, double refresh_hz) {
     return (refresh_hz == 0.0 || is_within(refresh_hz, 0.1, 1e5)) &&
            is_within(animation.frame_rate_hz, 1e-3, 1e5) && is_within(animation.duration_s, 0.0, 1e6) &&
            is_within(animation.amplitude.value, -1e6, 1e6) && is_within(animation.angle.value, -1e6, 1e6) &&
-           is_within(animation.light_amplitude.value, -1e6, 1e6) && is_within(animation.frame_count, 1, 1e6) &&
-           animation.duration_s * refresh_hz <= most_refreshes &&
+           is_within(animation.light_amplitude.value, -1e6, 1e6) &&
+           is_within(animation.frame_count, 1, 1e6) && animation.duration_s * refresh_hz <= most_refreshes &&
            animation.duration_s * animation.frame_rate_hz <= most_refreshes &&
            animation.frame_count / animation.frame_rate_hz * refresh_hz <= most_refreshes;
 }
@@ -61,7 +61,9 @@ template <class Items> bool is_index(int index, const Items& items) {
 }
 
 bool is_stimulus(const Stimulus& stimulus, const SessionHeader& header) {
-    return is_index(stimulus.object, header.objects) && is_index(stimulus.material, header.materials);
+    return is_index(stimulus.object, header.objects) && is_index(stimulus.material, header.materials) &&
+           is_index(stimulus.motion, header.animations) && stimulus.light >= 0 &&
+           is_index(stimulus.view, header.objects[static_cast<std::size_t>(stimulus.object)].cameras);
 }
 
 bool is_label(const std::string& label) {
@@ -97,7 +99,8 @@ void check_header(const SessionHeader& header, const std::filesystem::path& file
     for (const RecordedMap& map : header.maps) {
         demand(stays_inside(map.file), fmt::format("the map file \"{}\"", map.file));
         demand(is_index(map.viewed.object, header.objects) && is_index(map.pose.value, header.poses.angles) &&
-                   is_index(map.viewed.view, header.objects[static_cast<std::size_t>(map.viewed.object)].cameras),
+                   is_index(map.viewed.view,
+                            header.objects[static_cast<std::size_t>(map.viewed.object)].cameras),
                fmt::format("the object or the pose of map \"{}\"", map.file));
     }
     for (const RecordedStimulus& stimulus : header.stimuli)

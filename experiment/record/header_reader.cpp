@@ -77,6 +77,15 @@ void read_dataset(const SQLite::Database& database, SessionHeader& header) {
         header.dataset.push_back({row.text(), row.text()});
 }
 
+Stimulus read_stimulus(Query& row) {
+    return {row.small(), row.small(), row.small(), row.small(), row.small()};
+}
+
+/// The columns of light, motion and view. Sessions of earlier formats have one of each.
+const char* further_indices(const SQLite::Database& database, const char* table) {
+    return has_column(database, table, "light") ? "light, motion, view" : "0, 0, 0";
+}
+
 /// Sessions of earlier formats have one motion, which the session's own row tells, and one view.
 void read_motions(const SQLite::Database& database, SessionHeader& header) {
     if (has_table(database, "animation"))
@@ -84,9 +93,8 @@ void read_motions(const SQLite::Database& database, SessionHeader& header) {
             header.animations = std::move(motions);
     header.poses.of_motion.resize(header.animations.size());
     const bool has_motion = has_column(database, "animation_frame", "motion");
-    for (Query row(database, has_motion
-                                 ? "SELECT motion, pose FROM animation_frame ORDER BY motion, frame"
-                                 : "SELECT 0, pose FROM animation_frame ORDER BY frame");
+    for (Query row(database, has_motion ? "SELECT motion, pose FROM animation_frame ORDER BY motion, frame"
+                                        : "SELECT 0, pose FROM animation_frame ORDER BY frame");
          row.step();) {
         const auto motion = static_cast<std::size_t>(row.small());
         if (motion >= header.poses.of_motion.size())
@@ -101,7 +109,8 @@ void read_cameras(const SQLite::Database& database, SessionHeader& header) {
     for (Query row(database, "SELECT object, view, x, y, z, target_x, target_y, target_z, vertical_fov_deg "
                              "FROM camera ORDER BY object, view");
          row.step();) {
-        const auto object = static_cast<std::size_t>(row.small()), view = static_cast<std::size_t>(row.small());
+        const auto object = static_cast<std::size_t>(row.small()),
+                   view = static_cast<std::size_t>(row.small());
         constexpr std::size_t most_views = 255;
         if (object >= header.objects.size() || view > most_views)
             throw RecordError(fmt::format("table camera: there is no object {} in view {}", object, view));
@@ -115,9 +124,12 @@ void read_cameras(const SQLite::Database& database, SessionHeader& header) {
 }
 
 void read_design(const SQLite::Database& database, SessionHeader& header) {
-    for (Query row(database, "SELECT trial, task, object, material FROM schedule ORDER BY trial");
+    for (Query row(database,
+                   fmt::format("SELECT trial, task, object, material, {} FROM schedule ORDER BY trial",
+                               further_indices(database, "schedule"))
+                       .c_str());
          row.step();)
-        header.schedule.trials.push_back({row.small(), row.small(), {row.small(), row.small()}});
+        header.schedule.trials.push_back({row.small(), row.small(), read_stimulus(row)});
     read_blocks(database, header);
     read_slots(database, header);
     read_dataset(database, header);
@@ -139,8 +151,11 @@ void read_objects(const SQLite::Database& database, SessionHeader& header) {
         header.objects[object].part_names.push_back(row.text());
     }
     read_cameras(database, header);
-    for (Query row(database, "SELECT object, material, source, frames_sha256 FROM stimulus"); row.step();)
-        header.stimuli.push_back({{row.small(), row.small()}, row.text(), row.text()});
+    for (Query row(database, fmt::format("SELECT object, material, {}, source, frames_sha256 FROM stimulus",
+                                         further_indices(database, "stimulus"))
+                                 .c_str());
+         row.step();)
+        header.stimuli.push_back({read_stimulus(row), row.text(), row.text()});
     // In version 1 all maps were of triangles.
     Query version(database, "PRAGMA user_version");
     const bool has_kind = version.step() && version.small() >= 2;

@@ -80,10 +80,11 @@ constexpr RowColumn<SessionHeader> session_columns[] = {
     column<&Header::animations, 0, &Animation::frame_rate_hz>(
         "frame_rate_hz", "frames to a second, by the protocol; the display shows the nearest rate that its "
                          "own is a multiple of"),
-    column<&Header::animations, 0, &Animation::amplitude>("amplitude_deg", "turn to each side of the front view"),
+    column<&Header::animations, 0, &Animation::amplitude>("amplitude_deg",
+                                                          "turn to each side of the front view"),
     column<&Header::animations, 0, &Animation::playback>("playback", "`cycle` or `ping-pong`"),
-    column<&Header::animations, 0, &Animation::duration_s>("duration_s",
-                                                       "of one presentation, by the protocol, at that rate"),
+    column<&Header::animations, 0, &Animation::duration_s>(
+        "duration_s", "of one presentation, by the protocol, at that rate"),
     column<&Header::animations, 0, &Animation::when_late>(
         "when_late", "what becomes of the plan when a picture comes late: `drop` or `stretch`", "'drop'"),
 };
@@ -157,7 +158,9 @@ RowTable<SessionHeader> session_table() { return {"session", only_row, session_c
 RowTable<RecordedCharacterisation> characterisation_table() {
     return {"characterisation", only_row, light_columns};
 }
-RowTable<Animation> animation_table() { return {"animation", "motion INTEGER PRIMARY KEY", animation_columns}; }
+RowTable<Animation> animation_table() {
+    return {"animation", "motion INTEGER PRIMARY KEY", animation_columns};
+}
 RowTable<RecordedObject> object_table() { return {"object", "object INTEGER PRIMARY KEY", object_columns}; }
 
 } // namespace overt

@@ -20,7 +20,8 @@ void insert_characterisation(SQLite::Database& database, const RecordedCharacter
 void insert_design(SQLite::Database& database, const SessionHeader& header) {
     for (const Trial& trial : header.schedule.trials)
         insert_values(database, "INTO schedule", trial.index, trial.task, trial.stimulus.object,
-                      trial.stimulus.material, trial.block);
+                      trial.stimulus.material, trial.block, trial.stimulus.light, trial.stimulus.motion,
+                      trial.stimulus.view);
     int index = 0;
     for (const Trial& trial : header.schedule.trials) {
         for (std::size_t i = 0; i < trial.shown_count() && (trial.slot != 0 || !trial.beside.empty()); ++i) {
@@ -78,10 +79,11 @@ void insert_objects(SQLite::Database& database, const SessionHeader& header) {
     }
     for (const RecordedStimulus& stimulus : header.stimuli)
         insert_values(database, "INTO stimulus", stimulus.stimulus.object, stimulus.stimulus.material,
+                      stimulus.stimulus.light, stimulus.stimulus.motion, stimulus.stimulus.view,
                       stimulus.source, stimulus.frames_sha256);
     for (const RecordedMap& map : header.maps)
-        insert_values(database, "INTO map", map.viewed.object, map.viewed.view, map.pose.value, map.file, map.sha256,
-                      map.made == RecordedMap::Made::prepared ? "prepared" : "live",
+        insert_values(database, "INTO map", map.viewed.object, map.viewed.view, map.pose.value, map.file,
+                      map.sha256, map.made == RecordedMap::Made::prepared ? "prepared" : "live",
                       map.kind == RecordedMap::Kind::triangles ? "triangles" : "coordinates");
 }
 

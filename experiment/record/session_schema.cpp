@@ -14,7 +14,9 @@ namespace {
 const char* const session_schema_sql = R"sql(
 CREATE TABLE characterisation_file (n INTEGER PRIMARY KEY, name TEXT NOT NULL, text TEXT NOT NULL) STRICT;
 CREATE TABLE schedule (trial INTEGER PRIMARY KEY, task INTEGER NOT NULL, object INTEGER NOT NULL,
-                       material INTEGER NOT NULL, block INTEGER NOT NULL DEFAULT 0) STRICT;
+                       material INTEGER NOT NULL, block INTEGER NOT NULL DEFAULT 0,
+                       light INTEGER NOT NULL DEFAULT 0, motion INTEGER NOT NULL DEFAULT 0,
+                       view INTEGER NOT NULL DEFAULT 0) STRICT;
 CREATE TABLE block (block INTEGER PRIMARY KEY, id TEXT NOT NULL) STRICT;
 CREATE TABLE protocol_file (n INTEGER PRIMARY KEY, name TEXT NOT NULL, text TEXT NOT NULL,
                             sha256 TEXT NOT NULL) STRICT;
@@ -22,8 +24,10 @@ CREATE TABLE task (task INTEGER PRIMARY KEY, id TEXT NOT NULL, question TEXT NOT
 CREATE TABLE part (object INTEGER NOT NULL, part INTEGER NOT NULL, name TEXT NOT NULL,
                    PRIMARY KEY (object, part)) STRICT, WITHOUT ROWID;
 CREATE TABLE material (material INTEGER PRIMARY KEY, id TEXT NOT NULL, title TEXT NOT NULL) STRICT;
-CREATE TABLE stimulus (object INTEGER NOT NULL, material INTEGER NOT NULL, source TEXT NOT NULL,
-                       frames_sha256 TEXT NOT NULL, PRIMARY KEY (object, material)) STRICT, WITHOUT ROWID;
+CREATE TABLE stimulus (object INTEGER NOT NULL, material INTEGER NOT NULL, light INTEGER NOT NULL DEFAULT 0,
+                       motion INTEGER NOT NULL DEFAULT 0, view INTEGER NOT NULL DEFAULT 0, source TEXT NOT NULL,
+                       frames_sha256 TEXT NOT NULL,
+                       PRIMARY KEY (object, material, light, motion, view)) STRICT, WITHOUT ROWID;
 CREATE TABLE pose (pose INTEGER PRIMARY KEY, angle_deg REAL NOT NULL) STRICT;
 CREATE TABLE animation_frame (motion INTEGER NOT NULL DEFAULT 0, frame INTEGER NOT NULL, pose INTEGER NOT NULL,
                               PRIMARY KEY (motion, frame)) STRICT, WITHOUT ROWID;
@@ -49,7 +53,8 @@ CREATE TABLE trial (
     response_screen_onset_ns INTEGER, responded_ns INTEGER,
     shown_refreshes INTEGER, missed_refreshes INTEGER, drift_deg REAL, answer TEXT,
     lost_flips INTEGER, lost_samples INTEGER,
-    failure TEXT, comes_again TEXT CHECK (comes_again IN ('never', 'now', 'end-of-block'))
+    failure TEXT, comes_again TEXT CHECK (comes_again IN ('never', 'now', 'end-of-block')),
+    light INTEGER NOT NULL DEFAULT 0, motion INTEGER NOT NULL DEFAULT 0, view INTEGER NOT NULL DEFAULT 0
 ) STRICT;
 CREATE TABLE superseded (attempt_id INTEGER PRIMARY KEY, sitting INTEGER NOT NULL, why TEXT NOT NULL) STRICT;
 CREATE TABLE given_up (trial INTEGER PRIMARY KEY, sitting INTEGER NOT NULL, why TEXT NOT NULL) STRICT;
@@ -228,9 +233,8 @@ CREATE TABLE IF NOT EXISTS run_option (
 )sql";
 
 void make_session_tables(SQLite::Database& database) {
-    for (const std::string& sql :
-         {create_sql(session_table()), create_sql(characterisation_table()), create_sql(object_table()),
-          create_sql(animation_table())})
+    for (const std::string& sql : {create_sql(session_table()), create_sql(characterisation_table()),
+                                   create_sql(object_table()), create_sql(animation_table())})
         database.exec(sql);
     for (const char* const sql : {session_schema_sql, box_tables_sql, observer_tables_sql, ledger_tables_sql,
                                   slot_tables_sql, gaze_tables_sql, device_tables_sql, option_tables_sql})

@@ -1,5 +1,7 @@
 #include "experiment/report/report_tables.h"
 
+#include "experiment/report/report_areas.h"
+
 namespace overt {
 
 Json report_tables(const StudyResults& results) {
@@ -113,16 +115,18 @@ Json report_tables(const StudyResults& results) {
                           {"to", row.to_s},
                           {"head", json_of(row.head_fraction)},
                           {"observers", row.observers}});
-    return {{"heads", heads},
-            {"distributions", distributions},
-            {"pairs", pairs},
-            {"effects", effects},
-            {"motions", motions},
-            {"lights", lights},
-            {"predictions", predictions},
-            {"reliabilities", reliabilities},
-            {"exposures", exposures},
-            {"course", course}};
+    Json tables{{"heads", heads},
+                {"distributions", distributions},
+                {"pairs", pairs},
+                {"effects", effects},
+                {"motions", motions},
+                {"lights", lights},
+                {"predictions", predictions},
+                {"reliabilities", reliabilities},
+                {"exposures", exposures},
+                {"course", course}};
+    add_area_tables(tables, results);
+    return tables;
 }
 
 } // namespace overt

@@ -35,8 +35,8 @@ void tell_of_flip(PresentationListener& listener, const FlipRecord& flip,
 
 TrialRun::TrialRun(SessionState& state, OperatorControl& control, const ScreenPoint& screen_centre)
     : state_(state), control_(control), drift_checks_(state, control, screen_centre),
-      answers_(state, control),
-      cycles_(page_cycles(state.protocol)), ledger_(cycles_.front(), WhenLate::drop) {
+      answers_(state, control), cycles_(page_cycles(state.protocol)),
+      ledger_(cycles_.front(), WhenLate::drop) {
     for (UsedTracker& used : state.trackers())
         feeds_.push_back({used, TrackerFeed(used.tracker)});
 }

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "experiment/animation.h"
-#include "experiment/screen_geometry.h"
 #include "experiment/protocol/all_stimuli.h"
+#include "experiment/screen_geometry.h"
 
 namespace overt {
 

@@ -129,9 +129,9 @@ Object load_object(const ObjectSettings& settings, const Protocol& protocol,
         try {
             depth_range(scene.bounds, scene.view);
         } catch (const InputError& error) {
-            throw InputError(fmt::format("object \"{}\"{}: {}", settings.id,
-                                         protocol.views.size() == 1 ? "" : fmt::format(", view \"{}\"", view.id),
-                                         error.what()));
+            throw InputError(fmt::format(
+                "object \"{}\"{}: {}", settings.id,
+                protocol.views.size() == 1 ? "" : fmt::format(", view \"{}\"", view.id), error.what()));
         }
     }
     return object;

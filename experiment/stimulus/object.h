@@ -40,9 +40,9 @@ std::optional<PartRegion> head_region(const ObjectSettings& settings);
 /// Of positions, triangles and parts: what a mesh file of any format is to the program.
 ContentHash hash_of_mesh(const Mesh& mesh);
 
-/// Imports or makes the mesh of one object of the protocol and places the camera of each view. An object that overt
-/// makes itself is kept as PLY in `cache` and taken from there the next time. Throws InputError naming the
-/// file or the key.
+/// Imports or makes the mesh of one object of the protocol and places the camera of each view. An object that
+/// overt makes itself is kept as PLY in `cache` and taken from there the next time. Throws InputError naming
+/// the file or the key.
 Object load_object(const ObjectSettings& settings, const Protocol& protocol,
                    const std::filesystem::path& cache);
 

@@ -25,6 +25,7 @@
 #include "experiment/study/methods/reporting.h"
 #include "experiment/study/point_distributions.h"
 #include "experiment/study/results/study_observers.h"
+#include "experiment/study/screen_area_looks.h"
 #include "experiment/study/study_maps.h"
 #include "experiment/study/study_pairs.h"
 
@@ -85,7 +86,7 @@ void glance_at(StudyResults& results, const ExclusionRules& rules) {
             remarks.push_back(fmt::format("{} is not complete: {} of it count.", session.folder,
                                           counted(session.trials, "trial")));
     }
-    if (glance.counted == 0)
+    if (glance.counted == 0 && knows_stimuli(results))
         remarks.emplace_back("No fixation was counted: there are no maps and no fractions.");
     if (glance.only_by_reach > 0)
         remarks.push_back(fmt::format(
@@ -179,21 +180,9 @@ void remark_on_differences(StudyResults& results, const StudyOptions& options) {
             counted(most, "observer"), least_p, 6));
 }
 
-} // namespace
-
-StudyResults analyze_study(std::span<const std::filesystem::path> sessions, const SurfaceFor& surface_for,
-                           const StudyOptions& options, const StudyProgress& progress) {
-    return analyze_study(read_study(sessions, surface_for, options, progress), options, progress);
-}
-
-StudyResults analyze_study(ReadStudy study, const StudyOptions& options, const StudyProgress& progress) {
+/// All that needs places on surfaces.
+void reckon_on_surfaces(ReadStudy& study, const StudyOptions& options, const StudyProgress& progress) {
     StudyResults& results = study.results;
-    results.parameters = parameters_of(options);
-    results.by = options.by;
-    results.confidence = options.confidence;
-    glance_at(results, options.exclude);
-    results.groups = make_groups(results, options.by, study.levels);
-
     add_maps(study, options, progress);
     results.head_fractions = head_fractions(results, study.levels, options);
     results.distributions = point_distributions(results, study.surfaces, options);
@@ -213,9 +202,29 @@ StudyResults analyze_study(ReadStudy study, const StudyOptions& options, const S
     results.effects = factor_effects(results, study.levels, options);
     results.motions = gaze_motions(results, study.levels, options);
     results.lights = lights_at_gaze(results, study.levels, options);
+    progress("metrics", 1, 1);
+}
+
+} // namespace
+
+StudyResults analyze_study(std::span<const std::filesystem::path> sessions, const SurfaceFor& surface_for,
+                           const StudyOptions& options, const StudyProgress& progress) {
+    return analyze_study(read_study(sessions, surface_for, options, progress), options, progress);
+}
+
+StudyResults analyze_study(ReadStudy study, const StudyOptions& options, const StudyProgress& progress) {
+    StudyResults& results = study.results;
+    results.parameters = parameters_of(options);
+    results.by = options.by;
+    results.confidence = options.confidence;
+    glance_at(results, options.exclude);
+    results.groups = make_groups(results, options.by, study.levels);
+
+    add_screen_area_looks(results, study.levels, options);
+    if (knows_stimuli(results))
+        reckon_on_surfaces(study, options, progress);
     results.reporting = reporting_items(results, options);
     results.methods = methods_text(results, options);
-    progress("metrics", 1, 1);
     return std::move(study.results);
 }
 

@@ -69,7 +69,11 @@ std::vector<StudyFigure> fixation_durations(const StudyResults& results) {
     constexpr std::size_t bins = 40;
     std::vector<double> counts(bins, 0.0), durations;
     for (const StudyFixation& fixation : results.fixations) {
-        if (!fixation.counted())
+        // Where no stimulus is known, no fixation counts on a surface; they last as long all the same.
+        const bool is_shown =
+            fixation.counted() || (fixation.why == NotCounted::no_stimulus &&
+                                   !results.trials[static_cast<std::size_t>(fixation.trial)].excluded);
+        if (!is_shown)
             continue;
         durations.push_back(1000.0 * fixation.duration_s);
         counts[std::min(bins - 1, static_cast<std::size_t>(durations.back() / bin_ms))] += 1.0;

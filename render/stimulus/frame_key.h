@@ -28,8 +28,9 @@ struct Surroundings {
 /// exposure. Throws InputError if the probe's file cannot be read.
 ContentHash hash_of_surroundings(const Surroundings& surroundings, Degrees turn);
 
-/// Of a path-traced stimulus in a view, but for the object's angle. The exposure is not in it, and frames have none: they are
-/// the same for all exposures and displays; unless errors are judged, for which it counts.
+/// Of a path-traced stimulus in a view, but for the object's angle. The exposure is not in it, and frames
+/// have none: they are the same for all exposures and displays; unless errors are judged, for which it
+/// counts.
 ContentHash traced_key(const Object& object, int view, const MaterialSettings& material,
                        const ContentHash& surroundings, double exposure, const BakeSettings& settings,
                        StandardObserver observer);

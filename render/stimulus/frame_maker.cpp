@@ -74,10 +74,10 @@ void FrameMaker::make_frames(std::span<const Stimulus> stimuli, const FrameQuali
                 writing.get();
             if (stopped)
                 std::rethrow_exception(stopped);
-            writing = std::async(std::launch::async, [this, stimulus, of = pose, quality,
-                                                      frame = std::move(frame)] {
-                cache_->store(stimulus, of, quality, frame);
-            });
+            writing = std::async(std::launch::async,
+                                 [this, stimulus, of = pose, quality, frame = std::move(frame)] {
+                                     cache_->store(stimulus, of, quality, frame);
+                                 });
         }
         done += cost;
         ++frames;

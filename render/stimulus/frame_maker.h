@@ -16,8 +16,8 @@ class FrameMaker {
     FrameMaker(const GlContext& context, const StimulusCache& cache, MapMaker& maps)
         : context_(&context), cache_(&cache), maps_(&maps) {}
 
-    /// Makes the frames of these stimuli that the cache lacks, of all pictures or of one, and puts them there.
-    /// Throws InputError, GraphicsError, RecordError.
+    /// Makes the frames of these stimuli that the cache lacks, of all pictures or of one, and puts them
+    /// there. Throws InputError, GraphicsError, RecordError.
     void make_frames(std::span<const Stimulus> stimuli, const FrameQuality& quality, const Progress& progress,
                      std::optional<Pose> only = {});
 

@@ -35,7 +35,8 @@ class LiveMaps final : public PresentationListener {
     /// Ends a presentation: waits for what is still under way.
     void screen_shown(const Screen& screen, SessionTime onset) noexcept override;
 
-    /// The maps finished since the last call, to be written down. Each pose of an object in a view comes once.
+    /// The maps finished since the last call, to be written down. Each pose of an object in a view comes
+    /// once.
     std::vector<LiveMap> take_finished();
 
   private:
@@ -54,7 +55,8 @@ class LiveMaps final : public PresentationListener {
     };
     void collect(bool wait) noexcept;
     Figure& figure_of(const ViewedObject& viewed) noexcept {
-        return figures_[static_cast<std::size_t>(viewed.object) * views_ + static_cast<std::size_t>(viewed.view)];
+        return figures_[static_cast<std::size_t>(viewed.object) * views_ +
+                        static_cast<std::size_t>(viewed.view)];
     }
 
     glm::ivec2 image_px_;

@@ -21,8 +21,8 @@ void MapMaker::prepare_given_maps(const Progress& progress) {
             const std::filesystem::path file = cache_->map_file(viewed, {pose});
             if (std::filesystem::exists(file))
                 return;
-            const CoordinateImageFile map =
-                read_given_map(cache_->protocol(), viewed.object, first_frame_of(cache_->poses(), PoseIndex{pose}));
+            const CoordinateImageFile map = read_given_map(cache_->protocol(), viewed.object,
+                                                           first_frame_of(cache_->poses(), PoseIndex{pose}));
             std::filesystem::create_directories(file.parent_path());
             write_coordinate_exr(file, map.image, map.description);
         });
@@ -61,8 +61,8 @@ bool MapMaker::draw_missing_map(const ViewedObject& viewed, PoseIndex pose) {
     const TriangleMap map = draw_map(viewed, pose);
     if (map.covered_pixels() == 0) {
         throw InputError(fmt::format(
-            "object \"{}\" is nowhere in the picture at {:.3g} degrees: correct the camera under {}", figure.id,
-            angle.value, section_of_view(cache_->protocol(), viewed.view)));
+            "object \"{}\" is nowhere in the picture at {:.3g} degrees: correct the camera under {}",
+            figure.id, angle.value, section_of_view(cache_->protocol(), viewed.view)));
     }
     const Camera& camera = figure.scene(viewed.view).view.camera;
     write_triangle_map(
@@ -80,8 +80,8 @@ TriangleMap MapMaker::draw_map(const ViewedObject& viewed, PoseIndex pose) {
     const SceneView& scene = cache_->objects()[static_cast<std::size_t>(viewed.object)].scene(viewed.view);
     if (!coordinate_pass_)
         coordinate_pass_.emplace(*context_, scene.view.image_px);
-    return {scene.view.image_px, coordinate_pass_->draw(buffers_of(viewed.object, false), scene,
-                                                        cache_->poses().angle_of(pose))};
+    return {scene.view.image_px,
+            coordinate_pass_->draw(buffers_of(viewed.object, false), scene, cache_->poses().angle_of(pose))};
 }
 
 const MeshBuffers& MapMaker::buffers_of(int object, bool for_light) {

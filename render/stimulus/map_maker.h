@@ -24,8 +24,8 @@ class MapMaker {
     /// read_given_map does.
     void prepare_given_maps(const Progress& progress);
 
-    /// Draws whatever maps the cache lacks, of all objects with a mesh in all views, or of one. Throws InputError for
-    /// an object that is nowhere in the picture, GraphicsError, RecordError.
+    /// Draws whatever maps the cache lacks, of all objects with a mesh in all views, or of one. Throws
+    /// InputError for an object that is nowhere in the picture, GraphicsError, RecordError.
     void prepare_maps(const Progress& progress);
     void prepare_maps(const ViewedObject& viewed, const Progress& progress);
 

@@ -71,8 +71,7 @@ std::vector<Pose> StimulusCache::missing_frames(const Stimulus& stimulus, const 
     return missing;
 }
 
-FrameCount StimulusCache::count_frames(std::span<const Stimulus> stimuli,
-                                       const FrameQuality& quality) const {
+FrameCount StimulusCache::count_frames(std::span<const Stimulus> stimuli, const FrameQuality& quality) const {
     std::set<std::filesystem::path> files;
     FrameCount count;
     for (const Stimulus& stimulus : stimuli) {
@@ -163,8 +162,8 @@ bool StimulusCache::has_given_maps(int object) const {
 std::filesystem::path StimulusCache::map_file(const ViewedObject& viewed, PoseIndex pose) const {
     const Degrees turn = poses_.angle_of(pose);
     if (has_given_maps(viewed.object))
-        return file_of("given_maps", hash_of_given_map(*protocol_, viewed.object, first_frame_of(poses_, pose)),
-                       turn);
+        return file_of("given_maps",
+                       hash_of_given_map(*protocol_, viewed.object, first_frame_of(poses_, pose)), turn);
     return file_of("maps", map_key(objects_[static_cast<std::size_t>(viewed.object)], viewed.view), turn);
 }
 

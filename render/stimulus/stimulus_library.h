@@ -56,11 +56,10 @@ class StimulusLibrary final : public FrameSource {
     /// the files' bytes.
     ContentHash frames_hash(const Stimulus& stimulus) const;
 
-    /// The file with the luminance of a stimulus in small pictures (light_pictures.h), one for each picture of
-    /// its motion, from the cache. What
-    /// is not there is made if `make` says so, which reads all frames of the stimulus. Nothing for what is
-    /// not there, and for ready-made frames without alpha: what they show of the object is not known. Throws
-    /// InputError, RecordError.
+    /// The file with the luminance of a stimulus in small pictures (light_pictures.h), one for each picture
+    /// of its motion, from the cache. What is not there is made if `make` says so, which reads all frames of
+    /// the stimulus. Nothing for what is not there, and for ready-made frames without alpha: what they show
+    /// of the object is not known. Throws InputError, RecordError.
     std::optional<std::filesystem::path> light_file(const Stimulus& stimulus, bool make) const;
 
     /// The first frame on the display's background, for looking at (write_srgb_png), from the cache; made if

@@ -29,13 +29,16 @@ void check_indices(const SessionHeader& header, const std::vector<TrialRecord>& 
             const auto [stimulus, slot] = trial.shown(i);
             is_known = is_known && within(stimulus.object, header.objects.size()) &&
                        within(stimulus.material, header.materials.size()) &&
+                       within(stimulus.motion, header.animations.size()) &&
+                       within(stimulus.view,
+                              header.objects[static_cast<std::size_t>(stimulus.object)].cameras.size()) &&
                        within(slot, header.slots.size());
         }
         if (!is_known)
-            throw RecordError(
-                fmt::format("{}: table trial, trial_id {}: it names a task, object, material or "
-                            "slot that the session does not have: the file is damaged.",
-                            file.string(), record.id));
+            throw RecordError(fmt::format(
+                "{}: table trial, trial_id {}: it names a task, object, material, motion, view or "
+                "slot that the session does not have: the file is damaged.",
+                file.string(), record.id));
     }
 }
 

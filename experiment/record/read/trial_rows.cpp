@@ -31,11 +31,11 @@ TrialRecord read_trial(Query& row) {
     TrialOutcome& outcome = record.outcome;
     std::string status, afterwards;
     row.read(record.id, record.sitting, trial.index, record.attempt, trial.task, trial.stimulus.object,
-             trial.stimulus.material, status, record.started, outcome.task_screen_onset,
-             outcome.presentation_onset, outcome.presentation_end, outcome.response_screen_onset,
-             outcome.responded_at, outcome.shown_refreshes, outcome.missed_refreshes, outcome.drift,
-             outcome.answer, record.lost_flips, record.lost_samples, outcome.failure, afterwards,
-             record.is_superseded);
+             trial.stimulus.material, trial.stimulus.light, trial.stimulus.motion, trial.stimulus.view,
+             status, record.started, outcome.task_screen_onset, outcome.presentation_onset,
+             outcome.presentation_end, outcome.response_screen_onset, outcome.responded_at,
+             outcome.shown_refreshes, outcome.missed_refreshes, outcome.drift, outcome.answer,
+             record.lost_flips, record.lost_samples, outcome.failure, afterwards, record.is_superseded);
     record.status = status_from(status);
     outcome.afterwards = afterwards_from(afterwards);
     outcome.status = record.status == TrialRecord::Status::completed ? TrialOutcome::Status::completed
@@ -149,13 +149,15 @@ std::vector<TrialRecord> read_trials(const SQLite::Database& database) {
     const bool tells_fates = has_column(database, "trial", "comes_again");
     std::vector<TrialRecord> trials = read_rows(
         database,
-        fmt::format("SELECT trial_id, sitting, trial, attempt, task, object, material, status, started_ns, "
-                    "COALESCE(task_screen_onset_ns, -1), COALESCE(presentation_onset_ns, -1), "
-                    "COALESCE(presentation_end_ns, -1), COALESCE(response_screen_onset_ns, -1), "
-                    "COALESCE(responded_ns, -1), shown_refreshes, missed_refreshes, drift_deg, "
-                    "answer, lost_flips, lost_samples, {} FROM trial ORDER BY trial_id",
-                    tells_fates ? "failure, comes_again, trial_id IN (SELECT attempt_id FROM superseded)"
-                                : "NULL, NULL, 0"),
+        fmt::format(
+            "SELECT trial_id, sitting, trial, attempt, task, object, material, {}, status, started_ns, "
+            "COALESCE(task_screen_onset_ns, -1), COALESCE(presentation_onset_ns, -1), "
+            "COALESCE(presentation_end_ns, -1), COALESCE(response_screen_onset_ns, -1), "
+            "COALESCE(responded_ns, -1), shown_refreshes, missed_refreshes, drift_deg, "
+            "answer, lost_flips, lost_samples, {} FROM trial ORDER BY trial_id",
+            has_column(database, "trial", "light") ? "light, motion, view" : "0, 0, 0",
+            tells_fates ? "failure, comes_again, trial_id IN (SELECT attempt_id FROM superseded)"
+                        : "NULL, NULL, 0"),
         read_trial);
     add_response_boxes(database, trials);
     add_presses(database, trials);

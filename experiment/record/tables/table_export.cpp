@@ -13,6 +13,7 @@
 #include "experiment/base/whole_file.h"
 #include "experiment/maps/coordinate_maps.h"
 #include "experiment/record/tables/export_tables.h"
+#include "experiment/record/tables/imported_trials.h"
 #include "experiment/study/fixations/passing_fixations.h"
 #include "experiment/study/fixations/trial_presentation.h"
 
@@ -23,8 +24,8 @@ namespace {
 
 constexpr const char* dictionary_file = "dictionary.json";
 
-ExportTables with_words(ExportTables tables, const TrialWords& words) {
-    tables.trials.add<TrialRow>(trial_word_columns(words));
+ExportTables with_messages(ExportTables tables, const TrialMessages& messages) {
+    tables.trials.add<TrialRow>(imported_trial_columns(messages));
     return tables;
 }
 
@@ -35,11 +36,11 @@ constexpr double without_end_s = 1e9;
 class TableExport {
   public:
     TableExport(const SessionRecord& record, const fs::path& directory, const TableExportOptions& options)
-        : record_(record), header_(record.header()), format_(options.format), words_(trial_words(record)),
-          participant_(participant_row(record)),
-          tables_(with_words(ExportTables(header_, pupil_words(record), options.cone_accuracy,
-                                          record.event_origins(), {participant_}),
-                             words_)),
+        : record_(record), header_(record.header()), format_(options.format),
+          messages_(trial_messages(record)), participant_(participant_row(record)),
+          tables_(with_messages(ExportTables(header_, pupil_words(record), options.cone_accuracy,
+                                             record.event_origins(), {participant_}),
+                                messages_)),
           directory_(directory), sample_rows_(tables_.samples, record, format_, options.cone_accuracy),
           validations_(validations_of(record)) {
         for (const Table* table : tables_.all())
@@ -69,7 +70,7 @@ class TableExport {
     const SessionRecord& record_;
     const SessionHeader& header_;
     const TableFormat format_;
-    const TrialWords words_;
+    const TrialMessages messages_;
     const ParticipantRow participant_;
     const ExportTables tables_;
     std::map<const Table*, TableWriter> writers_;
@@ -115,7 +116,8 @@ class TableExport {
 void TableExport::begin_object(const ViewedObject& viewed, const SurfaceLookup* lookup) {
     const RecordedObject& recorded = item(header_.objects, viewed.object);
     lookup_ = lookup;
-    scale_ = object_scale(recorded.camera(viewed.view), recorded.axis_point, header_.display.screen, recorded.unit);
+    scale_ = object_scale(recorded.camera(viewed.view), recorded.axis_point, header_.display.screen,
+                          recorded.unit);
     ways_.reset();
     const auto* maps = dynamic_cast<const CoordinateMaps*>(lookup);
     if (maps && scale_)

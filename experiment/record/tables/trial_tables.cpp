@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <sstream>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -160,42 +159,6 @@ RowLayout<TrialRow> presentations_layout(const SharedColumns& shared, const Sess
                                return item(header.slots, row.trial.trial.slot).id;
                            }}});
     return layout;
-}
-
-TrialWords trial_words(const SessionRecord& record) {
-    constexpr std::string_view beginning = "TRIALID";
-    TrialWords words;
-    for (const TrialRecord& trial : record.trials()) {
-        if (!record.gaze_source(trial.sitting))
-            continue;
-        record.read_gaze_events(trial, [&](const GazeEvent& event) {
-            if (event.kind != GazeEvent::Kind::message || !event.text.starts_with(beginning))
-                return;
-            std::vector<std::string>& of_trial = words[trial.id];
-            of_trial.clear();
-            std::istringstream text(event.text.substr(beginning.size()));
-            for (std::string word; text >> word;)
-                of_trial.push_back(word);
-        });
-    }
-    return words;
-}
-
-std::vector<RowLayout<TrialRow>::Column> trial_word_columns(const TrialWords& words) {
-    std::size_t most = 0;
-    for (const auto& [id, of_trial] : words)
-        most = std::max(most, of_trial.size());
-    std::vector<RowLayout<TrialRow>::Column> columns;
-    for (std::size_t n = 0; n < most; ++n)
-        columns.push_back(
-            {{fmt::format("trialid_{}", n + 1),
-              fmt::format("Word {} after TRIALID in the trial's message of the imported recording", n + 1)},
-             [&words, n](const TrialRecord& attempt) -> std::string_view {
-                 const auto found = words.find(attempt.id);
-                 return found != words.end() && n < found->second.size() ? std::string_view(found->second[n])
-                                                                         : std::string_view();
-             }});
-    return columns;
 }
 
 RowLayout<TrialRecord> responses_layout(const SharedColumns& shared, const SessionHeader& header) {

@@ -16,8 +16,9 @@ namespace overt {
 namespace {
 
 /// What is fixed about an attempt from its begin.
-constexpr std::string_view begun_columns[] = {"trial_id", "sitting", "trial",    "attempt",
-                                              "task",     "object",  "material", "started_ns"};
+constexpr std::string_view begun_columns[] = {"trial_id", "sitting", "trial",     "attempt",
+                                              "task",     "object",  "material",  "light",
+                                              "motion",   "view",    "started_ns"};
 
 /// Enough to see what a value is.
 constexpr std::size_t longest_value = 120;

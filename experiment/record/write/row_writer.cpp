@@ -60,8 +60,8 @@ RowWriter::RowWriter(const std::filesystem::path& session_file, const Sitting& s
       insert_map_(database_,
                   "INSERT OR REPLACE INTO map (object, view, pose, file, sha256, made) VALUES (?,?,?,?,?,?)"),
       insert_trial_(database_,
-                    "INSERT INTO trial (trial_id, sitting, trial, attempt, task, object, material, "
-                    "status, started_ns) VALUES (?,?,?,?,?,?,?,'open',?)"),
+                    "INSERT INTO trial (trial_id, sitting, trial, attempt, task, object, material, light, "
+                    "motion, view, status, started_ns) VALUES (?,?,?,?,?,?,?,?,?,?,'open',?)"),
       finish_trial_(
           database_,
           "UPDATE trial SET status = ?, task_screen_onset_ns = ?, presentation_onset_ns = ?, "
@@ -338,7 +338,8 @@ void RowWriter::write(const TrialStart& start) {
     const std::int64_t attempt =
         1 + number(database_, "SELECT COUNT(*) FROM trial WHERE trial = ?1", trial.index);
     run_statement(insert_trial_, trial_counts_.trial_id, sitting_, trial.index, attempt, trial.task,
-                  trial.stimulus.object, trial.stimulus.material, start.at);
+                  trial.stimulus.object, trial.stimulus.material, trial.stimulus.light, trial.stimulus.motion,
+                  trial.stimulus.view, start.at);
     for (std::size_t i = 0; i < trial.shown_count(); ++i) {
         const auto [stimulus, slot] = trial.shown(i);
         insert_values(database_,

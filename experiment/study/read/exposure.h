@@ -20,11 +20,11 @@ struct Exposure {
     std::vector<double> part_pixel_seconds; ///< the same by PartIndex
 };
 
-/// Of presentations that show each pose for so long, `seconds` by PoseIndex. A vertex is visible in a pose if a triangle that has it is at the
-/// centre of a pixel, or if it has a triangle that faces the camera and the map shows no nearer surface at
-/// its place: small triangles may lie between the centres of pixels. There the map's triangle is continued to
-/// the vertex's line of sight, no farther than its corners are, and surfaces within two pixels' width of
-/// depth are taken as one. Uses all processors; does not depend on how many.
+/// Of presentations that show each pose for so long, `seconds` by PoseIndex. A vertex is visible in a pose if
+/// a triangle that has it is at the centre of a pixel, or if it has a triangle that faces the camera and the
+/// map shows no nearer surface at its place: small triangles may lie between the centres of pixels. There the
+/// map's triangle is continued to the vertex's line of sight, no farther than its corners are, and surfaces
+/// within two pixels' width of depth are taken as one. Uses all processors; does not depend on how many.
 Exposure exposure_of(const CoordinateMaps& maps, std::span<const double> seconds);
 
 /// Each part with its area, how long it is visible, and its share of the exposure and of the fixations; the

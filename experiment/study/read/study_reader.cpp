@@ -18,6 +18,7 @@
 #include "experiment/study/read/gaze_quality.h"
 #include "experiment/study/read/open_sessions.h"
 #include "experiment/study/read/part_evidence.h"
+#include "experiment/study/read/trial_screen_areas.h"
 
 namespace overt {
 
@@ -290,8 +291,8 @@ class StudyReader {
         return lookup;
     }
 
-    /// How long a presentation of an object shows each pose as planned, by PoseIndex: the mean over the trials
-    /// that count, and over all motions if there is none.
+    /// How long a presentation of an object shows each pose as planned, by PoseIndex: the mean over the
+    /// trials that count, and over all motions if there is none.
     std::vector<double> seconds_shown(int index) const {
         const SessionHeader& header =
             open_[shown_in_[static_cast<std::size_t>(index)].first].record().header();
@@ -354,8 +355,7 @@ class StudyReader {
                 for (StudyKey& key : read.trial.keys)
                     if (key.column == "observer")
                         key.value = results().sessions[session].observer;
-                read.trial.object =
-                    open_[session].objects.at(viewed(trials[t].trial.stimulus));
+                read.trial.object = open_[session].objects.at(viewed(trials[t].trial.stimulus));
                 read.trial.first_fixation = results().fixations.size();
                 read.trial.fixations = read.fixations.size();
                 for (StudyFixation& fixation : read.fixations) {
@@ -372,6 +372,7 @@ class StudyReader {
                 results().trials.push_back(std::move(read.trial));
             }
         }
+        add_screen_areas();
         for (int session = 0; session < static_cast<int>(open_.size()); ++session) {
             std::vector<const StudyQuality*> own;
             for (const StudyTrial& trial : results().trials) {
@@ -396,6 +397,43 @@ class StudyReader {
         }
     }
 
+    /// Those that recordings tell and those of the options, by trial.
+    void add_screen_areas() {
+        std::vector<std::vector<ScreenArea>>& areas = results().screen_areas;
+        std::vector<std::string> files, faults;
+        for (const OpenSession& open : open_) {
+            for (const TrialRecord& trial : open.presentations) {
+                if (!trial.counts)
+                    continue;
+                RecordedScreenAreas recorded = recorded_screen_areas(open.record(), trial);
+                for (ScreenArea& chosen :
+                     chosen_screen_areas(options_.screen_areas, results().trials[areas.size()]))
+                    recorded.areas.push_back(std::move(chosen));
+                areas.push_back(std::move(recorded.areas));
+                std::ranges::move(recorded.faults, std::back_inserter(faults));
+                for (std::string& file : recorded.files)
+                    if (std::ranges::find(files, file) == files.end())
+                        files.push_back(std::move(file));
+            }
+        }
+        if (std::ranges::all_of(areas, &std::vector<ScreenArea>::empty))
+            areas.clear();
+        if (!faults.empty())
+            results().remarks.push_back(
+                fmt::format("{} on areas of the screen cannot be read and {} left out; the first is {}.",
+                            faults.size() == 1 ? "A message" : fmt::format("{} messages", faults.size()),
+                            faults.size() == 1 ? "is" : "are", faults.front()));
+        if (!files.empty() && options_.screen_areas.empty())
+            results().remarks.push_back(fmt::format(
+                "Recordings name {} with areas of the screen, such as {}: give such a file with --areas.",
+                files.size() == 1 ? "a file" : fmt::format("{} files", files.size()), files.front()));
+        const std::vector<std::string> unknown = unknown_columns(options_.screen_areas, results());
+        if (!unknown.empty())
+            throw InputError(fmt::format(
+                "{}: no trial has a column {}: an area is of the trials that have the same word there",
+                options_.screen_areas_file, fmt::join(unknown, ", ")));
+    }
+
     /// What is given of them, and what is not.
     void remark_on_sessions_without_stimulus() {
         std::vector<std::string> folders;
@@ -413,9 +451,18 @@ class StudyReader {
                               folders.size() == 1 ? "knows" : "know");
         results().remarks.push_back(
             named +
-            ": fixations with their places on the screen, the quality of gaze, and trials are in the "
-            "tables fixations, quality and trials; saccades and blinks are in the exports. The gaze has "
-            "no places on a surface, so that none of it is in maps, in shares of parts or in comparisons.");
+            ": fixations with their places on the screen, the quality of gaze, and trials are in the tables "
+            "fixations, quality and trials, what gaze did with areas of the screen in screen_areas, where "
+            "there are "
+            "any; saccades and blinks are in the exports. Maps, shares of parts, comparisons of conditions "
+            "on a "
+            "surface, gaze on a moving surface and light at gaze were not computed of them: that takes the "
+            "object "
+            "that was shown, and when.");
+        if (results().screen_areas.empty())
+            results().remarks.push_back(
+                "No area of the screen is known: analyze takes a file of them with --areas, and messages "
+                "\"!V IAREA\" of a recording.");
     }
 
     const SurfaceFor& surface_for_;
@@ -424,7 +471,7 @@ class StudyReader {
     std::vector<OpenSession> open_;
     /// By object: a session that has it, and what it is there.
     std::vector<std::pair<std::size_t, ViewedObject>> shown_in_;
-    std::vector<ReadSession> read_;                     ///< by session
+    std::vector<ReadSession> read_; ///< by session
     ReadStudy study_;
 };
 

@@ -15,9 +15,9 @@ RowLayout<TrialRow> columns_of(const SessionHeader& header) {
 } // namespace
 
 TrialKeys::TrialKeys(const SessionRecord& record)
-    : words_(trial_words(record)), layout_(columns_of(record.header())) {
-    if (!words_.empty())
-        layout_.add<TrialRow>(trial_word_columns(words_));
+    : messages_(trial_messages(record)), layout_(columns_of(record.header())) {
+    if (!messages_.empty())
+        layout_.add<TrialRow>(imported_trial_columns(messages_));
     of_session_.push_back({"observer", record.header().schedule.observer.label});
     of_session_.push_back({"session", std::to_string(record.header().session_number)});
     for (const RecordedObserverField& field : record.observer_fields())

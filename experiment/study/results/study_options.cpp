@@ -97,6 +97,8 @@ std::vector<StudyParameter> parameters_of(const StudyOptions& options) {
         {"same-observer", same_observers(options), "",
          "Labels of observers that stand for another observer's, whose sessions are then counted as one "
          "person's."},
+        {"areas", options.screen_areas_file.empty() ? "none" : options.screen_areas_file, "",
+         "File with areas of the screen, besides those that imported recordings tell by messages."},
         {"time-step", fmt::format("{}", options.time_step_s), "s", "Stretches of the time course."},
         {"confidence", fmt::format("{}", options.confidence), "", "Level of all intervals."},
         {"resamples", fmt::format("{}", options.resamples), "",

@@ -9,6 +9,7 @@
 
 #include "experiment/base/enum_names.h"
 #include "experiment/events/event_thresholds.h"
+#include "experiment/screen_areas/screen_areas_file.h"
 #include "experiment/statistics/bootstrap.h"
 #include "experiment/statistics/permutation.h"
 #include "experiment/study/results/study_results.h"
@@ -56,6 +57,8 @@ struct StudyOptions {
     /// Fixations, saccades and blinks are found anew in all sessions, by these thresholds. Nothing: those on
     /// record, and found in imports that have none.
     std::optional<ChosenThresholds> detect_events;
+    std::vector<ChosenScreenArea> screen_areas; ///< besides those that recordings tell
+    std::string screen_areas_file;              ///< their file's name; empty: none
     /// Labels that stand for the same observer as another, and that one's.
     std::vector<std::pair<std::string, std::string>> same_observer;
     double time_step_s = 1.0; ///< of the time course

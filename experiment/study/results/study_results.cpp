@@ -4,6 +4,12 @@
 
 namespace overt {
 
+bool knows_stimuli(const StudyResults& results) {
+    return std::ranges::any_of(results.sessions, [](const StudySession& session) {
+        return session.setup.stimuli.frame_count > 0;
+    });
+}
+
 std::string_view name_of(NotCounted why) {
     switch (why) {
     case NotCounted::counted:

@@ -22,16 +22,11 @@
 #include "experiment/scene/viewing.h"
 #include "experiment/screen_geometry.h"
 #include "experiment/statistics/estimate.h"
+#include "experiment/study/results/screen_area_rows.h"
 #include "experiment/study/results/session_setup.h"
+#include "experiment/study/results/study_key.h"
 
 namespace overt {
-
-/// A column of the table of trials, or a field of the observer's form, and what stands in it.
-struct StudyKey {
-    std::string column;
-    std::string value; ///< as in the exported tables; n/a where nothing stands
-    friend bool operator==(const StudyKey&, const StudyKey&) = default;
-};
 
 /// What was set, for the methods' text: every parameter that decides a number.
 struct StudyParameter {
@@ -468,11 +463,18 @@ struct StudyResults {
     std::vector<GazeMotionRow> motions;
     std::vector<LightAtGazeRow> lights;
     std::vector<TimeCourseRow> time_course;
+    std::vector<std::vector<ScreenArea>> screen_areas; ///< by trial; empty: no trial has any
+    std::vector<ScreenAreaTrialRow> screen_area_trials;
+    std::vector<AreaTransitionRow> area_transitions;
+    std::vector<ScreenAreaRow> screen_area_groups;
     std::vector<StudyQuality> session_quality; ///< by session
     std::vector<ReportingItem> reporting;
     std::vector<MethodsParagraph> methods;
     std::vector<StudyTrace> traces; ///< of each trial with samples, in the order of the trials
 };
+
+/// Whether any session knows what it showed; imported recordings do not.
+bool knows_stimuli(const StudyResults& results);
 
 /// A few words for tables and sentences.
 std::string_view name_of(NotCounted why);

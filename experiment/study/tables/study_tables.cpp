@@ -8,6 +8,7 @@
 #include "experiment/base/whole_file.h"
 #include "experiment/record/tables/export_tables.h"
 #include "experiment/study/tables/mixed_models.h"
+#include "experiment/study/tables/screen_area_layouts.h"
 #include "experiment/study/tables/study_layout.h"
 #include "experiment/study/tables/study_layouts.h"
 #include "experiment/study/tables/study_setup_json.h"
@@ -33,11 +34,16 @@ template <class Visit> void for_each_table(const StudyResults& results, const Vi
         for (const StudyTrial& trial : results.trials)
             take(trial_summary(results, trial));
     });
-    all(head_fractions_layout(results), results.head_fractions, true);
-    all(distributions_layout(results), results.distributions, true);
-    all(pairs_layout(results), results.pairs, true);
-    all(time_course_layout(results), results.time_course, true);
-    all(study_maps_layout(results), results.maps, true);
+    // Recordings that know nothing of what was shown have no results on a surface, and no rows of n/a either.
+    const bool on_surfaces = knows_stimuli(results);
+    all(screen_areas_layout(results), results.screen_area_groups, false);
+    all(screen_area_trials_layout(results), results.screen_area_trials, false);
+    all(area_transitions_layout(results), results.area_transitions, !results.screen_area_trials.empty());
+    all(head_fractions_layout(results), results.head_fractions, on_surfaces);
+    all(distributions_layout(results), results.distributions, on_surfaces);
+    all(pairs_layout(results), results.pairs, on_surfaces);
+    all(time_course_layout(results), results.time_course, on_surfaces);
+    all(study_maps_layout(results), results.maps, on_surfaces);
     all(factor_effects_layout(), results.effects, false);
     all(gaze_motion_layout(results), results.motions, false);
     all(light_at_gaze_layout(results), results.lights, false);
@@ -138,6 +144,18 @@ std::string study_json(const StudyResults& results) {
             one["remark"] = object.remark;
         json["objects"].push_back(std::move(one));
     }
+    for (const ScreenAreaRow& row : results.screen_area_groups) {
+        Json one{{"keys", keys_json(row.keys)},
+                 {"area", row.area},
+                 {"fixations", row.fixations},
+                 {"trials", row.trials}};
+        for (const auto& [name, estimate] :
+             {std::pair{"dwell_share", &row.dwell_share}, std::pair{"visits", &row.visits},
+              std::pair{"reached", &row.reached}, std::pair{"first_arrival_s", &row.first_arrival_s}})
+            if (estimate->value)
+                one[name] = *estimate->value;
+        json["screen_areas"].push_back(std::move(one));
+    }
     for (const HeadFractionRow& row : results.head_fractions) {
         Json one{{"keys", keys_json(row.keys)}, {"fixations", row.fixations}, {"observers", row.observers}};
         if (row.by_count.value)
@@ -166,7 +184,8 @@ void write_study_tables(const StudyResults& results, const std::filesystem::path
         writer.close();
         describe_table(dictionary, layout.table(), format);
     });
-    write_mixed_models(results, folder, format);
+    if (knows_stimuli(results))
+        write_mixed_models(results, folder, format);
     write_whole_file(folder / "dictionary.json", json_text(dictionary));
     write_whole_file(folder / "study.json", study_json(results));
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "experiment/events/event_agreement.h"
 #include "experiment/events/event_detector.h"
@@ -13,10 +14,89 @@
 using namespace overt;
 using namespace overt::test;
 
+namespace {
+
+/// With two lights, two motions that share a pose, and two views.
+std::string protocol_of_lists() {
+    std::string text = with(small_protocol, "[view]\nwidth_px = 128\nheight_px = 128\n",
+                            R"([[view]]
+id = "front"
+width_px = 128
+height_px = 128
+
+[[view]]
+id = "above"
+width_px = 128
+height_px = 128
+camera_position = [300, -900, 700]
+
+[[light]]
+id = "cloudy"
+
+[[light]]
+id = "behind"
+rotation_deg = 180
+)");
+    text =
+        with(text, "[animation]\nframe_count = 31\nframe_rate_hz = 30\namplitude_deg = 25\nduration_s = 1\n",
+             R"([[motion]]
+id = "turn"
+frame_count = 31
+frame_rate_hz = 30
+amplitude_deg = 25
+duration_s = 1
+
+[[motion]]
+id = "lamp"
+kind = "still"
+angle_deg = 25
+light_amplitude_deg = 40
+frame_count = 5
+frame_rate_hz = 10
+duration_s = 0.5
+)");
+    return text;
+}
+
+void check_places(ExactSitting& sitting, int least_samples, int least_compared);
+
+} // namespace
+
 TEST_CASE("each exported gaze sample is where the observer's gaze met the surface", "[session]") {
     ExactSitting sitting;
+    check_places(sitting, 10000, 6000);
+}
+
+TEST_CASE("gaze meets the surface in the pose and the view of its trial", "[session]") {
+    ExactSitting sitting(protocol_of_lists());
+    check_places(sitting, 10000, 5000);
+    const SessionRecord record(sitting.folder);
+    const SessionHeader& header = record.header();
+    // The lamp's pose is one that the turn has, and no light has maps of its own.
+    CHECK(header.poses.of_motion.size() == 2);
+    CHECK(std::ranges::count(header.poses.of_motion[0], header.poses.of_motion[1].front()) > 0);
+    CHECK(header.maps.size() == 2 * 2 * header.poses.angles.size());
+    CHECK(header.stimuli.size() == 2u * 2u * 2u * 2u * 2u);
+    std::set<int> lights, motions, views;
+    for (const TrialRecord& trial : record.trials()) {
+        const Stimulus& stimulus = trial.trial.stimulus;
+        lights.insert(stimulus.light);
+        motions.insert(stimulus.motion);
+        views.insert(stimulus.view);
+        const PageCycle cycle = header.page_cycle_of(stimulus);
+        CHECK(trial.outcome.shown_refreshes == cycle.total_refreshes);
+        CHECK(cycle.total_refreshes == (stimulus.motion == 0 ? 120 : 60));
+        CHECK(trial.trial == header.schedule.trials[static_cast<std::size_t>(trial.trial.index)]);
+    }
+    for (const auto& levels : {lights, motions, views})
+        CHECK(levels.size() == 2);
+}
+
+namespace {
+
+void check_places(ExactSitting& sitting, int least_samples, int least_compared) {
     const TsvFile samples(sitting.run() / "samples.tsv");
-    REQUIRE(samples.size() > 10000);
+    REQUIRE(static_cast<int>(samples.size()) > least_samples);
 
     int compared = 0, on_another_frame = 0, elsewhere = 0, missing = 0, invented = 0;
     double farthest_px = 0.0, latest_s = 0.0;
@@ -49,7 +129,7 @@ TEST_CASE("each exported gaze sample is where the observer's gaze met the surfac
         // Six decimals are exported of each coordinate.
         elsewhere += glm::distance(exported, truth.surface->position) > 1e-6;
     }
-    CHECK(compared > 6000);
+    CHECK(compared > least_compared);
     CHECK(elsewhere == 0);
     // Right on an outline the last digit may decide.
     CHECK(missing == 0);
@@ -58,6 +138,8 @@ TEST_CASE("each exported gaze sample is where the observer's gaze met the surfac
     CHECK(farthest_px < 0.0006); // of a pixel, three
     CHECK(latest_s < 2e-5);      // as well as both clocks were read together
 }
+
+} // namespace
 
 TEST_CASE("the fixations of a simulated observer come back from its session", "[session]") {
     ExactSitting sitting;

@@ -66,7 +66,8 @@ TEST_CASE("every level of a ramp comes through film, cache, frame store and enco
 
     // Light of the material under the protocol's light, as the tracer gives it ...
     const FrameQuality quality = quality_of(BakeQuality::draft, protocol.bake);
-    SpectralFrame frame = library.frames().trace(matt_bust, cache.pictures_of(matt_bust)[0], {BakeQuality::draft, 1, {}}, {});
+    SpectralFrame frame =
+        library.frames().trace(matt_bust, cache.pictures_of(matt_bust)[0], {BakeQuality::draft, 1, {}}, {});
     const std::vector<float> light = traced_light(frame);
 
     // ... at every level from black to where its brightest channel is the display's white.

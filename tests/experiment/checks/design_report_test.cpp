@@ -146,9 +146,9 @@ TEST_CASE("weights and groups that show some stimuli more often are no imbalance
     protocol.blocks.clear();
     GroupSettings gold, coating;
     gold.id = "gold";
-    gold.materials = {protocol.materials[0].id, protocol.materials[1].id};
+    gold.chosen[1] = {protocol.materials[0].id, protocol.materials[1].id};
     coating.id = "coating";
-    coating.materials = {protocol.materials[2].id};
+    coating.chosen[1] = {protocol.materials[2].id};
     coating.cap = 2;
     protocol.groups = {gold, coating};
     protocol.schedule.observers = 12;

@@ -122,7 +122,7 @@ TEST_CASE("slots that overlap, leave the screen or are unknown are errors at the
     CHECK(slot_lines("\"left\"", left + slot_of("left", "right_deg = 5\nsize_deg = 8")) ==
           Lines{"18:6: id \"left\" is taken already"});
     const Lines overlap =
-        slot_lines("[\"left\", \"wide\"]", left + slot_of("wide", "right_deg = 3\nsize_deg = 8"));
+        slot_lines("[\"left\", \"wide\"]", left + slot_of("wide", "right_deg = 2\nsize_deg = 8"));
     REQUIRE(overlap.size() == 1);
     CHECK(overlap[0].starts_with("12:9: the slots \"left\" and \"wide\" overlap: columns "));
     const Lines beyond = slot_lines("\"far\"", slot_of("far", "right_deg = 9\nsize_deg = 8"));

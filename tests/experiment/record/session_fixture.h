@@ -57,7 +57,8 @@ inline SessionHeader example_header() {
                         {Camera{{1.0, -200.5, 3.0}, {0.25, 0.5, 0.75}, Degrees{11.5}}},
                         {1.5, 2.5, 3.5},
                         {{-1.0, -2.0, -3.0}, {4.0, 5.0, 6.0}}};
-    RecordedObject vase{"vase", "A vase", std::string(64, 'b'), "meshes/vase.ply", {"body"}, {Camera{}}, {}, {}};
+    RecordedObject vase{"vase", "A vase", std::string(64, 'b'), "meshes/vase.ply", {"body"}, {Camera{}},
+                        {},     {}};
     header.objects = {bust, vase};
     header.materials = {{"gold", "Gold"}, {"silver", "Silver"}};
     header.stimuli = {{{0, 0}, "rendered", std::string(64, 'c')}, {{1, 1}, "given: a/##.exr", ""}};

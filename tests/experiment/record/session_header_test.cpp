@@ -47,11 +47,11 @@ TEST_CASE("a session's header comes back from the disk in every field", "[unit]"
     CHECK(out.display.latency == in.display.latency);
     CHECK(out.display.output_mode == in.display.output_mode);
     CHECK(out.display.background == in.display.background);
-    CHECK(out.animation.frame_count == in.animation.frame_count);
-    CHECK(out.animation.frame_rate_hz == in.animation.frame_rate_hz);
-    CHECK(out.animation.amplitude == in.animation.amplitude);
-    CHECK(out.animation.playback == in.animation.playback);
-    CHECK(out.animation.duration_s == in.animation.duration_s);
+    CHECK(out.animations[0].frame_count == in.animations[0].frame_count);
+    CHECK(out.animations[0].frame_rate_hz == in.animations[0].frame_rate_hz);
+    CHECK(out.animations[0].amplitude == in.animations[0].amplitude);
+    CHECK(out.animations[0].playback == in.animations[0].playback);
+    CHECK(out.animations[0].duration_s == in.animations[0].duration_s);
     CHECK(out.poses.angles == in.poses.angles);
     CHECK(out.poses.of_motion == in.poses.of_motion);
     REQUIRE(out.tasks.size() == 2);

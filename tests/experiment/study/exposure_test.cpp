@@ -79,7 +79,8 @@ TEST_CASE("what a nearer sheet hides is not visible", "[unit]") {
         mesh.triangles.push_back(t + in_front);
     mesh.triangle_parts.assign(mesh.triangles.size(), PartIndex{0});
     const ShownBall squares(std::move(mesh), {96, 96}, 5.0);
-    const Exposure exposure = exposure_of(squares.maps, seconds_of_poses(squares.animation, squares.poses, 0));
+    const Exposure exposure =
+        exposure_of(squares.maps, seconds_of_poses(squares.animation, squares.poses, 0));
     int seen_in_front = 0, seen_behind = 0;
     for (std::size_t v = 0; v < exposure.seconds_visible.size(); ++v)
         (v < in_front ? seen_in_front : seen_behind) += exposure.seconds_visible[v] > 0.0f;

@@ -453,7 +453,7 @@ TEST_CASE("areas and diameters of pupils are told recording by recording", "[uni
     const auto dictionary_of = [&](const SessionRecord& record) {
         const fs::path folder = bench.root.path() / fmt::format("tables_{}", bench.sessions);
         export_tables(
-            record, [](int) { return nullptr; }, folder);
+            record, [](const ViewedObject&) { return nullptr; }, folder);
         return text_of(folder / "dictionary.json");
     };
     const auto asc_of = [&](const SessionRecord& record) {

@@ -20,7 +20,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-const SurfaceLookup* no_surface(int) { return nullptr; }
+const SurfaceLookup* no_surface(const ViewedObject&) { return nullptr; }
 
 struct Dataset {
     test::TemporaryFolder root;

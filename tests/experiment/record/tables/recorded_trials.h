@@ -113,6 +113,6 @@ inline std::map<std::string, std::string> row_of(const std::vector<std::vector<s
 }
 
 inline const LeftHalf left_half;
-inline const SurfaceLookup* bust_only(int object) { return object == 0 ? &left_half : nullptr; }
+inline const SurfaceLookup* bust_only(const ViewedObject& viewed) { return viewed.object == 0 ? &left_half : nullptr; }
 
 } // namespace overt::testing
