@@ -61,6 +61,8 @@ TEST_CASE("a slot's place and size are angles from the middle of the screen", "[
     CHECK(middle_of(left).x_px < centre.x_px);
     CHECK(left.angle_between(middle_of(left), centre).value == Approx(5.0).margin(0.03));
     CHECK(middle_of(right).y_px < centre.y_px); // upwards
+    CHECK(left.middle_deg().x == Approx(-5.0).margin(0.03));
+    CHECK(right.middle_deg().y == Approx(2.0).margin(0.02));
     CHECK(left.angle_between({centre.x_px, middle_of(right).y_px}, centre).value == Approx(2.0).margin(0.02));
     CHECK(left.angle_between({centre.x_px - 0.5 * left.image_px.x, centre.y_px},
                              {centre.x_px + 0.5 * left.image_px.x, centre.y_px})
