@@ -14,7 +14,7 @@ using namespace overt::test;
 namespace {
 
 std::string four_on_a_circle() {
-    std::string text(small_protocol);
+    std::string text = with(small_protocol, "duration_s = 1", "duration_s = 8");
     for (const char* const task : {"id = \"face\"", "id = \"clothes\"", "id = \"free\""})
         text = with(text, task, std::string(task) + "\nslots = \"ring\"");
     return text + "\n[[slot]]\nid = \"ring\"\ncircle = 4\nradius_deg = 2.9\nsize_deg = 2.5\n";
@@ -49,7 +49,7 @@ TEST_CASE("four stimuli on a circle are shown, recorded, resumed, replayed, expo
         if (!seen.counts)
             continue;
         const std::vector<FlipRecord> flips = record.flips(seen);
-        CHECK(flips.size() == 120);
+        CHECK(flips.size() == 960);
         for (const FlipRecord& flip : flips)
             CHECK(flip.shown == flip.planned);
     }

@@ -40,7 +40,7 @@ TEST_CASE("of two objects side by side each sample is on the surface it fell on"
     for (const TrialRecord& trial : record.trials())
         CHECK(trial.trial == sitting.schedule.trials[static_cast<std::size_t>(trial.trial.index)]);
 
-    int elsewhere = 0, missing = 0, invented = 0, misplaced = 0, on_another_frame = 0;
+    int all_on_surface = 0, elsewhere = 0, missing = 0, invented = 0, misplaced = 0, on_another_frame = 0;
     std::map<std::string, int> on_surface;
     double last_s = -1.0;
     for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -48,6 +48,7 @@ TEST_CASE("of two objects side by side each sample is on the surface it fell on"
         const GazeTruth truth = sitting.observer.truth_at(sitting.tracker.session_time_at(sampled_at));
         CHECK(samples.number(i, "time_s") > last_s); // each once, in the order of time
         last_s = samples.number(i, "time_s");
+        all_on_surface += samples.has(i, "surface_x");
         const auto number = static_cast<std::size_t>(samples.integer(i, "trial") - 1);
         const Trial& trial = sitting.schedule.trials.at(number);
         if (!samples.has(i, "x_px"))
@@ -63,7 +64,7 @@ TEST_CASE("of two objects side by side each sample is on the surface it fell on"
             const char* const slot = shown.slot == 0 ? "left" : "right";
             const char* const object = shown.stimulus.object == 0 ? "bust" : "tall";
             misplaced += samples.text(i, "slot") != slot || samples.text(i, "object") != object;
-        } else {
+        } else if (truth.frame) {
             misplaced += samples.has(i, "slot") || samples.has(i, "object");
         }
         const bool has_surface = samples.has(i, "surface_x");
@@ -92,7 +93,7 @@ TEST_CASE("of two objects side by side each sample is on the surface it fell on"
         CHECK(presentations.text(i, "slot") == (i % 2 == 0 ? "left" : "right"));
         on_object += presentations.integer(i, "samples_on_object");
     }
-    CHECK(on_object == on_surface["left"] + on_surface["right"]);
+    CHECK(on_object == all_on_surface);
     const TsvFile flips(tables / "flips.tsv");
     std::map<std::string, int> of_slot;
     for (std::size_t i = 0; i < flips.size(); ++i)
@@ -111,6 +112,6 @@ TEST_CASE("of two objects side by side each sample is on the surface it fell on"
         if (events.has(i, "slot"))
             CHECK(events.text(i, "slot") == (events.number(i, "x_px") < 272.0 ? "left" : "right"));
     }
-    CHECK(in_slots > 20);
+    CHECK(in_slots > 10);
     CHECK(in_slots < fixations);
 }
