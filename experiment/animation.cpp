@@ -148,6 +148,19 @@ int refreshes_per_frame(double frame_rate_hz, double refresh_hz) {
     return nearest >= 1.0 && std::abs(ratio - nearest) <= 2e-3 * nearest ? static_cast<int>(nearest) : 0;
 }
 
+PageCycle cut_to(PageCycle cycle, std::optional<int> refreshes, std::optional<AnimationFrameIndex> still) {
+    if (refreshes)
+        cycle.total_refreshes = *refreshes;
+    if (!still)
+        return cycle;
+    const auto entry = std::find_if(cycle.entries.begin(), cycle.entries.end(),
+                                    [&](const PageCycleEntry& one) { return one.frame == *still; });
+    OVERT_EXPECTS(entry != cycle.entries.end());
+    cycle.entries = {{entry->frame, entry->pose, 1}};
+    cycle.entry_of_refresh = {0};
+    return cycle;
+}
+
 PageCycle make_page_cycle(const Animation& animation, std::span<const PoseIndex> pose_of_frame,
                           double refresh_hz) {
     const int held = refreshes_per_frame(animation.frame_rate_hz, refresh_hz);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -149,6 +150,9 @@ struct PageCycle {
     /// Entry lit at a refresh since onset, 0 <= refresh < total_refreshes.
     const PageCycleEntry& entry_at(int refresh) const;
 };
+
+/// The cycle for another number of refreshes, and with one of its frames all the time, if that is wished.
+PageCycle cut_to(PageCycle cycle, std::optional<int> refreshes, std::optional<AnimationFrameIndex> still);
 
 /// Refreshes that each frame is held, or 0 if the refresh rate is no whole multiple of the frame rate (to 0.2
 /// %, so that 119.88 Hz counts as 120).

@@ -8,6 +8,7 @@
 
 #include "app/rig/answer_equipment.h"
 #include "app/rig/open_display.h"
+#include "app/rig/seen_areas.h"
 #include "app/rig/undrawn_frames.h"
 #include "experiment/ports/eye_tracker.h"
 #include "experiment/ports/presentation_listener.h"
@@ -120,6 +121,10 @@ class Rig {
     std::vector<PresentationListener*> listeners();
     /// The simulated faults that struck since the last call: after each attempt.
     std::vector<StruckFault> take_struck_faults();
+    /// Of the object that a stimulus shows; see SeenAreas.
+    std::shared_ptr<const AreaView> area_of(const PlacedStimulus& stimulus, const std::string& area) {
+        return areas_.area_of(stimulus, area);
+    }
     LiveMaps* live_maps() { return live_maps_.get(); } ///< null unless maps_are_live()
 
   private:
@@ -133,6 +138,7 @@ class Rig {
     std::vector<ScreenFinding> screen_findings_;
     std::optional<QuietDesktop> quiet_desktop_; ///< on a real screen
     StimulusLibrary library_;
+    SeenAreas areas_;
     std::unique_ptr<UndrawnFrames> undrawn_; ///< in its place, if stimuli are not drawn
     std::unique_ptr<PagePresenter> presenter_;
     std::unique_ptr<LiveMaps> live_maps_;

@@ -4,6 +4,7 @@
 #include "app/cli/terminal_output.h"
 #include "app/inputs/protocol_file.h"
 #include "app/inputs/protocol_inputs.h"
+#include "app/rig/operator_equipment.h"
 #include "app/session/session_commands.h"
 #include "app/session/session_messages.h"
 #include "app/session/sitting_run.h"

@@ -43,21 +43,24 @@ class WatchedSitting {
     SessionPorts ports(const RunOptions& options, const std::string& observer) {
         Rig& rig = equipment_.rig();
         AnswerEquipment& answers = equipment_.answers();
-        return {.clock = rig.clock(),
-                .presenter = rig.presenter(),
-                .tracker = rig.tracker(),
-                .panel = view_ ? view_->panel() : equipment_.keys(),
-                .log = view_ ? view_->log() : record_.own(),
-                .listeners = rig.listeners(),
-                .observer = observer,
-                .can_type = !options.simulate_observer && options.ask_at == AskAt::window,
-                .recorder = answers.recorder(),
-                .on_level = view_ ? view_->meter_besides(answers.meter()) : answers.meter(),
-                .markers = equipment_.markers().sinks(),
-                .further_trackers = record_.further_ports(),
-                .on_beep = [this](SetupBeep beep) { equipment_.sounds().play(beep); },
-                .on_camera = [this](const CameraImage& image) { show(image); },
-                .on_phase = [this](SessionPhase phase, int trial) { enter(phase, trial); }};
+        return {
+            .clock = rig.clock(),
+            .presenter = rig.presenter(),
+            .tracker = rig.tracker(),
+            .panel = view_ ? view_->panel() : equipment_.keys(),
+            .log = view_ ? view_->log() : record_.own(),
+            .listeners = rig.listeners(),
+            .observer = observer,
+            .can_type = !options.simulate_observer && options.ask_at == AskAt::window,
+            .recorder = answers.recorder(),
+            .on_level = view_ ? view_->meter_besides(answers.meter()) : answers.meter(),
+            .markers = equipment_.markers().sinks(),
+            .further_trackers = record_.further_ports(),
+            .on_beep = [this](SetupBeep beep) { equipment_.sounds().play(beep); },
+            .on_camera = [this](const CameraImage& image) { show(image); },
+            .area_of = [this](const PlacedStimulus& stimulus,
+                              const std::string& area) { return equipment_.rig().area_of(stimulus, area); },
+            .on_phase = [this](SessionPhase phase, int trial) { enter(phase, trial); }};
     }
 
     void attempt_ended(const Trial& trial, const TrialOutcome& outcome, int done) {

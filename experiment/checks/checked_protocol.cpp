@@ -49,7 +49,10 @@ std::optional<Protocol> read_text(std::string_view text, const std::filesystem::
         check_objects(examination, shipped_sculptures);
         check_materials(examination);
         check_frames(examination);
+        check_steps(examination);
         check_slots(examination);
+        if (diagnostics.error_count() == errors_before)
+            check_trials(examination);
         check_bake(examination);
         if (look_at_files)
             check_files(examination);

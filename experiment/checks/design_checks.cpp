@@ -322,8 +322,6 @@ void check_groups(ProtocolExamination& examination) {
 }
 
 void check_schedule(ProtocolExamination& examination) {
-    // More than anyone sits through, and a bound for all that is reckoned per trial.
-    constexpr int most_trials = 2000;
     const Protocol& protocol = examination.protocol;
     const Factors factors = factors_of(protocol);
     const int distinct = std::max(1, static_cast<int>(protocol.groups.size()));
@@ -337,10 +335,10 @@ void check_schedule(ProtocolExamination& examination) {
                 weight += weight_of(protocol, factors, trial);
             trials += (block.draws ? static_cast<double>(*block.draws) : weight) * block.repetitions;
         }
-        if (trials > most_trials) {
-            examination.error(
-                {protocol.blocks.empty() ? "task" : "block[0]"},
-                fmt::format("an observer would have {} trials; {} is the most", trials, most_trials));
+        if (trials > most_trials_of_observer) {
+            examination.error({protocol.blocks.empty() ? "task" : "block[0]"},
+                              fmt::format("an observer would have {} trials; {} is the most", trials,
+                                          most_trials_of_observer));
             return;
         }
         if (trials == 0.0) {

@@ -203,6 +203,7 @@ DesignReport make_design_report(const Protocol& protocol, const std::vector<Obse
     add_observers(report, protocol);
     report.practice_trials = static_cast<int>(protocol.practice.size());
     report.observers = protocol.schedule.observers;
+    report.slots = ids_of(protocol.slots);
     report.display = protocol.display;
     report.view = protocol.views.front();
     for (const Slot& slot : protocol.slots)
@@ -217,6 +218,10 @@ DesignReport make_design_report(const Protocol& protocol, const std::vector<Obse
     const std::uint64_t seed = takes_seed ? example_seed : protocol.schedule.seed.value_or(example_seed);
     ScheduleMaker maker(protocol);
     report.session = longest_session(protocol, maker, seed, report.motions, assumptions);
+    const SessionLength& length = report.session;
+    report.trials = design_in_words(
+        protocol, (length.questions_s + length.drift_checks_s + length.animations_s + length.answers_s) /
+                      std::max(1, report.trials_per_observer));
     report.memory = memory_need(protocol);
     const Presentations presentations = count_presentations(protocol, maker, seed);
     report.incidence = presentations.cells;

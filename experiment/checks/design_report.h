@@ -9,6 +9,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "experiment/checks/design_words.h"
 #include "experiment/checks/recording_size.h"
 #include "experiment/checks/rotation_balance.h"
 #include "experiment/protocol/protocol.h"
@@ -107,6 +108,8 @@ struct DesignReport {
     int observers = 0;               ///< planned
     std::vector<std::string> blocks; ///< ids; empty if the protocol has none
     std::vector<BlockFacts> block_facts;
+    std::vector<std::string> slots; ///< ids
+    std::vector<TaskWords> trials;  ///< each task in each block, in plain words
     std::vector<GroupFacts> groups;
     int practice_trials = 0;
 

@@ -82,6 +82,26 @@ void add_blocks(std::string& text, const DesignReport& report) {
     add_facts(text, "Groups", lines);
 }
 
+/// Each task in each block, in words.
+void add_trials(std::string& text, const DesignReport& report) {
+    constexpr std::size_t widest = 86;
+    std::vector<std::string> lines;
+    for (const TaskWords& words : report.trials) {
+        std::string line = fmt::format("{}{}: {}, {:.1f} min", words.block.empty() ? "" : words.block + ", ",
+                                       words.task, counted(words.trials, "trial"), words.length_s / 60.0);
+        for (const std::string& sentence : words.sentences) {
+            line += ";";
+            if (line.size() + 1 + sentence.size() > widest) {
+                lines.push_back(line);
+                line = " ";
+            }
+            line += " " + sentence;
+        }
+        lines.push_back(line);
+    }
+    add_facts(text, "Trials", lines);
+}
+
 /// Only where several factors go round, for those have to be told apart.
 void add_rotations(std::string& text, const DesignReport& report) {
     for (const RotationFacts& group : report.rotations) {
@@ -148,6 +168,7 @@ void add_overview(std::string& text, const DesignReport& report) {
                      counted(report.trials_per_observer, "trial"), counted(report.observers, "observer"))});
     add_columns(text, report);
     add_blocks(text, report);
+    add_trials(text, report);
     add_rotations(text, report);
     for (const AnimationFacts& animation : report.motions)
         add_motion(text, report, animation);
@@ -330,12 +351,22 @@ void add_order_of_one(std::string& text, const DesignReport& report, const Sched
             text += fmt::format("  block {}\n", at(report.blocks, trial.block));
         std::string line =
             fmt::format("  {:>4}  {:<{}}", trial.index + 1, at(report.tasks, trial.task), task_width);
-        for (const StimulusList* list : named_lists(report)) {
-            std::size_t width = 0;
-            for (const FactorLevel& level : report.factors.at(list->name).levels)
-                width = std::max(width, level.name.size());
-            line += fmt::format("  {:<{}}", id_in(report, *list, trial.stimulus), width);
+        for (const PlacedStimulus& shown : trial.all_shown()) {
+            if (report.slots.size() > 1)
+                line += fmt::format("  {}:", at(report.slots, shown.slot));
+            for (const StimulusList* list : named_lists(report)) {
+                std::size_t width = 0;
+                for (const FactorLevel& level : report.factors.at(list->name).levels)
+                    width = std::max(width, level.name.size());
+                line += fmt::format("  {:<{}}", id_in(report, *list, shown.stimulus), width);
+            }
         }
+        for (const TrialLevel& of : trial.levels)
+            line += fmt::format("  {} {}", of.factor, of.level);
+        if (!trial.correct.empty())
+            line += fmt::format("  correct {}", trial.correct);
+        if (trial.role != TrialRole::trial)
+            line += fmt::format("  ({})", name_of(trial.role));
         line.erase(line.find_last_not_of(' ') + 1);
         text += line + "\n";
     }

@@ -70,6 +70,9 @@ void fill_slots(const Protocol& protocol, Trial& trial);
 /// The most stimuli that a trial of an observer shows at once, each counted once.
 int most_stimuli_at_once(const Protocol& protocol);
 
+/// More than anyone sits through, and a bound for all that is reckoned per trial.
+inline constexpr int most_trials_of_observer = 2000;
+
 /// How many trials a block has: its trials with their repetitions or weights, or its draws.
 int length_of(const Protocol& protocol, const BlockPlan& plan);
 

@@ -5,9 +5,11 @@
 
 #include "experiment/base/random.h"
 #include "experiment/design/block_plan.h"
+#include "experiment/design/drawn_lists.h"
 #include "experiment/design/latin_square.h"
 #include "experiment/design/observer_groups.h"
 #include "experiment/design/schedule.h"
+#include "experiment/design/task_trials.h"
 #include "experiment/protocol/entry_ids.h"
 
 namespace overt {
@@ -66,9 +68,23 @@ int rotated(const Protocol& protocol, int row, int cell, const BlockScope& scope
                          "material rotation")[static_cast<std::size_t>(column)];
 }
 
-std::vector<Trial> trials_in(const Protocol& protocol, int block, const BlockScope& scope, int row) {
+/// Whose trials are asked for.
+struct ForObserver {
+    int number = 1;
+    std::uint64_t seed = 0;
+};
+
+std::vector<Trial> trials_in(const Protocol& protocol, int block, const BlockScope& scope, int row,
+                             const ForObserver& observer) {
     std::vector<Trial> trials;
     for (const int task : scope.tasks) {
+        if (protocol.tasks[static_cast<std::size_t>(task)].trials.has_own_trials()) {
+            for (Trial& trial :
+                 own_trials(protocol, task, block, stimuli_in(scope), observer.number, observer.seed))
+                trials.push_back(std::move(trial));
+            continue;
+        }
+        const std::size_t first = trials.size();
         const TaskCoverage own = protocol.tasks[static_cast<std::size_t>(task)].stimuli;
         const bool rotates = rotates_materials(protocol, block, task);
         // A rotated task's cells are numbered by its place among the rotated tasks, whatever block it is in.
@@ -91,9 +107,18 @@ std::vector<Trial> trials_in(const Protocol& protocol, int block, const BlockSco
                 material_of_object[static_cast<std::size_t>(stimulus.object)] == stimulus.material)
                 trials.push_back({count_of(trials), task, stimulus, block});
         }
+        std::for_each(trials.begin() + static_cast<std::ptrdiff_t>(first), trials.end(),
+                      [&](Trial& trial) { fill_slots(protocol, trial); });
+        const std::vector<Trial> once(trials.begin() + static_cast<std::ptrdiff_t>(first), trials.end());
+        for (int i = 1; i < protocol.tasks[static_cast<std::size_t>(task)].repetitions; ++i)
+            trials.insert(trials.end(), once.begin(), once.end());
     }
-    for (Trial& trial : trials)
-        fill_slots(protocol, trial);
+    for (const int task : scope.tasks)
+        for (Trial& trial :
+             catch_trials(protocol, task, block, stimuli_in(scope), trials, observer.number, observer.seed))
+            trials.push_back(std::move(trial));
+    for (std::size_t i = 0; i < trials.size(); ++i)
+        trials[i].index = static_cast<int>(i);
     return trials;
 }
 
@@ -174,6 +199,11 @@ std::vector<int> levels_in(const Factors& factors, const BlockScope& scope, cons
             levels.push_back(factors.level_of(factor, {}, stimulus));
         return levels;
     }
+    if (factor.source == Factor::Source::own) {
+        levels.resize(factor.levels.size());
+        std::iota(levels.begin(), levels.end(), 0);
+        return levels;
+    }
     for (const int entry : scope.lists[factor.list]) {
         const int level = factor.level_of_entry.at(static_cast<std::size_t>(entry));
         if (std::ranges::find(levels, level) == levels.end())
@@ -238,8 +268,16 @@ std::vector<BlockPlan> block_plans(const Protocol& protocol, int observer_number
          order_of_blocks(protocol, blocks, rotations.row_of(Kind::blocks, -1, place.row), seed)) {
         BlockPlan plan{block, {}, {}, rotations.row_of(Kind::levels, block, place.row)};
         plan.scope = std::ranges::find(scopes, block, &BlockScopeOf::block)->scope;
-        plan.trials =
-            trials_in(protocol, block, plan.scope, rotations.row_of(Kind::materials, -1, place.row));
+        const auto drawn = drawn_list(protocol, scopes, block, observer_number, seed);
+        if (drawn)
+            plan.scope.lists[drawn->list] = drawn->entries;
+        plan.trials = trials_in(protocol, block, plan.scope, rotations.row_of(Kind::materials, -1, place.row),
+                                {observer_number, seed});
+        if (drawn)
+            mark_old_and_new(*drawn, plan.trials);
+        if (block_at(protocol, block).practice)
+            for (Trial& trial : plan.trials)
+                trial.role = TrialRole::practice;
         if (!plan.trials.empty())
             plans.push_back(std::move(plan));
     }

@@ -1,6 +1,7 @@
 /// The port through which a session shows pictures and texts.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -36,7 +37,8 @@ struct Screen {
         form,
         target,     ///< to be looked at
         validation, ///< where gaze was measured beside the targets; `text` below
-        camera      ///< what a tracker's camera sees
+        camera,     ///< what a tracker's camera sees
+        noise       ///< squares of random light where the stimulus stands
     };
     Kind kind = Kind::blank;
     /// For text and form; paragraphs split by newlines, emphasis by <b>, <i>, <u>, <big> and <small>. A first
@@ -50,6 +52,8 @@ struct Screen {
     Degrees target_diameter{0.6};                 ///< of the disc of the fixation target (Thaler et al. 2013)
     std::vector<ValidatedTarget> validated = {};
     CameraImage camera = {};
+    std::uint64_t noise_seed = 0;
+    Degrees noise_cell{0.25}; ///< side of a square of noise, at the middle of the screen
 };
 
 /// How the display shows things: known once the presenter is open.

@@ -69,11 +69,25 @@ std::vector<Key> task() {
         {"stimuli", &T::stimuli,
          "Asked for every object in every material, or once per object with the material changing from "
          "observer to observer."},
+        {"steps", &T::steps,
+         left_out("the question until a key is pressed, the drift check, the stimulus for the motion's "
+                  "duration, the spoken answer"),
+         "What a trial does, one step after another, such as `[{ fixation = 0.5 }, { show = \"centre\" }, "
+         "{ answer = \"spoken\" }]`; see [design.md](design.md)."},
         {"slots", &T::slots, identifier().left_out("the only slot there is"),
          "Ids of the `[[slot]]`s in which the task's stimuli are shown, all at once; of a circle or a grid, "
          "all its places. Each shows the stimulus that the trial has for it."},
-        {"simulated_head_share", &T::simulated_head_share, range(0, 1),
+        {"trials", &T::trials_file, left_out("every stimulus"),
+         "Which trials the task has: a rule, or the path of a table (CSV, TSV) with a row for each; see "
+         "[design.md](design.md)."},
+        {"repetitions", &T::repetitions, range(1, 1000), "How often each of its trials comes."},
+        {"simulated_head_share", &T::simulated_head_share,
+         range(0, 1).left_out("0.4; 0 with `simulated_area_shares`"),
          "Share of a simulated observer's fixations that go to the head."},
+        {"simulated_area_shares", &T::simulated_area_shares,
+         range(0, 1).left_out("none but the head has one"),
+         "Shares that go to other areas, such as { rim = 0.2, base = 0.3 }: the rest goes to the rest of the "
+         "surface. Areas that have shares must not overlap."},
     };
 }
 

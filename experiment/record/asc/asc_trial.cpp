@@ -8,9 +8,11 @@
 #include <fmt/format.h>
 
 #include "experiment/base/utf8_text.h"
+#include "experiment/factors.h"
 #include "experiment/record/asc/asc_survey.h"
 #include "experiment/record/asc/asc_words.h"
 #include "experiment/record/preview_file.h"
+#include "experiment/record/tables/shared_columns.h"
 
 namespace overt {
 namespace {
@@ -22,17 +24,21 @@ using Kind = GazeEvent::Kind;
 std::vector<std::pair<std::string, std::string>> variables_of(const SessionHeader& header,
                                                               const Trial& trial) {
     const auto id = [](const auto& list, int index) { return list[static_cast<std::size_t>(index)].id; };
-    std::vector<std::pair<std::string, std::string>> variables{
-        {"task", id(header.tasks, trial.task)},
-        {"object", id(header.objects, trial.stimulus.object)},
-        {"material", id(header.materials, trial.stimulus.material)}};
+    std::vector<std::pair<std::string, std::string>> variables{{"task", id(header.tasks, trial.task)}};
+    for (const StimulusColumn& column : stimulus_columns_of(header))
+        variables.emplace_back(column.what.name, column.level_of(trial.stimulus).name);
     if (!trial.beside.empty())
         variables.emplace_back("slot", id(header.slots, trial.slot));
-    for (const auto& [stimulus, slot] : trial.beside) {
-        const std::string in = id(header.slots, slot) + ".";
-        variables.emplace_back(in + "object", id(header.objects, stimulus.object));
-        variables.emplace_back(in + "material", id(header.materials, stimulus.material));
-    }
+    for (const auto& [stimulus, slot] : trial.beside)
+        for (const StimulusColumn& column : stimulus_columns_of(header))
+            variables.emplace_back(id(header.slots, slot) + "." + column.what.name,
+                                   column.level_of(stimulus).name);
+    for (const TrialLevel& of : trial.levels)
+        variables.emplace_back(of.factor, of.level);
+    if (!trial.correct.empty())
+        variables.emplace_back(correct_answer, trial.correct);
+    if (trial.role != TrialRole::trial)
+        variables.emplace_back("role", name_of(trial.role));
     return variables;
 }
 
@@ -272,6 +278,10 @@ void AscTrial::write_down(const SessionRecord& record, const TrialRecord& trial,
     if (clock_map)
         for (const auto& [word, screen] : screens_of(trial))
             add(at(screen), std::string(word));
+    if (clock_map)
+        for (const AttemptStep* const step : further_steps(trial))
+            add(at(*step->begin),
+                fmt::format("STEP {}{}{}", step->kind, step->id.empty() ? "" : " ", step->id));
     if (span) {
         if (const std::string answer = answer_text(trial); !answer.empty())
             add(span->second, answer);

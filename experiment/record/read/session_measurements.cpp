@@ -200,6 +200,24 @@ std::optional<TrialLedger> SessionRecord::ledger(const TrialRecord& trial) const
     return TrialLedger{std::move(recorded), std::move(fit)};
 }
 
+PageCycle planned_cycle(const SessionHeader& header, const TrialRecord& trial) {
+    PageCycle motion = header.page_cycle_of(trial.trial.stimulus);
+    for (const AttemptStep& step : trial.outcome.steps) {
+        if (step.kind != "show")
+            continue;
+        // What a key or gaze ended was over by the plan then.
+        const bool ended_early = step.ended_by == StepEnd::gaze || step.ended_by == StepEnd::key ||
+                                 step.ended_by == StepEnd::patience;
+        const std::optional<int> lasted =
+            ended_early ? std::optional(trial.outcome.shown_refreshes + trial.outcome.missed_refreshes)
+                        : step.planned_refreshes;
+        return cut_to(std::move(motion), lasted,
+                      step.still_frame ? std::optional(AnimationFrameIndex{*step.still_frame})
+                                       : std::nullopt);
+    }
+    return motion;
+}
+
 FlipHistory SessionRecord::flip_history(const TrialRecord& trial,
                                         const std::optional<TrialLedger>& ledger) const {
     const RecordedDisplay& display = header_.display;
@@ -208,7 +226,7 @@ FlipHistory SessionRecord::flip_history(const TrialRecord& trial,
         return FlipHistory({}, {{}, 1.0, 1.0}, {});
     return FlipHistory(ledger->fit.flips(),
                        {display.latency, display.refresh_hz, static_cast<double>(display.screen.screen_px.y)},
-                       header_.page_cycle_of(trial.trial.stimulus));
+                       planned_cycle(header_, trial));
 }
 
 } // namespace overt

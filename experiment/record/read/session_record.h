@@ -51,6 +51,7 @@ struct TrialRecord {
     Status status = Status::open;
     bool is_superseded = false; ///< its block was restarted later
     bool counts = false;        ///< completed, and not superseded
+    bool gives_results() const { return counts && trial.role == TrialRole::trial; }
     SessionTime started;
     TrialOutcome outcome; ///< meaningless while open, or interrupted; its times: see reached()
     std::int64_t lost_flips = 0;
@@ -83,6 +84,13 @@ struct TrialLedger {
     std::vector<FlipRecord> recorded;
     LedgerFit fit;
 };
+
+/// The steps of an attempt that its outcome does not tell by a time of its own: fixations, blanks, masks,
+/// feedback, texts after the first, and drift checks but that of the task without steps.
+std::vector<const AttemptStep*> further_steps(const TrialRecord& trial);
+
+/// What an attempt's presentation was to show: the motion, cut to what the trial's steps said.
+PageCycle planned_cycle(const SessionHeader& header, const TrialRecord& trial);
 
 /// A SessionEvent that owns its words.
 struct RecordedEvent {

@@ -43,6 +43,7 @@ class ExportTables {
     RowLayout<RecordedButton> buttons;
     RowLayout<RecordedKeyPress> key_presses;
     RowLayout<RecordedMarker> markers;
+    RowLayout<StepRow> steps;
     RowLayout<ParticipantRow> participants;
 
     std::vector<const Table*> all() const;

@@ -51,30 +51,26 @@ RowLayout<RecordedEvent> events_layout() {
 }
 
 RowLayout<RecordedStimulus> stimuli_layout(const SharedColumns& shared, const SessionHeader& header) {
-    return {
-        "stimuli",
-        "What was shown: one row for each object in each material.",
-        {
-            {shared.object, of_object(header, &RecordedObject::id)},
-            {shared.material,
-             [&header](auto& row) {
-                 return of_maybe(item_of(header.materials, row.stimulus.material), &RecordedMaterial::id);
-             }},
-            {{"source", "How the frames were made"}, &RecordedStimulus::source},
-            {{"frames_sha256", "SHA-256 of the frames"}, &RecordedStimulus::frames_sha256},
-            {{"mesh_file", "The object's mesh, relative to the session's directory"},
-             of_object(header, &RecordedObject::mesh_file)},
-            {{"mesh_sha256", "SHA-256 of the mesh"}, of_object(header, &RecordedObject::mesh_sha256)},
-            {{"mm_per_unit",
-              "Millimetres of the object in a unit of surface_x, surface_y, surface_z and depth; "
-              "where the unit of the mesh is not known, the object is taken to be as large as "
-              "its picture",
-              "mm"},
-             of_scale(header, &ObjectScale::mm_per_unit)},
-            {{"shown_size", "Millimetres that the picture on the display has for a millimetre of the object, "
-                            "in the depth of the axis of its turn"},
-             of_scale(header, &ObjectScale::shown_size)},
-        }};
+    RowLayout<RecordedStimulus> layout{"stimuli", "What was shown: one row for each stimulus.", {}};
+    layout.add<RecordedStimulus>(
+        shared.of_stimulus<RecordedStimulus>([](const RecordedStimulus& row) { return row.stimulus; }));
+    layout.add<RecordedStimulus>({
+        {{"source", "How the frames were made"}, &RecordedStimulus::source},
+        {{"frames_sha256", "SHA-256 of the frames"}, &RecordedStimulus::frames_sha256},
+        {{"mesh_file", "The object's mesh, relative to the session's directory"},
+         of_object(header, &RecordedObject::mesh_file)},
+        {{"mesh_sha256", "SHA-256 of the mesh"}, of_object(header, &RecordedObject::mesh_sha256)},
+        {{"mm_per_unit",
+          "Millimetres of the object in a unit of surface_x, surface_y, surface_z and depth; "
+          "where the unit of the mesh is not known, the object is taken to be as large as "
+          "its picture",
+          "mm"},
+         of_scale(header, &ObjectScale::mm_per_unit)},
+        {{"shown_size", "Millimetres that the picture on the display has for a millimetre of the object, "
+                        "in the depth of the axis of its turn"},
+         of_scale(header, &ObjectScale::shown_size)},
+    });
+    return layout;
 }
 
 RowLayout<DisplayBoxRow> display_box_layout() {

@@ -260,6 +260,11 @@ void TableExport::write_what_belongs_to_no_trial() {
         write(tables_.key_presses, press);
     for (const RecordedMarker& marker : record_.markers())
         write(tables_.markers, marker);
+    for (const TrialRecord& trial : record_.trials()) {
+        int number = 0;
+        for (const AttemptStep& step : trial.outcome.steps)
+            write(tables_.steps, StepRow{trial, ++number, step});
+    }
     for (const auto& [sitting, box] : record_.display_boxes()) {
         const auto readings = record_.box_clock_readings(sitting);
         write(tables_.display_box,

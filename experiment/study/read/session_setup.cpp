@@ -137,7 +137,7 @@ SessionSetup setup_of(const SessionRecord& record) {
     setup.display = display_of(header);
     if (!knows_no_stimulus(header)) {
         setup.stimuli = stimuli_of(header);
-        for (const RecordedMaterial& material : header.materials)
+        for (const ListEntry& material : header.materials)
             setup.materials.push_back({material.id, plain_line_of(material.title)});
         for (const RecordedTask& task : header.tasks)
             setup.tasks.push_back({task.id, plain_line_of(task.question)});
