@@ -72,6 +72,10 @@ std::string to_text(const RecordedOrder& order, const SessionHeader& header) {
             line += fmt::format(" {:<12}", word);
         line += block.empty() ? "" : fmt::format(" block {}", block);
         line.erase(line.find_last_not_of(' ') + 1);
+        for (const auto& [stimulus, slot] : trial.beside)
+            line += fmt::format("; {}: {} {}", header.slots.at(static_cast<std::size_t>(slot)).id,
+                                header.objects.at(static_cast<std::size_t>(stimulus.object)).id,
+                                header.materials.at(static_cast<std::size_t>(stimulus.material)).id);
         text += line + "\n";
     }
     text += "\n";

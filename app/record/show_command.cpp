@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/inputs/session_folders.h"
+#include "app/record/chosen_presentation.h"
 #include "app/record/plot_canvas.h"
 #include "app/record/record_commands.h"
 #include "app/record/recorded_order.h"
@@ -67,6 +68,13 @@ nlohmann::ordered_json session_json(const SessionRecord& record) {
                      {"response_key", trial.response_key},
                      {"answer", trial.outcome.answer}});
         trials.push_back(std::move(item));
+        for (std::size_t i = 0; i < trial.trial.shown_count() && !trial.trial.beside.empty(); ++i) {
+            const auto [stimulus, slot] = trial.trial.shown(i);
+            trials.back()["shown"].push_back(
+                {{"slot", header.slots[static_cast<std::size_t>(slot)].id},
+                 {"object", header.objects[static_cast<std::size_t>(stimulus.object)].id},
+                 {"material", header.materials[static_cast<std::size_t>(stimulus.material)].id}});
+        }
     }
     nlohmann::ordered_json json{{"session", record.directory().string()},
                                 {"protocol", header.protocol.name},
@@ -181,6 +189,11 @@ void print_session(const SessionRecord& record) {
                                                        : std::to_string(trial["missed_refreshes"].get<int>()),
                    gaze ? fmt::format("{:.1f} %", 100.0 * gaze->share()) : "n/a",
                    trial["answer"].get<std::string>());
+        for (std::size_t k = 0; trial.contains("shown") && k < trial["shown"].size(); ++k) {
+            const auto& shown = trial["shown"][k];
+            fmt::print("{:>5}  {:<12} {:<12} {:<12} in slot {}\n", "", "", shown["object"].get<std::string>(),
+                       shown["material"].get<std::string>(), shown["slot"].get<std::string>());
+        }
     }
     if (!record.closed_in_order())
         fmt::print("\nThe session was not closed in order: it is running, or was killed.\n");
@@ -284,7 +297,10 @@ int run_show(const ShowOptions& options) {
                                      options.picture.empty() ? "plot" : "picture", sessions.size()));
     const SessionRecord record(sessions.front());
     if (!options.picture.empty())
-        write_picture(record, trial_numbered(record, options.trial.value_or(1)), options.picture);
+        write_picture(
+            record,
+            chosen_presentation(record, trial_numbered(record, options.trial.value_or(1)), options.slot),
+            options.picture);
     else
         write_plot(record, options.plot);
     return 0;

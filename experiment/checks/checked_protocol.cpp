@@ -57,6 +57,8 @@ std::optional<Protocol> read_text(std::string_view text, const std::filesystem::
         if (look_at_files)
             check_files(examination);
         if (diagnostics.error_count() == errors_before)
+            check_slot_memory(examination);
+        if (diagnostics.error_count() == errors_before)
             check_schedule(examination);
     }
     if (diagnostics.error_count() > errors_before)

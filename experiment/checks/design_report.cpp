@@ -112,7 +112,8 @@ MemoryNeed memory_need(const Protocol& protocol) {
     constexpr double bytes_per_map_px = 4.0; // a triangle's number
     MemoryNeed need;
     need.pages_per_stimulus_bytes = most_pages(protocol) * page_bytes(protocol);
-    need.next_fits = 2.0 * need.pages_per_stimulus_bytes <= 1e6 * protocol.display.frame_store_mb;
+    const int at_once = protocol.slots.size() > 1 ? most_stimuli_at_once(protocol) : 1;
+    need.next_fits = 2.0 * at_once * need.pages_per_stimulus_bytes <= 1e6 * protocol.display.frame_store_mb;
     const ViewSettings& view = protocol.views.front();
     need.maps_per_object_bytes =
         bytes_per_map_px * poses_of(protocol).count() * view.width_px * view.height_px;
@@ -205,6 +206,9 @@ DesignReport make_design_report(const Protocol& protocol, const std::vector<Obse
     report.slots = ids_of(protocol.slots);
     report.display = protocol.display;
     report.view = protocol.views.front();
+    for (const Slot& slot : protocol.slots)
+        if (slot.entry >= 0)
+            report.slot_places.push_back({slot.id, slot_geometry(protocol, slot)});
     for (const MotionSettings& motion : protocol.motions)
         report.motions.push_back(animation_facts(protocol, motion));
     report.angles = visual_angles(protocol);

@@ -115,6 +115,12 @@ struct DesignReport {
 
     DisplaySettings display;
     ViewSettings view;
+    /// A place for a stimulus, with the image in it.
+    struct SlotFacts {
+        std::string id;
+        ScreenGeometry screen;
+    };
+    std::vector<SlotFacts> slot_places; ///< none without [[slot]]
     std::vector<AnimationFacts> motions;
     VisualAngles angles;
     DesignAssumptions assumptions;

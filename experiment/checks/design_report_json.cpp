@@ -164,6 +164,14 @@ Json to_json(const DesignReport& report) {
         if (std::isfinite(light->contrast()))
             json["light"]["contrast"] = light->contrast();
     }
+    for (const DesignReport::SlotFacts& slot : report.slot_places)
+        json["slots"].push_back({{"id", slot.id},
+                                 {"left_px", slot.screen.image_origin_px.x},
+                                 {"top_px", slot.screen.image_origin_px.y},
+                                 {"width_px", slot.screen.image_px.x},
+                                 {"height_px", slot.screen.image_px.y},
+                                 {"right_deg", slot.screen.middle_deg().x},
+                                 {"up_deg", slot.screen.middle_deg().y}});
     json["session"] = {{"calibration_s", session.calibration_s},
                        {"questions_s", session.questions_s},
                        {"drift_checks_s", session.drift_checks_s},

@@ -178,6 +178,16 @@ void add_overview(std::string& text, const DesignReport& report) {
                      report.display.height_px, report.display.width_mm, report.display.height_mm,
                      report.display.viewing_distance_mm, angles.screen_width_deg, angles.screen_height_deg),
          fmt::format("light leaves as {}", name_of(report.display.output))});
+    std::vector<std::string> places;
+    for (const DesignReport::SlotFacts& slot : report.slot_places) {
+        const glm::ivec2 first = slot.screen.image_origin_px, last = first + slot.screen.image_px - 1;
+        const glm::dvec2 middle = slot.screen.middle_deg();
+        places.push_back(
+            fmt::format("{}: middle {:.2f} deg to the right, {:.2f} up; columns {} to {}, rows {} to {}",
+                        slot.id, middle.x, middle.y, first.x, last.x, first.y, last.y));
+    }
+    if (!places.empty())
+        add_facts(text, "Slots", places);
     if (const auto& light = report.display.characterisation) {
         std::vector<std::string> lines = light_lines(*light);
         lines.push_back(fmt::format("measured {} with {}; background {:.4g} cd/m2",
@@ -191,7 +201,8 @@ void add_overview(std::string& text, const DesignReport& report) {
                     report.view.width_px, report.view.height_px, angles.image_width_deg,
                     angles.image_height_deg, angles.px_per_deg),
         fmt::format("rendered under {:.2f} deg", angles.camera_fov_deg)};
-    if (std::hypot(angles.image_right_deg, angles.image_up_deg) > 2.0 / angles.px_per_deg)
+    if (report.slot_places.empty() &&
+        std::hypot(angles.image_right_deg, angles.image_up_deg) > 2.0 / angles.px_per_deg)
         stimulus.push_back(fmt::format("its middle stands {:.2f} deg to the right of the screen's and {:.2f} "
                                        "deg above it",
                                        angles.image_right_deg, angles.image_up_deg));

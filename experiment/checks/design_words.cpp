@@ -182,7 +182,10 @@ std::vector<TaskWords> design_in_words(const Protocol& protocol, double trial_s)
         }
     }
     const Factors factors = factors_of(protocol);
-    for (const Observer& observer : planned_observers(protocol)) {
+    // How many trials there are is a matter of the group.
+    std::vector<Observer> observers = planned_observers(protocol);
+    observers.resize(std::min(observers.size(), std::max<std::size_t>(1, protocol.groups.size())));
+    for (const Observer& observer : observers) {
         for (const BlockPlan& plan : block_plans(protocol, observer.number, 0)) {
             const std::string& block = block_at(protocol, plan.block).id;
             for (TaskWords& words : parts) {

@@ -70,6 +70,9 @@ std::vector<BlockPlan> block_plans(const Protocol& protocol, int observer_number
 /// Puts the trial's stimulus into each of its task's slots: what a task without a rule of its own shows.
 void fill_slots(const Protocol& protocol, Trial& trial);
 
+/// The most stimuli that a trial of an observer shows at once, each counted once.
+int most_stimuli_at_once(const Protocol& protocol);
+
 /// More than anyone sits through, and a bound for all that is reckoned per trial.
 inline constexpr int most_trials_of_observer = 2000;
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <set>
 
 #include "experiment/base/random.h"
 #include "experiment/design/block_plan.h"
@@ -183,6 +184,19 @@ void fill_slots(const Protocol& protocol, Trial& trial) {
     trial.beside.clear();
     for (std::size_t i = 1; i < slots.size(); ++i)
         trial.beside.push_back({trial.stimulus, slots[i]});
+}
+
+int most_stimuli_at_once(const Protocol& protocol) {
+    std::size_t most = 1;
+    for (const BlockPlan& plan : block_plans(protocol, 1, 0)) {
+        for (const Trial& trial : plan.trials) {
+            std::set<Stimulus> stimuli{trial.stimulus};
+            for (const PlacedStimulus& placed : trial.beside)
+                stimuli.insert(placed.stimulus);
+            most = std::max(most, stimuli.size());
+        }
+    }
+    return static_cast<int>(most);
 }
 
 std::vector<int> levels_in(const Factors& factors, const BlockScope& scope, const Factor& factor) {

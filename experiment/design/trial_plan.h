@@ -15,11 +15,11 @@ namespace overt {
 struct PlannedStep {
     const StepSettings* settings = nullptr; ///< of the protocol; null in a task without steps
     StepKind kind = StepKind::blank;
-    std::string id;
-    std::optional<double> drawn_s;         ///< as drawn, or as the protocol has it
-    std::optional<int> refreshes;          ///< the same rounded; nothing: it has no end in time
-    std::optional<int> patience_refreshes; ///< that gaze is waited for
-    bool is_watched = false;               ///< gaze is recorded meanwhile
+    std::string id = {};
+    std::optional<double> drawn_s = {};         ///< as drawn, or as the protocol has it
+    std::optional<int> refreshes = {};          ///< the same rounded; nothing: it has no end in time
+    std::optional<int> patience_refreshes = {}; ///< that gaze is waited for
+    bool is_watched = false;                    ///< gaze is recorded meanwhile
 
     const GazeWait* gaze() const { return settings && settings->gaze ? &*settings->gaze : nullptr; }
     /// The only frame that `show` shows; nothing: the motion.

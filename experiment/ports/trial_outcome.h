@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "experiment/ports/gaze_yield.h"
-#include "experiment/ports/recorded_step.h"
+#include "experiment/ports/attempt_step.h"
 #include "experiment/session_time.h"
 #include "experiment/swap_modes.h"
 #include "experiment/units.h"
@@ -36,7 +36,7 @@ struct TrialOutcome {
     std::string answer;
     /// Of the trial's plan, in its order; one that began anew has a row for each time. None of imported
     /// trials, and of sessions of earlier programs.
-    std::vector<RecordedStep> steps = {};
+    std::vector<AttemptStep> steps = {};
 };
 
 } // namespace overt

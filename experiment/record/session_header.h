@@ -115,6 +115,9 @@ struct RecordedObject {
     /// do not say it; empty in sessions of earlier programs, which did not write it down.
     std::string unit = "mm";
     NamedWords columns = {}; ///< said of it in the protocol
+    /// Added to a place on the object, it gives the place in the coordinates of the mesh's file, turned and
+    /// scaled as the protocol says. Not 0 for a mesh far from its file's origin only (import_mesh).
+    glm::dvec3 origin{0.0};
 
     const Camera& camera(int view) const { return cameras.at(static_cast<std::size_t>(view)); }
 };

@@ -52,7 +52,7 @@ class TrialRun {
     void stand(Running& running, std::size_t number);
     void hold(Running& running, std::size_t number);
     void await_gaze(Running& running, const PlannedStep& step, SessionTime since);
-    void take_gaze(RecordedStep& row, const PlannedStep& step) const;
+    void take_gaze(AttemptStep& row, const PlannedStep& step) const;
     bool is_gaze_missed(Running& running, std::size_t number);
     void add_row(Running& running, const PlannedStep& step);
     void begin_row(Running& running, SessionTime lit) noexcept;

@@ -82,7 +82,7 @@ void TrialRun::run_watched(Running& running, std::size_t begin, std::size_t end)
 /// that is not to go on is rejected here.
 bool TrialRun::is_gaze_missed(Running& running, std::size_t number) {
     const PlannedStep& step = running.plan.steps[number];
-    const RecordedStep& row = running.attempt.outcome.steps.back();
+    const AttemptStep& row = running.attempt.outcome.steps.back();
     if (!step.gaze() || row.ended_by != StepEnd::patience || step.gaze()->otherwise == GazeMissed::goes_on)
         return false;
     if (step.gaze()->otherwise == GazeMissed::drift_check &&
@@ -129,7 +129,7 @@ void TrialRun::end_row(Running& running, SessionTime lit) {
 
 /// A row for a step that is come to; its times come later, so that nothing is allocated between flips.
 void TrialRun::add_row(Running& running, const PlannedStep& step) {
-    RecordedStep& row = running.attempt.outcome.steps.emplace_back();
+    AttemptStep& row = running.attempt.outcome.steps.emplace_back();
     row.kind = name_of(step.kind);
     row.id = step.id;
     row.planned_refreshes = step.refreshes;
@@ -140,7 +140,7 @@ void TrialRun::add_row(Running& running, const PlannedStep& step) {
 
 /// What the step added last shows is on the screen, and what the one before showed is not.
 void TrialRun::begin_row(Running& running, SessionTime lit) noexcept {
-    std::vector<RecordedStep>& rows = running.attempt.outcome.steps;
+    std::vector<AttemptStep>& rows = running.attempt.outcome.steps;
     if (rows.size() > 1 && !rows[rows.size() - 2].end)
         rows[rows.size() - 2].end = lit;
     rows.back().begin = lit;
@@ -193,7 +193,7 @@ void TrialRun::take_answer(Running& running, std::size_t number) {
         answers_.take(running.trial, running.next, running.is_practice, step.drawn_s, outcome);
     running.is_answered = how == OperatorControl::How::next;
     begin_row(running, outcome.response_screen_onset);
-    RecordedStep& row = outcome.steps.back();
+    AttemptStep& row = outcome.steps.back();
     row.ended_by = end_of(how, StepEnd::answer, StepEnd::time);
     row.end = outcome.responded_at;
 }
@@ -241,7 +241,7 @@ void TrialRun::hold(Running& running, std::size_t number) {
         if (!watch_.has_come())
             state_.ports.clock.wait_until(std::min(latest, state_.now() + look_interval));
     }
-    RecordedStep& row = running.attempt.outcome.steps.back();
+    AttemptStep& row = running.attempt.outcome.steps.back();
     row.ended_by = is_cut_short()           ? StepEnd::stopped
                    : watch_.has_come()      ? StepEnd::gaze
                    : was_next_pressed_      ? StepEnd::key
@@ -268,7 +268,7 @@ void TrialRun::await_gaze(Running& running, const PlannedStep& step, SessionTime
                      state_.ports.tracker.description());
 }
 
-void TrialRun::take_gaze(RecordedStep& row, const PlannedStep& step) const {
+void TrialRun::take_gaze(AttemptStep& row, const PlannedStep& step) const {
     if (!step.gaze() || row.ended_by != StepEnd::gaze)
         return;
     row.gaze_onset = watch_.condition().onset();
@@ -306,7 +306,7 @@ void TrialRun::end_watching(Running& running) {
     const SessionTime dark = state_.show({});
     end_row(running, dark);
     if (has_shown_) {
-        const auto shown = std::ranges::find(outcome.steps, name_of(StepKind::show), &RecordedStep::kind);
+        const auto shown = std::ranges::find(outcome.steps, name_of(StepKind::show), &AttemptStep::kind);
         outcome.presentation_end = shown == outcome.steps.end() ? dark : shown->end.value_or(dark);
         outcome.swaps = state_.ports.presenter.take_swap_modes();
         mark(MarkedEvent::end, outcome.presentation_end, "PRESENTATION_END");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <functional>
 #include <utility>
 
@@ -22,6 +23,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 using Levels = std::vector<std::pair<std::string, std::string>>;
+
+constexpr std::string_view presentation_event = "presentation";
 
 /// An attempt at a trial, or a screen that it got to.
 struct BidsEvent {
@@ -135,6 +138,11 @@ RowLayout<BidsEvent> events_layout(const SessionHeader& header, SessionTime zero
         {{"answer", "The answer, where it was taken down"},
          of_ended([](auto& attempt) { return attempt.outcome.answer; })},
     });
+    if (const SharedColumns shared(header); shared.has_slots)
+        layout.add<BidsEvent>({{shared.slot, [&header](auto& row) {
+                                    return when(row.what == presentation_event,
+                                                item(header.slots, row.attempt->trial.slot).id);
+                                }}});
     return layout;
 }
 
@@ -156,8 +164,9 @@ SessionTime end_of(const SessionRecord& record, const TrialRecord& trial,
     return end ? std::max(clock_map->to_session(*end).time, trial.started) : trial.started;
 }
 
+/// `seen`: where the presentations of a trial with several go, which events point to.
 void add_events(std::vector<BidsEvent>& to, const TrialRecord& trial, SessionTime end,
-                const StimulusFile& stimulus_file) {
+                const StimulusFile& stimulus_file, std::deque<TrialRecord>& seen) {
     const TrialOutcome& outcome = trial.outcome;
     const auto was = [&](SessionTime time) { return trial.reached(time); };
     to.push_back({.attempt = &trial,
@@ -167,13 +176,15 @@ void add_events(std::vector<BidsEvent>& to, const TrialRecord& trial, SessionTim
                   .ended = trial.has_outcome() ? &trial : nullptr});
     if (was(outcome.task_screen_onset))
         to.push_back({&trial, "question", outcome.task_screen_onset, outcome.task_screen_onset});
-    if (was(outcome.presentation_onset))
-        to.push_back({&trial,
-                      "presentation",
+    for (std::size_t i = 0; was(outcome.presentation_onset) && i < trial.trial.shown_count(); ++i) {
+        const TrialRecord& shown = i == 0 ? trial : seen.emplace_back(trial.seen_in(i));
+        to.push_back({&shown,
+                      presentation_event,
                       outcome.presentation_onset,
                       outcome.presentation_end,
                       {},
-                      stimulus_file(trial.trial.stimulus)});
+                      stimulus_file(shown.trial.stimulus)});
+    }
     if (was(outcome.response_screen_onset)) {
         std::optional<SessionDuration> response_time;
         if (was(outcome.responded_at))
@@ -181,7 +192,7 @@ void add_events(std::vector<BidsEvent>& to, const TrialRecord& trial, SessionTim
         to.push_back(
             {&trial, "response", outcome.response_screen_onset, outcome.responded_at, response_time});
     }
-    for (const RecordedStep* const step : further_steps(trial))
+    for (const AttemptStep* const step : further_steps(trial))
         to.push_back({.attempt = &trial,
                       .what = step->kind,
                       .from = *step->begin,
@@ -255,13 +266,14 @@ void write_bids_events(const SessionRecord& record, int run, std::optional<Sessi
     TableWriter writer(stem.string() + ".tsv", layout.table(), TableFormat::tsv, Packing::none,
                        TableWriter::Header::names);
     std::vector<BidsEvent> events;
+    std::deque<TrialRecord> seen;
     const std::vector<RecordedButton> buttons = record.button_changes();
     const std::vector<RecordedKeyPress> presses = record.key_presses();
     const std::vector<RecordedMarker> markers = record.markers();
     for (const TrialRecord& trial : record.trials()) {
         if (trial.sitting != run)
             continue;
-        add_events(events, trial, end_of(record, trial, clock_map), stimulus_file);
+        add_events(events, trial, end_of(record, trial, clock_map), stimulus_file, seen);
         add_devices(events, trial, buttons, presses, markers);
     }
     std::stable_sort(events.begin(), events.end(),

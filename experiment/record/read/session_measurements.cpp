@@ -202,7 +202,7 @@ std::optional<TrialLedger> SessionRecord::ledger(const TrialRecord& trial) const
 
 PageCycle planned_cycle(const SessionHeader& header, const TrialRecord& trial) {
     PageCycle motion = header.page_cycle_of(trial.trial.stimulus);
-    for (const RecordedStep& step : trial.outcome.steps) {
+    for (const AttemptStep& step : trial.outcome.steps) {
         if (step.kind != "show")
             continue;
         // What a key or gaze ended was over by the plan then.

@@ -87,7 +87,7 @@ struct TrialLedger {
 
 /// The steps of an attempt that its outcome does not tell by a time of its own: fixations, blanks, masks,
 /// feedback, texts after the first, and drift checks but that of the task without steps.
-std::vector<const RecordedStep*> further_steps(const TrialRecord& trial);
+std::vector<const AttemptStep*> further_steps(const TrialRecord& trial);
 
 /// What an attempt's presentation was to show: the motion, cut to what the trial's steps said.
 PageCycle planned_cycle(const SessionHeader& header, const TrialRecord& trial);

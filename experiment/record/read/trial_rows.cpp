@@ -146,7 +146,7 @@ void add_steps(const SQLite::Database& database, std::vector<TrialRecord>& trial
                              "ORDER BY trial_id, n");
          row.step();) {
         const auto trial = std::ranges::find(trials, row.integer(), &TrialRecord::id);
-        RecordedStep step;
+        AttemptStep step;
         std::optional<std::string> ended_by;
         row.read(step.kind, step.id, step.planned_refreshes, step.drawn_s, step.still_frame, step.begin,
                  step.end, ended_by, step.gaze_onset, step.gaze_detected);
@@ -160,14 +160,14 @@ void add_steps(const SQLite::Database& database, std::vector<TrialRecord>& trial
 
 } // namespace
 
-std::vector<const RecordedStep*> further_steps(const TrialRecord& trial) {
+std::vector<const AttemptStep*> further_steps(const TrialRecord& trial) {
     constexpr std::string_view question[] = {"text", "drift_check", "show", "answer"};
-    const std::vector<RecordedStep>& steps = trial.outcome.steps;
+    const std::vector<AttemptStep>& steps = trial.outcome.steps;
     const bool is_one_question =
         steps.size() <= std::size(question) &&
-        std::ranges::equal(steps, std::span(question).first(steps.size()), {}, &RecordedStep::kind);
-    std::vector<const RecordedStep*> further;
-    for (const RecordedStep& step : steps) {
+        std::ranges::equal(steps, std::span(question).first(steps.size()), {}, &AttemptStep::kind);
+    std::vector<const AttemptStep*> further;
+    for (const AttemptStep& step : steps) {
         const bool is_told = step.kind == "show" || step.kind == "answer" ||
                              (step.kind == "text" && step.begin == trial.outcome.task_screen_onset) ||
                              (step.kind == "drift_check" && is_one_question);

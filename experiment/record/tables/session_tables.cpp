@@ -16,6 +16,18 @@ auto of_object(const SessionHeader& header, std::string RecordedObject::*what) {
     };
 }
 
+/// One coordinate of the object's own origin, all digits of which count.
+TableColumn origin_column(const std::string& axis, const std::string& meaning) {
+    return {"origin_" + axis, meaning};
+}
+auto of_origin(const SessionHeader& header, int axis) {
+    return [&header, axis](const RecordedStimulus& row) {
+        return of_maybe(item_of(header.objects, row.stimulus.object), [axis](const RecordedObject& of) {
+            return Fixed{of.origin[axis], scale_decimals};
+        });
+    };
+}
+
 /// How large the stimulus's object is, and is shown.
 auto of_scale(const SessionHeader& header, double ObjectScale::*what) {
     return [&header, what](const RecordedStimulus& row) {
@@ -69,6 +81,12 @@ RowLayout<RecordedStimulus> stimuli_layout(const SharedColumns& shared, const Se
         {{"shown_size", "Millimetres that the picture on the display has for a millimetre of the object, "
                         "in the depth of the axis of its turn"},
          of_scale(header, &ObjectScale::shown_size)},
+        {origin_column("x",
+                       "Added to surface_x, it gives the place in the coordinates of the mesh's file, turned "
+                       "and scaled as the protocol says; 0 unless the mesh lies far from its file's origin"),
+         of_origin(header, 0)},
+        {origin_column("y", "The same of surface_y"), of_origin(header, 1)},
+        {origin_column("z", "The same of surface_z"), of_origin(header, 2)},
     });
     return layout;
 }

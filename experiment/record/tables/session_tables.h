@@ -21,7 +21,7 @@ RowLayout<RecordedMarker> markers_layout();
 struct StepRow {
     const TrialRecord& attempt;
     int number; ///< from 1
-    const RecordedStep& step;
+    const AttemptStep& step;
     operator const TrialRecord&() const { return attempt; }
 };
 RowLayout<StepRow> steps_layout();

@@ -7,7 +7,7 @@ namespace overt {
 namespace {
 
 /// Of a time that a step may lack.
-auto time_of_step(std::optional<SessionTime> RecordedStep::*at) {
+auto time_of_step(std::optional<SessionTime> AttemptStep::*at) {
     return [at](const StepRow& row) { return row.step.*at; };
 }
 
@@ -37,10 +37,12 @@ RowLayout<StepRow> steps_layout() {
              [](auto& row) { return row.step.kind; }},
             {{"id", "As the protocol calls it; empty: it gives no name"},
              [](auto& row) { return row.step.id; }},
-            {session_seconds("begin_s", "When what it shows was lit"), time_of_step(&RecordedStep::begin)},
-            {session_seconds("end_s", "When something else was lit"), time_of_step(&RecordedStep::end)},
+            {session_seconds("begin_s", "When what it shows was lit"), time_of_step(&AttemptStep::begin)},
+            {session_seconds("end_s", "When something else was lit"), time_of_step(&AttemptStep::end)},
             {{"drawn_s", "How long it was to last, as drawn or as written; n/a: no time ends it", "s"},
-             [](auto& row) { return row.step.drawn_s; }},
+             [](auto& row) {
+                 return Fixed{row.step.drawn_s, 6};
+             }},
             {{"planned_refreshes", "The same in refreshes of the display"},
              [](auto& row) { return row.step.planned_refreshes; }},
             {{"ended_by",

@@ -262,7 +262,7 @@ void TableExport::write_what_belongs_to_no_trial() {
         write(tables_.markers, marker);
     for (const TrialRecord& trial : record_.trials()) {
         int number = 0;
-        for (const RecordedStep& step : trial.outcome.steps)
+        for (const AttemptStep& step : trial.outcome.steps)
             write(tables_.steps, StepRow{trial, ++number, step});
     }
     for (const auto& [sitting, box] : record_.display_boxes()) {

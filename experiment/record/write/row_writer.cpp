@@ -394,7 +394,7 @@ void RowWriter::write(const TrialFinish& finish) {
                       trial_counts_.trial_id, swaps->flipped, swaps->copied, swaps->suboptimal_copied,
                       swaps->skipped);
     int number = 0;
-    for (const RecordedStep& step : outcome.steps)
+    for (const AttemptStep& step : outcome.steps)
         insert_values(database_,
                       "INTO step (trial_id, n, kind, id, planned_refreshes, drawn_s, still_frame, begin_ns, "
                       "end_ns, ended_by, gaze_onset_us, gaze_detected_us)",

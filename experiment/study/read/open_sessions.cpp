@@ -156,6 +156,7 @@ StudyObject describe_object(const SessionHeader& header, const ViewedObject& vie
     object.camera = recorded.camera(viewed.view);
     object.axis_point = recorded.axis_point;
     object.unit = recorded.unit;
+    object.origin = recorded.origin;
     object.screen = header.display.screen;
     return object;
 }

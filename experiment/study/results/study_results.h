@@ -83,6 +83,7 @@ struct StudyObject {
     glm::dvec3 axis_point{0.0}; ///< in the mesh's unit; the object turns about the vertical through it
     ScreenGeometry screen;
     std::string unit = "mm"; ///< of the mesh, as RecordedObject has it: "mm" if it is that
+    glm::dvec3 origin{0.0};  ///< in the mesh's unit, as RecordedObject has it
     // As ObjectScale has them; nothing without a known camera.
     std::optional<double> mm_per_unit, mm_per_deg, shown_size;
     /// By vertex of the mesh: how long one presentation shows it, in seconds; 0: never visible.

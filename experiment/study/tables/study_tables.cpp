@@ -147,6 +147,10 @@ std::string study_json(const StudyResults& results) {
             one["mm_per_deg"] = *object.mm_per_deg;
         if (object.shown_size)
             one["shown_size"] = *object.shown_size;
+        if (object.origin != glm::dvec3(0.0) && object.mm_per_unit) {
+            const glm::dvec3 origin = *object.mm_per_unit * object.origin;
+            one["origin_mm"] = {origin.x, origin.y, origin.z};
+        }
         if (!object.remark.empty())
             one["remark"] = object.remark;
         json["objects"].push_back(std::move(one));

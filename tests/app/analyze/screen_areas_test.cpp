@@ -155,7 +155,7 @@ TEST_CASE("dwell, visits, first arrival and transitions of areas that a recordin
 
     // Nothing of surfaces is there, and the page says why.
     for (const char* const file :
-         {"maps.tsv", "figure4_head_fraction.tsv", "figure5_distribution.tsv", "table1_pairs.tsv",
+         {"maps.tsv", "figure4_area_share.tsv", "figure5_distribution.tsv", "table1_pairs.tsv",
           "time_course.tsv", "gaze_motion.tsv", "factor_effects.tsv", "mixed_models.R"})
         CHECK_FALSE(fs::exists(out / file));
     CHECK(fs::exists(out / "figures" / "fixation_durations.svg"));

@@ -43,9 +43,9 @@ constexpr std::string_view every_kind = R"(
   { feedback = { answered = "Thank you", missed = "Too slow" }, for_s = 0.3 },
 )";
 
-std::vector<std::string> kinds_of(const TrialRecord& trial) {
+std::vector<std::string> step_kinds_of(const TrialRecord& trial) {
     std::vector<std::string> kinds;
-    for (const RecordedStep& step : trial.outcome.steps)
+    for (const AttemptStep& step : trial.outcome.steps)
         kinds.push_back(step.kind);
     return kinds;
 }
@@ -53,7 +53,7 @@ std::vector<std::string> kinds_of(const TrialRecord& trial) {
 constexpr double refresh_s = 1.0 / 120.0;
 
 /// From the step's begin to its end, in refreshes.
-double refreshes_lit(const RecordedStep& step) {
+double refreshes_lit(const AttemptStep& step) {
     return to_seconds(step.end.value() - step.begin.value()) / refresh_s;
 }
 
@@ -69,9 +69,9 @@ TEST_CASE("each kind of step is recorded as it was planned and as it was lit", "
     std::vector<double> jitters;
     for (const TrialRecord& trial : record.trials()) {
         CHECK(trial.counts);
-        CHECK(kinds_of(trial) == std::vector<std::string>{"text", "fixation", "fixation", "show", "mask",
-                                                          "blank", "answer", "feedback"});
-        const std::vector<RecordedStep>& steps = trial.outcome.steps;
+        CHECK(step_kinds_of(trial) == std::vector<std::string>{"text", "fixation", "fixation", "show", "mask",
+                                                               "blank", "answer", "feedback"});
+        const std::vector<AttemptStep>& steps = trial.outcome.steps;
         CHECK(steps[0].id == "words");
         CHECK(steps[0].planned_refreshes == 60);
         for (std::size_t i = 0; i < steps.size(); ++i) {
@@ -135,7 +135,7 @@ TEST_CASE("a killed session with steps goes on with the durations that it was dr
         const auto other = std::ranges::find_if(uninterrupted.trials(), [&](const TrialRecord& one) {
             return one.trial.index == trial.trial.index;
         });
-        REQUIRE(kinds_of(trial) == kinds_of(*other));
+        REQUIRE(step_kinds_of(trial) == step_kinds_of(*other));
         for (std::size_t i = 0; i < trial.outcome.steps.size(); ++i) {
             CHECK(trial.outcome.steps[i].drawn_s == other->outcome.steps[i].drawn_s);
             CHECK(trial.outcome.steps[i].planned_refreshes == other->outcome.steps[i].planned_refreshes);
@@ -158,7 +158,7 @@ TEST_CASE("gaze on the head ends the presentation, and the record says the same 
     const SessionRecord record(experiment.session());
     int by_gaze = 0;
     for (const TrialRecord& trial : record.trials()) {
-        const RecordedStep& show = trial.outcome.steps[1];
+        const AttemptStep& show = trial.outcome.steps[1];
         CHECK(trial.outcome.shown_refreshes == static_cast<int>(record.flips(trial).size()));
         if (show.ended_by != StepEnd::gaze) {
             CHECK(show.ended_by == StepEnd::patience);
@@ -195,17 +195,17 @@ TEST_CASE("gaze that does not come leads to a drift check, or ends the attempt, 
     const std::vector<TrialRecord> going_on = outcome("continue");
     REQUIRE(going_on.size() == 1);
     CHECK(going_on[0].counts);
-    CHECK(kinds_of(going_on[0]) == std::vector<std::string>{"fixation", "show"});
+    CHECK(step_kinds_of(going_on[0]) == std::vector<std::string>{"fixation", "show"});
     CHECK(going_on[0].outcome.steps[0].ended_by == StepEnd::patience);
     CHECK(refreshes_lit(going_on[0].outcome.steps[0]) == Approx(36).margin(1e-3));
 
     const std::vector<TrialRecord> aborted = outcome("abort");
     CHECK(aborted.size() > 1);
     CHECK(aborted[0].outcome.failure == "rejected");
-    CHECK(kinds_of(aborted[0]) == std::vector<std::string>{"fixation"});
+    CHECK(step_kinds_of(aborted[0]) == std::vector<std::string>{"fixation"});
 
     const std::vector<TrialRecord> checked = outcome("drift-check");
-    const std::vector<std::string> kinds = kinds_of(checked[0]);
+    const std::vector<std::string> kinds = step_kinds_of(checked[0]);
     REQUIRE(kinds.size() >= 3);
     CHECK(kinds[0] == "fixation");
     CHECK(kinds[1] == "drift_check");

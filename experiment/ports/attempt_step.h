@@ -23,7 +23,7 @@ template <>
 inline constexpr auto names_of<StepEnd> = enum_names<StepEnd>("time", "key", "answer", "gaze", "patience",
                                                               "done", "stopped");
 
-struct RecordedStep {
+struct AttemptStep {
     std::string kind;                     ///< as a protocol has it
     std::string id;                       ///< empty: none was given
     std::optional<int> planned_refreshes; ///< nothing: no time ends it
