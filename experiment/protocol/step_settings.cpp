@@ -6,8 +6,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "experiment/keys/value_type.h"
-
 namespace overt {
 
 double StepDuration::shortest_s() const {

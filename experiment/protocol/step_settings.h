@@ -6,11 +6,11 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <type_traits>
 #include <vector>
 
 #include "experiment/base/diagnostics.h"
 #include "experiment/base/enum_names.h"
+#include "experiment/keys/value_type.h"
 #include "experiment/units.h"
 
 namespace overt {
@@ -120,8 +120,7 @@ struct StepSettings {
     std::string answered, missed; ///< words of a feedback
 };
 
-struct ValueType;
-/// A list of steps, as a type of values (value_type.h). All that is wrong with it is found at once.
-const ValueType& value_type(std::type_identity<std::vector<StepSettings>>);
+/// A list of steps. All that is wrong with it is found at once.
+const ValueType& value_type(TypeTag<std::vector<StepSettings>>);
 
 } // namespace overt
