@@ -109,6 +109,6 @@ TEST_CASE(
             ++placed;
         }
         CHECK(placed > 100);
-        CHECK(is_far ? without_origin < placed / 2 : without_origin == placed);
+        CHECK((is_far ? without_origin < placed / 2 : without_origin == placed));
     }
 }
