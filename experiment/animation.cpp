@@ -27,19 +27,44 @@ double sine_of_half_turns(int h, int n) {
     return negative ? -sine : sine;
 }
 
+/// Where a motion is in a frame, -1 … 1.
+double sine_of(const Animation& motion, AnimationFrameIndex frame) {
+    OVERT_EXPECTS(frame.value >= 0 && frame.value < motion.frame_count);
+    const int intervals = std::max(motion.frame_count - 1, 1);
+    switch (motion.playback) {
+    case Playback::cycle:
+        return sine_of_half_turns(2 * frame.value, intervals);
+    case Playback::ping_pong:
+        // -cos(pi k / n) = sin(pi (2k - n) / 2n)
+        return sine_of_half_turns(2 * frame.value - intervals, 2 * intervals);
+    }
+    return 0.0;
+}
+
 } // namespace
 
 Degrees Animation::angle_of(AnimationFrameIndex frame) const {
-    OVERT_EXPECTS(frame.value >= 0 && frame.value < frame_count);
-    const int intervals = std::max(frame_count - 1, 1);
-    switch (playback) {
-    case Playback::cycle:
-        return {amplitude.value * sine_of_half_turns(2 * frame.value, intervals)};
-    case Playback::ping_pong:
-        // -cos(pi k / n) = sin(pi (2k - n) / 2n)
-        return {amplitude.value * sine_of_half_turns(2 * frame.value - intervals, 2 * intervals)};
+    const double turn = kind == MotionKind::turn ? amplitude.value * sine_of(*this, frame) : 0.0;
+    return {angle.value + turn};
+}
+
+Pose Animation::pose_of(AnimationFrameIndex frame) const {
+    return {angle_of(frame), {light_amplitude.value * sine_of(*this, frame)}};
+}
+
+std::vector<Pose> Animation::pictures() const {
+    std::vector<Pose> pictures;
+    for (int frame = 0; frame < frame_count; ++frame) {
+        const Pose pose = pose_of({frame});
+        if (std::ranges::none_of(pictures, [&](const Pose& known) { return is_same_pose(known, pose); }))
+            pictures.push_back(pose);
     }
-    return {};
+    return pictures;
+}
+
+Degrees Animation::largest_turn() const {
+    const double from_front = std::abs(std::remainder(angle.value, 360.0));
+    return {std::min(from_front + (kind == MotionKind::turn ? std::abs(amplitude.value) : 0.0), 180.0)};
 }
 
 int Animation::shown_frame_count() const { return static_cast<int>(std::lround(duration_s * frame_rate_hz)); }
@@ -59,25 +84,56 @@ AnimationFrameIndex Animation::frame_at_step(int step) const {
     return {in_period <= intervals ? in_period : 2 * intervals - in_period};
 }
 
-PoseTable distinct_poses(const Animation& animation) {
-    PoseTable poses;
-    for (int frame = 0; frame < animation.frame_count; ++frame) {
-        const Degrees angle = animation.angle_of({frame});
-        auto known = std::find(poses.angles.begin(), poses.angles.end(), angle);
-        if (known == poses.angles.end())
-            known = poses.angles.insert(known, angle);
-        poses.of_frame.push_back({static_cast<int>(known - poses.angles.begin())});
+void PoseTable::add(const Animation& motion) {
+    std::vector<PoseIndex>& poses = of_motion.emplace_back();
+    for (int frame = 0; frame < motion.frame_count; ++frame) {
+        const Degrees turned = motion.angle_of({frame});
+        auto known = std::ranges::find_if(angles, [&](Degrees one) { return is_same_turn(one, turned); });
+        if (known == angles.end())
+            known = angles.insert(known, turned);
+        poses.push_back({static_cast<int>(known - angles.begin())});
     }
+}
+
+PoseIndex PoseTable::index_of(Degrees turn) const {
+    const auto found = std::ranges::find_if(angles, [&](Degrees one) { return is_same_turn(one, turn); });
+    OVERT_EXPECTS(found != angles.end());
+    return {static_cast<int>(found - angles.begin())};
+}
+
+PoseTable distinct_poses(const Animation& motion) {
+    PoseTable poses;
+    poses.add(motion);
     return poses;
 }
 
-std::vector<double> seconds_of_poses(const Animation& animation, const PoseTable& poses) {
-    OVERT_EXPECTS(poses.of_frame.size() >= static_cast<std::size_t>(animation.frame_count));
+std::vector<double> seconds_of_poses(const Animation& animation, const PoseTable& poses, int motion) {
+    OVERT_EXPECTS(poses.frames_of(motion).size() >= static_cast<std::size_t>(animation.frame_count));
     std::vector<double> seconds(poses.angles.size(), 0.0);
     for (int step = 0; step < animation.shown_frame_count(); ++step)
-        seconds[static_cast<std::size_t>(poses.pose_of(animation.frame_at_step(step)).value)] +=
+        seconds[static_cast<std::size_t>(poses.pose_of(motion, animation.frame_at_step(step)).value)] +=
             1.0 / animation.frame_rate_hz;
     return seconds;
+}
+
+ShownPictures shown_pictures(const Animation& animation, std::span<const PoseIndex> pose_of_frame) {
+    OVERT_EXPECTS(pose_of_frame.size() >= static_cast<std::size_t>(animation.frame_count));
+    const std::vector<Pose> pictures = animation.pictures();
+    ShownPictures shown;
+    shown.poses.resize(pictures.size());
+    shown.seconds.resize(pictures.size(), 0.0);
+    for (int frame = 0; frame < animation.frame_count; ++frame) {
+        const auto picture = std::ranges::find_if(
+            pictures, [&](const Pose& pose) { return is_same_pose(pose, animation.pose_of({frame})); });
+        shown.of_frame.push_back(static_cast<int>(picture - pictures.begin()));
+        shown.poses[static_cast<std::size_t>(shown.of_frame.back())] =
+            pose_of_frame[static_cast<std::size_t>(frame)];
+    }
+    for (int step = 0; step < animation.shown_frame_count(); ++step) {
+        const auto frame = static_cast<std::size_t>(animation.frame_at_step(step).value);
+        shown.seconds[static_cast<std::size_t>(shown.of_frame[frame])] += 1.0 / animation.frame_rate_hz;
+    }
+    return shown;
 }
 
 const PageCycleEntry& PageCycle::entry_at(int refresh) const {
@@ -92,7 +148,21 @@ int refreshes_per_frame(double frame_rate_hz, double refresh_hz) {
     return nearest >= 1.0 && std::abs(ratio - nearest) <= 2e-3 * nearest ? static_cast<int>(nearest) : 0;
 }
 
-PageCycle make_page_cycle(const Animation& animation, double refresh_hz) {
+PageCycle cut_to(PageCycle cycle, std::optional<int> refreshes, std::optional<AnimationFrameIndex> still) {
+    if (refreshes)
+        cycle.total_refreshes = *refreshes;
+    if (!still)
+        return cycle;
+    const auto entry = std::find_if(cycle.entries.begin(), cycle.entries.end(),
+                                    [&](const PageCycleEntry& one) { return one.frame == *still; });
+    OVERT_EXPECTS(entry != cycle.entries.end());
+    cycle.entries = {{entry->frame, entry->pose, 1}};
+    cycle.entry_of_refresh = {0};
+    return cycle;
+}
+
+PageCycle make_page_cycle(const Animation& animation, std::span<const PoseIndex> pose_of_frame,
+                          double refresh_hz) {
     const int held = refreshes_per_frame(animation.frame_rate_hz, refresh_hz);
     if (held == 0) {
         throw InputError(
@@ -100,16 +170,19 @@ PageCycle make_page_cycle(const Animation& animation, double refresh_hz) {
                         "frames would be lit for unequal times",
                         refresh_hz, animation.frame_rate_hz));
     }
-    const PoseTable poses = distinct_poses(animation);
     PageCycle cycle;
     for (int step = 0; step < animation.steps_per_period(); ++step) {
         const AnimationFrameIndex frame = animation.frame_at_step(step);
         cycle.entry_of_refresh.insert(cycle.entry_of_refresh.end(), static_cast<std::size_t>(held),
                                       static_cast<std::uint16_t>(cycle.entries.size()));
-        cycle.entries.push_back({frame, poses.pose_of(frame), held});
+        cycle.entries.push_back({frame, pose_of_frame[static_cast<std::size_t>(frame.value)], held});
     }
     cycle.total_refreshes = held * animation.shown_frame_count();
     return cycle;
+}
+
+PageCycle make_page_cycle(const Animation& animation, double refresh_hz) {
+    return make_page_cycle(animation, distinct_poses(animation).frames_of(0), refresh_hz);
 }
 
 } // namespace overt

@@ -58,6 +58,18 @@ struct FlipRecord {
     int missed_refreshes = 0;
 };
 
+/// What a flip showed in a further slot; that of the trial's first stimulus is in the FlipRecord. A refresh
+/// that was missed left what was there in all slots.
+struct SlotFlip {
+    int trial = 0;
+    int refresh_in_trial = 0;    ///< of the flip
+    int place = 1;               ///< among what the trial shows (Trial::shown)
+    AnimationFrameIndex planned; ///< as in the FlipRecord
+    AnimationFrameIndex shown;   ///< no_frame: the slot was empty
+    PoseIndex pose;
+    friend constexpr bool operator==(const SlotFlip&, const SlotFlip&) = default;
+};
+
 /// The other kind of row: a refresh within the time of the plan that went by with the picture before it.
 /// Together with the flips, each refresh from the onset to the plan's end has one row.
 struct MissedRefresh {

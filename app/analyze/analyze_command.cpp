@@ -12,6 +12,7 @@
 #include "app/cli/command_options.h"
 #include "app/cli/event_options.h"
 #include "app/cli/interruption.h"
+#include "app/inputs/protocol_file.h"
 #include "app/inputs/session_folders.h"
 #include "experiment/base/counted.h"
 #include "experiment/base/error.h"
@@ -28,7 +29,8 @@ struct AnalyzeOptions {
     StudyOptions study;
     std::optional<std::string> compare;     ///< nothing: the usual one, where it makes groups
     std::vector<std::string> same_observer; ///< LABEL=LABEL
-    std::string by, sigma = "1deg", kernel = "geodesic", format = "csv", shard;
+    std::filesystem::path areas;            ///< empty: none
+    std::string by, surface_areas, sigma = "1deg", kernel = "geodesic", format = "csv", shard;
     bool overwrite = false;
     EventOptions events;
     StudyExtras extras;
@@ -58,6 +60,30 @@ std::vector<std::pair<std::string, std::string>> same_observers(const std::vecto
     return pairs;
 }
 
+/// Says what is wrong with the file, if anything is.
+std::vector<ChosenScreenArea> screen_areas_in(const std::filesystem::path& file) {
+    Diagnostics diagnostics;
+    std::vector<ChosenScreenArea> areas = read_screen_areas(file, diagnostics);
+    print_findings(diagnostics);
+    if (diagnostics.has_errors())
+        throw FindingsPrinted(fmt::format("{}: cannot be used", file.string()));
+    return areas;
+}
+
+void print_screen_areas(const StudyResults& results) {
+    for (const ScreenAreaRow& row : results.screen_area_groups) {
+        if (!row.keys.empty() || !row.dwell_share.value)
+            continue;
+        fmt::print("in area {}: {:.1f} % of the time of fixation", row.area, 100.0 * *row.dwell_share.value);
+        if (row.share_by_chance)
+            fmt::print(" ({:.1f} % by chance)", 100.0 * *row.share_by_chance);
+        if (row.first_arrival_s.value)
+            fmt::print(", first arrival {:.3f} s, in {}", *row.first_arrival_s.value,
+                       counted(row.trials, "trial"));
+        fmt::print("\n");
+    }
+}
+
 void print_summary(const StudyResults& results, const std::filesystem::path& out, TableFormat format) {
     const StudyGlance& glance = results.glance;
     fmt::print("{}\n{}, {}, {} ({} excluded), {} samples\n", glance.title,
@@ -70,11 +96,12 @@ void print_summary(const StudyResults& results, const std::filesystem::path& out
                reasons.empty() ? "" : "; ", fmt::join(reasons, ", "));
     for (const std::string& remark : results.remarks)
         fmt::print("note: {}\n", remark);
-    for (const HeadFractionRow& row : results.head_fractions) {
-        // The levels of single columns; the groups are in the tables.
-        if (row.keys.size() > 1 || !row.by_count.value)
+    for (const AreaRow& row : results.area_rows) {
+        // The levels of single columns of the area of figure 4; of others all trials. The groups are in the
+        // tables.
+        if (row.keys.size() > (row.area == results.area ? 1 : 0) || !row.by_count.value)
             continue;
-        fmt::print("on the head, {}: {:.3f}",
+        fmt::print("on {}, {}: {:.3f}", row.area == head_area ? "the head" : row.area,
                    row.keys.empty() ? "all" : row.keys[0].column + " " + row.keys[0].value,
                    *row.by_count.value);
         if (row.by_count.interval)
@@ -84,6 +111,14 @@ void print_summary(const StudyResults& results, const std::filesystem::path& out
         if (row.corrected.interval)
             fmt::print(" ({:.3f} … {:.3f})", row.corrected.interval->low, row.corrected.interval->high);
         fmt::print("\n");
+    }
+    print_screen_areas(results);
+    if (!knows_stimuli(results)) {
+        fmt::print(
+            "analysis: {0}\n"
+            "open next: {0}/report.html in a browser; all tables are explained in {0}/dictionary.json\n",
+            out.string());
+        return;
     }
     fmt::print("analysis: {0}\n"
                "open next: {0}/report.html in a browser; all tables are explained in {0}/dictionary.json;\n"
@@ -137,9 +172,11 @@ int run_shard(const AnalyzeOptions& options) {
 }
 
 int run_analyze(AnalyzeOptions options) {
+    options.study.is_by_asked = options.by != fmt::format("{}", fmt::join(StudyOptions().by, ","));
     options.study.by = listed(options.by);
     for (std::string& column : options.study.by)
         column = todays_factor(std::move(column));
+    options.study.areas = listed(options.surface_areas);
     options.study.detect_events = options.events.detection();
     if (options.compare) {
         options.compare = todays_factor(*std::move(options.compare));
@@ -153,6 +190,10 @@ int run_analyze(AnalyzeOptions options) {
     for (std::size_t i = 0; i < names_of<MapKernel>.size(); ++i) {
         if (names_of<MapKernel>[i] == options.kernel)
             options.study.kernel = static_cast<MapKernel>(i);
+    }
+    if (!options.areas.empty()) {
+        options.study.screen_areas = screen_areas_in(options.areas);
+        options.study.screen_areas_file = options.areas.filename().string();
     }
     options.sessions = sessions_in(options.sessions, is_shard);
     if (!options.shard.empty())
@@ -186,6 +227,10 @@ void add_study_options(CLI::App& command, AnalyzeOptions& options) {
     option(command, "--compare", options.compare, "COLUMN",
            "Column of --by whose levels are compared within observers")
         ->default_str(study.compare);
+    option(command, "--area", options.surface_areas, "NAMES",
+           "Areas of the objects, with commas: the first is that of figure 4 and the time course, and p of "
+           "differences are corrected over them")
+        ->default_str("all, the head first");
     option(command, "--sigma", options.sigma, "WIDTH",
            "Standard deviation of the maps' kernel, such as 1deg (converted at the depth of each fixation) "
            "or 30mm",
@@ -218,6 +263,10 @@ void add_study_options(CLI::App& command, AnalyzeOptions& options) {
                       "imported recordings without any have them found anyway");
     option(command, "--same-observer", options.same_observer, "LABEL=LABEL",
            "Sessions of the first observer are those of the second, as 01=1; once for each", one_each_time);
+    option(
+        command, "--areas", options.areas, "FILE",
+        "Areas of the screen to ask gaze for, besides those that recordings tell: an EyeLink file (.ias), or "
+        "a table (.csv) with area, shape, left_px, top_px, right_px, bottom_px");
     option(command, "--time-step", study.time_step_s, "S", "Stretches of the time course", above_zero(),
            shown_default);
     option(command, "--confidence", study.confidence, "", "Level of intervals", CLI::Range(0.5, 0.999),

@@ -11,11 +11,12 @@ namespace overt {
 /// What read_study() asks for objects with. Copies share what they hold.
 class StudySurfaces {
   public:
-    const SurfaceLookup* operator()(const SessionRecord& record, std::size_t /*session*/, int object) {
+    const SurfaceLookup* operator()(const SessionRecord& record, std::size_t /*session*/,
+                                    const ViewedObject& viewed) {
         // The one before goes first, so that two are never in memory.
         held_->reset();
         held_->emplace(record, RecordedSurfaces::Keep::last, CoordinateMaps::Use::many_lookups);
-        return (*held_)->lookup_of(object);
+        return (*held_)->lookup_of(viewed);
     }
 
   private:

@@ -112,7 +112,7 @@ void measure_furnace(BenchFigures& figures, const Object& object, const BenchOpt
     for (glm::vec4& pixel : even.radiance.pixels)
         pixel = glm::vec4(1.0f);
     const SpectralLight light(even, 1.0);
-    const SceneView view = resized(object.scene, options.reference_size_px);
+    const SceneView view = resized(object.scene(), options.reference_size_px);
     for (BakeCase one : bake_cases()) {
         one.material.metal = white_metal(folder);
         one.material.coat_absorbance = {0.0, 0.0, 0.0};
@@ -208,8 +208,8 @@ BenchFigures bench_bake(const BenchOptions& options) {
     if (!options.probe.empty())
         surroundings.probe = options.probe.string();
     const SpectralLight light(surroundings);
-    const std::vector<std::uint8_t> covered = covered_by_map(options.context, object, object.scene);
-    const SceneView small = resized(object.scene, options.reference_size_px);
+    const std::vector<std::uint8_t> covered = covered_by_map(options.context, object, object.scene());
+    const SceneView small = resized(object.scene(), options.reference_size_px);
     constexpr int poses = 31, objects = 3;
 
     BenchFigures figures;
@@ -220,7 +220,7 @@ BenchFigures bench_bake(const BenchOptions& options) {
         const BakeScene scene(object.mesh, one.material);
         figures.push_back({one.name + ", trees built", processor_seconds() - begin, "s of a processor"});
         if (!rates) {
-            rates = measure_rays(scene, object.scene);
+            rates = measure_rays(scene, object.scene());
             figures.push_back(
                 {"Embree, rays from the eye", 1e-6 * rates->primary, "million/s of a processor"});
             figures.push_back({"Embree, mirrored rays", 1e-6 * rates->mirrored, "million/s of a processor"});
@@ -228,7 +228,7 @@ BenchFigures bench_bake(const BenchOptions& options) {
         const BakeSettings settings{.samples = options.samples};
         begin = processor_seconds();
         const auto begin_wall = std::chrono::steady_clock::now();
-        const SpectralFrame frame = bake_frame(scene, light, object.scene, {0.0}, covered, settings);
+        const SpectralFrame frame = bake_frame(scene, light, object.scene(), {0.0}, covered, settings);
         const double took = processor_seconds() - begin;
         const double waited = seconds_since(begin_wall);
         double samples = 0.0, wrong = 0.0;

@@ -40,6 +40,8 @@ constexpr Benchmark benchmarks[] = {
     {"power", "simulated studies of 12 observers, how many a minute on one core", bench_power},
     {"tracker", "an eye tracker at 2000 Hz beside a presentation, its samples, processor time and refreshes",
      bench_tracker},
+    {"gaze-step", "steps that gaze on a moving area ends, and whether they end by the planted sample",
+     bench_gaze_step},
     {"watch", "the operator's view, from a sample to its surface point and to its mark in the window",
      bench_watch}};
 
@@ -107,7 +109,7 @@ void add_bench(CLI::App& app, ChosenCommand& chosen) {
 BenchScene bench_scene(const BenchOptions& options) {
     BenchScene scene;
     scene.protocol.name = "bench";
-    scene.protocol.view.width_px = scene.protocol.view.height_px = options.size_px;
+    scene.protocol.views.front().width_px = scene.protocol.views.front().height_px = options.size_px;
     if (!options.mesh.empty()) {
         ObjectSettings settings;
         settings.id = options.mesh.stem().string();

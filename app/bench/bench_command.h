@@ -41,6 +41,8 @@ BenchFigures bench_analyze(const BenchOptions& options);
 BenchFigures bench_power(const BenchOptions& options);
 /// An eye tracker at 2000 Hz: samples lost or doubled, processor time, refreshes missed beside it.
 BenchFigures bench_tracker(const BenchOptions& options);
+/// A thousand trials whose gaze is planted: whether the step that waits for it ends by the very sample.
+BenchFigures bench_gaze_step(const BenchOptions& options);
 /// The operator's view: from a sample to its surface point, and to its mark in the window.
 BenchFigures bench_watch(const BenchOptions& options);
 

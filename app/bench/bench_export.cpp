@@ -32,9 +32,9 @@ std::filesystem::path record_session(const std::filesystem::path& folder, int tr
     header.started_utc = "2026-01-01T00:00:00Z";
     header.program.version = "bench";
     header.tracker = {"made up", recorded_rate_hz, Eye::left};
-    header.poses = distinct_poses(header.animation);
+    header.poses = distinct_poses(header.animations.front());
     header.tasks = {{"free", "Look around"}};
-    header.objects = {{"bust", "A bust", "", "", {}, {}, {}, {}}};
+    header.objects = {{"bust", "A bust", "", "", {}, {Camera{}}, {}, {}}};
     header.materials = {{"gold", "Gold"}};
     header.stimuli = {{{0, 0}, "made up", ""}};
     std::filesystem::create_directories(folder);
@@ -42,7 +42,7 @@ std::filesystem::path record_session(const std::filesystem::path& folder, int tr
     SessionStore::Options options;
     options.wait_when_full = true;
     SessionStore store(folder / session_file_name, options);
-    const PageCycle plan = make_page_cycle(header.animation, header.display.refresh_hz);
+    const PageCycle plan = header.page_cycle_of({});
     for (const Trial& trial : header.schedule.trials) {
         const SessionTime start{from_seconds(20.0 * trial.index)};
         store.clock_pair({start, TrackerTime(std::chrono::seconds(20 * trial.index)), start});
@@ -86,7 +86,7 @@ class ExportBench {
 
     /// Each in turn, on a session and on one four times as long.
     BenchFigures measure() {
-        const auto no_surface = [](int) -> const SurfaceLookup* { return nullptr; };
+        const auto no_surface = [](const ViewedObject&) -> const SurfaceLookup* { return nullptr; };
         for (const int times : {1, 4})
             sessions_.push_back(
                 record_session(scratch_.path() / fmt::format("session_{}", times), recorded_trials * times));

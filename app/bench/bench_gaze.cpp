@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "experiment/base/random.h"
+#include "experiment/protocol/all_stimuli.h"
 
 namespace overt {
 
@@ -73,7 +74,7 @@ class GazePath {
 
 std::vector<BenchRecording> bench_recordings(const Protocol& protocol, const ScreenGeometry& screen,
                                              const CoordinateMaps& maps, GazeKind kind, int presentations) {
-    const PageCycle plan = make_page_cycle(protocol.animation, protocol.display.refresh_hz);
+    const PageCycle plan = page_cycles(protocol).front();
     const ScanOut scan_out{from_seconds(0.0015), protocol.display.refresh_hz,
                            static_cast<double>(screen.screen_px.y)};
     // The tracker's clock reads 7 s more and goes 20 millionths faster.

@@ -9,6 +9,7 @@
 #include "app/stimuli/map_figures.h"
 #include "experiment/base/error.h"
 #include "experiment/maps/coordinate_maps.h"
+#include "experiment/protocol/all_stimuli.h"
 #include "render/gl/headless_context.h"
 #include "render/gl/pixel_readback.h"
 #include "render/stimulus/coordinate_pass.h"
@@ -36,14 +37,14 @@ struct DrawnMaps {
 };
 
 DrawnMaps draw_all(const GlContext& context, const Object& object, const PoseTable& poses) {
-    const glm::ivec2 size = object.scene.view.image_px;
+    const glm::ivec2 size = object.scene().view.image_px;
     CoordinatePass pass(context, size);
     const MeshBuffers buffers(context, object.mesh);
-    pass.draw(buffers, object.scene, poses.angles.front()); // the first also sets things up
+    pass.draw(buffers, object.scene(), poses.angles.front()); // the first also sets things up
     DrawnMaps drawn;
     for (const Degrees angle : poses.angles) {
         const SteadyTime begin = std::chrono::steady_clock::now();
-        drawn.maps.push_back({size, pass.draw(buffers, object.scene, angle)});
+        drawn.maps.push_back({size, pass.draw(buffers, object.scene(), angle)});
         drawn.times_ms.push_back(milliseconds_since(begin));
     }
     return drawn;
@@ -51,7 +52,7 @@ DrawnMaps draw_all(const GlContext& context, const Object& object, const PoseTab
 
 /// Maps per second when the next is drawn while the last is read back, as in a presentation.
 double maps_per_second(const GlContext& context, const Object& object, const PoseTable& poses) {
-    const glm::ivec2 size = object.scene.view.image_px;
+    const glm::ivec2 size = object.scene().view.image_px;
     CoordinatePass pass(context, size);
     const MeshBuffers buffers(context, object.mesh);
     std::array<PixelReadback, 2> reads{PixelReadback(context, size, PixelFormat::r32ui),
@@ -67,7 +68,7 @@ double maps_per_second(const GlContext& context, const Object& object, const Pos
         if (read.under_way())
             read.finish(bytes, true);
         const Degrees angle = poses.angles[static_cast<std::size_t>(i) % poses.angles.size()];
-        pass.render(buffers, clip_from_centred_object(object.scene, angle));
+        pass.render(buffers, clip_from_centred_object(object.scene(), angle));
         read.start(pass.target());
     }
     for (PixelReadback& read : reads)
@@ -113,7 +114,7 @@ void measure_drawing(BenchFigures& figures, const GlContext& context, const Obje
 
 void measure_maps(BenchFigures& figures, const Object& object, const PoseTable& poses,
                   std::vector<TriangleMap> maps) {
-    const CoordinateMaps lookup(object.mesh, object.scene, poses.angles, std::move(maps));
+    const CoordinateMaps lookup(object.mesh, object.scene(), poses.angles, std::move(maps));
     const RayCaster rays(object.mesh);
     std::vector<double> times_ms;
     std::optional<MapCheck> check;
@@ -121,13 +122,13 @@ void measure_maps(BenchFigures& figures, const Object& object, const PoseTable& 
     for (std::size_t pose = 0; pose < poses.angles.size(); pose += 5) {
         const SteadyTime begin = std::chrono::steady_clock::now();
         const CoordinateImage image =
-            coordinate_image(lookup, {static_cast<int>(pose)}, object.scene.view.image_px);
+            coordinate_image(lookup, {static_cast<int>(pose)}, object.scene().view.image_px);
         times_ms.push_back(milliseconds_since(begin));
-        const MapCheck one = check_map(image, rays, object.scene, poses.angles[pose]);
+        const MapCheck one = check_map(image, rays, object.scene(), poses.angles[pose]);
         check = check ? worst_of(*check, one) : one;
     }
     figures.push_back({object.id + ", exact coordinates of a map, median", median(times_ms), "ms"});
-    const BenchFigures checked = figures_of(*check, object.scene.view.image_px, object.id);
+    const BenchFigures checked = figures_of(*check, object.scene().view.image_px, object.id);
     figures.insert(figures.end(), checked.begin(), checked.end());
 }
 
@@ -135,7 +136,7 @@ void measure_maps(BenchFigures& figures, const Object& object, const PoseTable& 
 
 BenchFigures bench_lut(const BenchOptions& options) {
     const BenchScene scene = bench_scene(options);
-    const PoseTable poses = distinct_poses(scene.protocol.animation);
+    const PoseTable poses = poses_of(scene.protocol);
     BenchFigures figures;
     for (const Object& object : scene.objects) {
         DrawnMaps drawn;

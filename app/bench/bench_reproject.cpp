@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 
@@ -10,6 +11,7 @@
 #include "experiment/analysis/gaze_cone.h"
 #include "experiment/base/parallel.h"
 #include "experiment/base/random.h"
+#include "experiment/protocol/all_stimuli.h"
 #include "experiment/record/read/sample_join.h"
 #include "render/gl/headless_context.h"
 #include "render/stimulus/coordinate_pass.h"
@@ -23,12 +25,12 @@ constexpr int repeats = 5;
 constexpr int compared_places = 200'000;
 
 std::vector<TriangleMap> draw_maps(const GlContext& context, const Object& object, const PoseTable& poses) {
-    CoordinatePass pass(context, object.scene.view.image_px);
+    CoordinatePass pass(context, object.scene().view.image_px);
     const MeshBuffers buffers(context, object.mesh);
     std::vector<TriangleMap> maps;
     ProgressBar bar;
     for (const Degrees angle : poses.angles) {
-        maps.push_back({object.scene.view.image_px, pass.draw(buffers, object.scene, angle)});
+        maps.push_back({object.scene().view.image_px, pass.draw(buffers, object.scene(), angle)});
         bar.update("maps of " + object.id, static_cast<int>(maps.size()),
                    static_cast<int>(poses.angles.size()));
     }
@@ -76,6 +78,7 @@ class Reprojection {
     }
 
     void measure_contested_pixels();
+    void measure_side_by_side();
     void measure_exactness();
     void measure_cone();
 
@@ -121,7 +124,7 @@ struct Errors {
 
 void Reprojection::measure_exactness() {
     const RayCaster rays(object_.mesh);
-    const glm::dvec3 lsb = glm::max(object_.scene.bounds.extent() / 65536.0, glm::dvec3(1e-300));
+    const glm::dvec3 lsb = glm::max(object_.scene().bounds.extent() / 65536.0, glm::dvec3(1e-300));
     struct Outcome {
         bool differs = false, interior = false, edge = false;
         double error = 0.0, centre_error = -1.0;
@@ -134,7 +137,7 @@ void Reprojection::measure_exactness() {
                 static_cast<int>(random.below(static_cast<std::uint32_t>(poses_.angles.size())))};
             const glm::ivec2 size = maps_.image_px();
             const glm::dvec2 place(random.uniform(0.0, size.x), random.uniform(0.0, size.y));
-            const SceneView& scene = object_.scene;
+            const SceneView& scene = object_.scene();
             const auto cast = [&](glm::dvec2 at) {
                 return rays.first_hit(
                     to_object(scene.view.ray_through(at),
@@ -189,6 +192,54 @@ void Reprojection::measure_exactness() {
     add({"interior, nearest pixel instead, error 99.9 %", centre.quantile(0.999), "LSB"});
 }
 
+/// The object twice on one screen, gaze going from one to the other: each sample is joined with both slots,
+/// and compared with a ray through its own.
+void Reprojection::measure_side_by_side() {
+    constexpr std::size_t samples_in_a_row = 400; // a fifth of a second
+    constexpr double gap_px = 100.0;
+    std::array<ScreenGeometry, 2> slots{screen_, screen_};
+    for (ScreenGeometry& slot : slots)
+        slot.screen_px.x = 2 * slot.image_px.x + static_cast<int>(gap_px);
+    slots[0].image_origin_px.x = 0;
+    slots[1].image_origin_px.x = slots[0].screen_px.x - slots[0].image_px.x;
+    const SceneView& scene = object_.scene();
+    const RayCaster rays(object_.mesh);
+    const double limit = 1e-6 * glm::length(scene.bounds.extent());
+    int compared = 0, elsewhere = 0, in_both = 0;
+    double spent_s = 0.0;
+    for (BenchRecording& recording : bench_recordings(protocol_, screen_, maps_, GazeKind::fixations, 2)) {
+        const auto in_second = [&](std::size_t sample) { return sample / samples_in_a_row % 2 == 1; };
+        for (std::size_t i = 0; i < recording.samples.size(); ++i)
+            recording.samples[i].gaze = slots[in_second(i) ? 1 : 0].screen_from_image(
+                screen_.image_from_screen(*recording.samples[i].gaze));
+        std::array<std::vector<JoinedSample>, 2> joined;
+        for (std::size_t slot = 0; slot < slots.size(); ++slot) {
+            const SampleJoin join(slots[slot], recording.clock_map, recording.history, &maps_, true);
+            joined[slot].resize(recording.samples.size());
+            const double before_s = thread_seconds();
+            join.join(recording.samples, joined[slot]);
+            spent_s += thread_seconds() - before_s;
+        }
+        for (std::size_t i = 0; i < recording.samples.size(); ++i) {
+            const std::size_t own = in_second(i) ? 1 : 0;
+            in_both += joined[1 - own][i].sight.surface.has_value() || joined[1 - own][i].shown.has_value();
+            const JoinedSample& sample = joined[own][i];
+            if (!sample.shown)
+                continue;
+            const auto hit = rays.first_hit(
+                to_object(scene.view.ray_through(*sample.image_px),
+                          scene.pose_at(poses_.angles[static_cast<std::size_t>(sample.shown->pose.value)])));
+            ++compared;
+            elsewhere += hit.has_value() != sample.sight.surface.has_value() ||
+                         (hit && glm::distance(hit->position, sample.sight.surface->position) > limit);
+        }
+    }
+    add({"two side by side, samples compared with rays", static_cast<double>(compared), ""});
+    add(at_most("two side by side, samples elsewhere than their ray", elsewhere, "", 0));
+    add(at_most("two side by side, samples in the other slot, too", in_both, "", 0));
+    add({"two side by side, samples joined per second and core", 1e-6 * compared / spent_s, "million/s"});
+}
+
 void Reprojection::measure_cone() {
     const GazeCone cone(screen_);
     RandomStream random(3, "cones");
@@ -224,7 +275,7 @@ void Reprojection::measure_cone() {
 
 BenchFigures bench_reproject(const BenchOptions& options) {
     const BenchScene scene = bench_scene(options);
-    const PoseTable poses = distinct_poses(scene.protocol.animation);
+    const PoseTable poses = poses_of(scene.protocol);
     BenchFigures figures;
     const auto context = make_headless_context(options.context);
     for (const Object& object : scene.objects) {
@@ -233,7 +284,7 @@ BenchFigures bench_reproject(const BenchOptions& options) {
         const double drawn_mb = static_cast<double>(drawn.size() * drawn.front().codes.size()) * 4e-6;
         const double before_mb = resident_memory_mb() - drawn_mb;
         const auto begin = std::chrono::steady_clock::now();
-        const CoordinateMaps maps(object.mesh, object.scene, poses.angles, std::move(drawn));
+        const CoordinateMaps maps(object.mesh, object.scene(), poses.angles, std::move(drawn));
         const double making_s = seconds_since(begin);
         figures.push_back({object.id + ", triangles", static_cast<double>(object.mesh.triangles.size()), ""});
         figures.push_back(at_most(object.id + ", memory of all maps with the surface",
@@ -243,6 +294,7 @@ BenchFigures bench_reproject(const BenchOptions& options) {
         reprojection.measure_contested_pixels();
         reprojection.measure_speed(GazeKind::fixations, "fixations");
         reprojection.measure_speed(GazeKind::uniform, "uniform gaze");
+        reprojection.measure_side_by_side();
         reprojection.measure_exactness();
         reprojection.measure_cone();
     }

@@ -18,7 +18,7 @@
 #include "experiment/base/scratch_folder.h"
 #include "experiment/record/header_rows.h"
 #include "experiment/record/session_schema.h"
-#include "experiment/scene/ply_writer.h"
+#include "experiment/scene/files/ply_writer.h"
 
 namespace overt {
 
@@ -41,13 +41,19 @@ SessionHeader lay_out_session(const std::filesystem::path& folder, const Object&
     header.started_utc = "2026-01-01T00:00:00Z";
     header.program.version = "bench";
     header.tracker = {"metronome", Metronome::rate_hz, Eye::right};
-    header.poses = distinct_poses(header.animation);
+    header.poses = distinct_poses(header.animations.front());
     header.tasks = {{"free", "Look around"}};
-    header.objects = {{object.id, object.id, object.mesh_hash, "mesh.ply", object.mesh.part_names,
-                       object.scene.view.camera, object.scene.bounds.centre(), object.scene.bounds}};
+    header.objects = {{object.id,
+                       object.id,
+                       object.mesh_hash,
+                       "mesh.ply",
+                       object.mesh.part_names,
+                       {object.scene().view.camera},
+                       object.scene().bounds.centre(),
+                       object.scene().bounds}};
     header.materials = {{"gold", "Gold"}};
     header.stimuli = {{{0, 0}, "made up", ""}};
-    header.display.screen.image_px = object.scene.view.image_px;
+    header.display.screen.image_px = object.scene().view.image_px;
     header.display.screen.image_origin_px =
         centred_origin_px(header.display.screen.screen_px, header.display.screen.image_px);
     std::filesystem::create_directories(folder);

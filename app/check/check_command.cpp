@@ -18,6 +18,7 @@
 #include "experiment/base/counted.h"
 #include "experiment/checks/design_report.h"
 #include "experiment/design/schedule.h"
+#include "experiment/design/trial_plan.h"
 #include "render/gl/headless_context.h"
 
 namespace overt {
@@ -73,6 +74,13 @@ DesignReport report_on(const Experiment& experiment, const CheckOptions& options
     return report;
 }
 
+std::string steps_of_tasks(const Protocol& protocol) {
+    std::string text;
+    for (const Task& task : protocol.tasks)
+        text += describe_steps(protocol, task);
+    return text;
+}
+
 } // namespace
 
 int run_check(const CheckOptions& options) {
@@ -102,8 +110,9 @@ int run_check(const CheckOptions& options) {
         print_findings(diagnostics);
         if (experiment)
             text = needs_of_person(stimuli->rendering, experiment->protocol) +
-                   to_text(report_on(*experiment, options)) + to_text(stimuli->silhouettes) +
-                   to_text(stimuli->rendering) + to_text(stimuli->on_this_machine) + sound + "\n";
+                   to_text(report_on(*experiment, options)) + steps_of_tasks(experiment->protocol) +
+                   to_text(stimuli->silhouettes) + to_text(stimuli->rendering) +
+                   to_text(stimuli->on_this_machine) + sound + "\n";
         if (experiment && options.frames)
             text += to_text(measure_light(*experiment));
     }

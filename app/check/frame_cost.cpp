@@ -103,10 +103,11 @@ FrameCost measure_frame_cost(const GlContext& context, const Protocol& protocol,
     for (const Object& object : objects) {
         if (!object.has_mesh())
             continue;
-        CoordinatePass pass(context, object.scene.view.image_px);
+        const SceneView& scene = object.scene();
+        CoordinatePass pass(context, scene.view.image_px);
         const MeshBuffers buffers(context, object.mesh);
-        pass.draw(buffers, object.scene, Degrees{0.0});
-        const double map_ms = milliseconds_of([&] { pass.draw(buffers, object.scene, Degrees{0.0}); });
+        pass.draw(buffers, scene, Degrees{0.0});
+        const double map_ms = milliseconds_of([&] { pass.draw(buffers, scene, Degrees{0.0}); });
         cost.worst_map_ms = std::max(cost.worst_map_ms.value_or(0.0), map_ms);
     }
     return cost;
@@ -133,7 +134,8 @@ std::vector<ForecastLine> forecast_of(const FrameCost& cost, const Protocol& pro
     lines.push_back({"a page", fmt::format("{:.1f} ms to pack and load", cost.page_ms)});
     if (cost.worst_map_ms) {
         // As the rig decides: live where a graphics processor draws.
-        const double frame_ms = 1e3 / protocol.animation.frame_rate_hz;
+        const double frame_ms =
+            1e3 / std::ranges::max(protocol.motions, {}, &MotionSettings::frame_rate_hz).frame_rate_hz;
         lines.push_back(
             {"hidden map",
              fmt::format("{:.1f} ms of the {:.1f} ms of a frame; {}", *cost.worst_map_ms, frame_ms,

@@ -8,6 +8,7 @@
 #include "app/cli/own_folders.h"
 #include "app/cli/progress_bar.h"
 #include "experiment/base/parallel.h"
+#include "experiment/protocol/all_stimuli.h"
 #include "render/gl/headless_context.h"
 #include "render/stimulus/stimulus_library.h"
 
@@ -19,21 +20,20 @@ std::vector<StimulusLight> measure_light(const Experiment& experiment) {
     StimulusLibrary library(*context, protocol, experiment.objects, cache_folder());
     ProgressBar bar;
     std::vector<StimulusLight> stimuli;
-    const int materials = static_cast<int>(protocol.materials.size()),
-              count = materials * static_cast<int>(protocol.objects.size());
+    const std::vector<Stimulus> shown = all_stimuli(protocol);
+    const int count = static_cast<int>(shown.size());
     // What a session would show; where it would be refused, the best that there is.
     if (const std::optional<FrameQuality> quality = library.quality_of_session(protocol.bake.least())) {
         library.take_frames(*quality);
     } else {
-        for (int i = 0; i < count; ++i)
-            library.prepare_frames({i / materials, i % materials}, std::ref(bar));
+        for (const Stimulus& stimulus : shown)
+            library.prepare_frames(stimulus, std::ref(bar));
     }
     for (int i = 0; i < count; ++i) {
         bar.update("light of stimuli", i, count);
-        const Stimulus stimulus{i / materials, i % materials};
+        const Stimulus& stimulus = shown[static_cast<std::size_t>(i)];
         StimulusLight light;
-        light.stimulus = protocol.objects[static_cast<std::size_t>(stimulus.object)].id + "/" +
-                         protocol.materials[static_cast<std::size_t>(stimulus.material)].id;
+        light.stimulus = stimulus_name(protocol, stimulus);
         const std::vector<int> pages = library.page_of_frame(stimulus);
         std::vector<ClippedPixels> counts(
             1 + static_cast<std::size_t>(*std::max_element(pages.begin(), pages.end())));

@@ -12,7 +12,7 @@
 namespace overt {
 
 struct StimulusLight {
-    std::string stimulus;    ///< OBJECT/MATERIAL
+    std::string stimulus;    ///< stimulus_name()
     ClippedPixels clipped;   ///< of all its pages
     double worst_page = 0.0; ///< largest share of the object's pixels clipped in one channel of one page
 };

@@ -1,5 +1,6 @@
 #include "app/check/silhouette_check.h"
 
+#include <algorithm>
 #include <cmath>
 #include <mutex>
 
@@ -10,6 +11,7 @@
 #include "experiment/base/error.h"
 #include "experiment/base/parallel.h"
 #include "experiment/maps/coordinate_image_file.h"
+#include "experiment/protocol/all_stimuli.h"
 #include "render/stimulus/ready_made_frames.h"
 
 namespace overt {
@@ -30,14 +32,15 @@ struct Area {
     }
 };
 
-Silhouette silhouette_of_map(const StimulusLibrary& library, int object, bool has_mesh, PoseIndex pose) {
+Silhouette silhouette_of_map(const StimulusLibrary& library, const ViewedObject& viewed, bool has_mesh,
+                             PoseIndex pose) {
     Silhouette silhouette;
     if (has_mesh) {
-        for (const std::uint32_t code : read_triangle_map(library.cache().map_file(object, pose)).codes)
+        for (const std::uint32_t code : read_triangle_map(library.cache().map_file(viewed, pose)).codes)
             silhouette.push_back(code != 0);
         return silhouette;
     }
-    for (const glm::vec4& pixel : read_coordinate_image(library.cache().map_file(object, pose)).image.pixels)
+    for (const glm::vec4& pixel : read_coordinate_image(library.cache().map_file(viewed, pose)).image.pixels)
         silhouette.push_back(pixel.w != 0.0f);
     return silhouette;
 }
@@ -80,13 +83,13 @@ struct MatchedFrames {
     bool has_silhouette = true;
 };
 
-MatchedFrames match_sequence(const Experiment& experiment, const FrameSequenceSettings& sequence, int object,
-                             const StimulusLibrary& library) {
+MatchedFrames match_sequence(const Experiment& experiment, const FrameSequenceSettings& sequence,
+                             const Stimulus& stimulus, const StimulusLibrary& library) {
     const Protocol& protocol = experiment.protocol;
-    const int count = protocol.animation.frame_count;
-    const bool has_mesh = experiment.objects[static_cast<std::size_t>(object)].has_mesh();
+    const int count = protocol.motion_of(stimulus).frame_count;
+    const bool has_mesh = experiment.objects[static_cast<std::size_t>(stimulus.object)].has_mesh();
     MatchedFrames matched;
-    matched.result.stimulus = sequence.object + "/" + sequence.material;
+    matched.result.stimulus = stimulus_name(protocol, stimulus);
     std::vector<SilhouetteMatch> matches(static_cast<std::size_t>(count));
     std::mutex mutex;
     parallel_for(count, [&](int frame) {
@@ -96,9 +99,11 @@ MatchedFrames match_sequence(const Experiment& experiment, const FrameSequenceSe
             matched.has_silhouette = false;
             return;
         }
-        matches[static_cast<std::size_t>(frame)] = match_silhouettes(
-            *pixels, silhouette_of_map(library, object, has_mesh, library.cache().poses().pose_of({frame})),
-            protocol.view.width_px);
+        matches[static_cast<std::size_t>(frame)] =
+            match_silhouettes(*pixels,
+                              silhouette_of_map(library, viewed(stimulus), has_mesh,
+                                                library.cache().poses().pose_of(stimulus.motion, {frame})),
+                              protocol.view_of(stimulus).width_px);
     });
     std::size_t both = 0, either = 0;
     for (int frame = 0; frame < count; ++frame) {
@@ -112,15 +117,6 @@ MatchedFrames match_sequence(const Experiment& experiment, const FrameSequenceSe
     }
     matched.result.iou = either > 0 ? static_cast<double>(both) / static_cast<double>(either) : 1.0;
     return matched;
-}
-
-int index_of_object(const Protocol& protocol, const std::string& id) {
-    for (std::size_t i = 0; i < protocol.objects.size(); ++i) {
-        if (protocol.objects[i].id == id)
-            return static_cast<int>(i);
-    }
-    OVERT_EXPECTS(false);
-    return -1;
 }
 
 } // namespace
@@ -162,16 +158,16 @@ std::vector<SequenceSilhouette> check_silhouettes(const Experiment& experiment, 
     const int count = static_cast<int>(protocol.frames.size());
     for (int i = 0; i < count; ++i) {
         const FrameSequenceSettings& sequence = protocol.frames[static_cast<std::size_t>(i)];
-        const int object = index_of_object(protocol, sequence.object);
-        const bool has_mesh = experiment.objects[static_cast<std::size_t>(object)].has_mesh();
-        if (!has_mesh && !library.cache().has_given_maps(object))
+        const Stimulus stimulus = stimulus_of(protocol, sequence);
+        const bool has_mesh = experiment.objects[static_cast<std::size_t>(stimulus.object)].has_mesh();
+        if (!has_mesh && !library.cache().has_given_maps(stimulus.object))
             continue;
         if (has_mesh)
-            library.maps().prepare_maps(object, std::ref(bar));
+            library.maps().prepare_maps(viewed(stimulus), std::ref(bar));
         else
             library.maps().prepare_given_maps(std::ref(bar));
         bar.update("comparing silhouettes", i, count);
-        const MatchedFrames matched = match_sequence(experiment, sequence, object, library);
+        const MatchedFrames matched = match_sequence(experiment, sequence, stimulus, library);
         const std::string key = fmt::format("frames[{}].files", i);
         if (!matched.has_silhouette) {
             diagnostics.warning(protocol.file.string(), protocol.places.of(key),

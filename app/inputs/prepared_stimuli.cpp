@@ -43,10 +43,8 @@ void make_light(StimulusLibrary& library, const Progress& show) {
 
 /// Of all stimuli: the session keeps them for looking at.
 void make_first_frames(StimulusLibrary& library) {
-    const Protocol& protocol = library.cache().protocol();
-    for (int object = 0; object < static_cast<int>(protocol.objects.size()); ++object)
-        for (int material = 0; material < static_cast<int>(protocol.materials.size()); ++material)
-            library.first_frame_file({object, material});
+    for (const Stimulus& stimulus : all_stimuli(library.cache().protocol()))
+        library.first_frame_file(stimulus);
 }
 
 } // namespace

@@ -6,6 +6,7 @@
 
 #include "experiment/checks/checked_protocol.h"
 #include "experiment/design/schedule.h"
+#include "experiment/protocol/all_stimuli.h"
 #include "experiment/record/session_directory.h"
 #include "experiment/scene/sculptures/sculptures.h"
 
@@ -56,27 +57,30 @@ Observer observer_labelled(const std::string& label) {
 
 Stimulus stimulus_called(const Protocol& protocol, const std::string& name) {
     std::vector<std::string> names;
-    for (std::size_t object = 0; object < protocol.objects.size(); ++object) {
-        for (std::size_t material = 0; material < protocol.materials.size(); ++material) {
-            names.push_back(protocol.objects[object].id + "/" + protocol.materials[material].id);
-            if (names.back() == name)
-                return {static_cast<int>(object), static_cast<int>(material)};
-        }
+    for (const Stimulus& stimulus : all_stimuli(protocol)) {
+        names.push_back(stimulus_name(protocol, stimulus));
+        // The first of those that begin so has the first entries of what is left out.
+        const bool has_material = name.find('/') != std::string::npos;
+        if (names.back() == name || (has_material && names.back().starts_with(name + '/')))
+            return stimulus;
     }
     const std::vector<std::string_view> known(names.begin(), names.end());
     throw InputError(fmt::format("no stimulus is called \"{}\": {}", name, suggest_name(name, known)));
 }
 
-int object_called(const Protocol& protocol, const std::string& name) {
-    if (name.find('/') != std::string::npos)
-        return stimulus_called(protocol, name).object;
+Stimulus object_called(const Protocol& protocol, const std::string& name) {
     std::vector<std::string_view> known;
-    for (const ObjectSettings& object : protocol.objects) {
-        if (object.id == name)
-            return static_cast<int>(known.size());
-        known.push_back(object.id);
+    for (std::size_t i = 0; i < protocol.objects.size(); ++i) {
+        known.push_back(protocol.objects[i].id);
+        if (known.back() == name)
+            return {static_cast<int>(i)};
     }
-    throw InputError(fmt::format("no object is called \"{}\": {}", name, suggest_name(name, known)));
+    if (name.find('/') == std::string::npos)
+        throw InputError(fmt::format("no object is called \"{}\": {}", name, suggest_name(name, known)));
+    for (const ViewedObject& viewed : all_viewed_objects(protocol))
+        if (viewed_name(protocol, viewed) == name)
+            return {.object = viewed.object, .view = viewed.view};
+    return stimulus_called(protocol, name);
 }
 
 } // namespace overt

@@ -35,11 +35,14 @@ void print_findings(const Diagnostics& diagnostics);
 /// no file can be named by the label.
 Observer observer_labelled(const std::string& label);
 
-/// The stimulus called OBJECT/MATERIAL. Throws InputError naming those there are.
+/// The stimulus called OBJECT/MATERIAL, with the ids of what else there is a choice of behind it: see
+/// stimulus_name(). Ids that are left out at the end are the first of their lists. Throws InputError naming
+/// those there are.
 Stimulus stimulus_called(const Protocol& protocol, const std::string& name);
 
-/// The object called OBJECT, or that of the stimulus OBJECT/MATERIAL. Throws InputError naming those
-/// there are.
-int object_called(const Protocol& protocol, const std::string& name);
+/// A stimulus with the object called OBJECT, with that called OBJECT/VIEW where there are several views, or
+/// the stimulus of that name; what the name leaves open is the first of its list. Throws InputError naming
+/// those there are.
+Stimulus object_called(const Protocol& protocol, const std::string& name);
 
 } // namespace overt

@@ -1,12 +1,18 @@
 #include "app/inputs/protocol_inputs.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "app/cli/progress_bar.h"
 #include "app/inputs/protocol_file.h"
 #include "experiment/base/error.h"
 #include "experiment/checks/checked_protocol.h"
-#include "experiment/scene/metal_table.h"
+#include "experiment/protocol/all_stimuli.h"
+#include "experiment/scene/areas.h"
+#include "experiment/scene/making/mesh_parts.h"
+#include "experiment/spectra/metal_table.h"
 #include "experiment/stimulus/object_size.h"
 #include "render/image/light_probe.h"
 #include "render/image/linear_image.h"
@@ -34,18 +40,42 @@ void examine(const Protocol& protocol, Place place, Diagnostics& diagnostics, co
     }
 }
 
-void examine_camera(const Protocol& protocol, const Object& object, Diagnostics& diagnostics) {
-    // A camera that overt places itself has the object in its picture.
-    if (!protocol.view.camera_position)
-        return;
-    for (const Degrees angle : distinct_poses(protocol.animation).angles) {
-        if (is_in_picture(object, angle))
+/// Notes each area of an object that cannot be where it is described.
+template <class Work>
+void examine_areas(const Protocol& protocol, std::size_t object, Diagnostics& diagnostics, const Work& work) {
+    try {
+        work();
+    } catch (const AreaError& error) {
+        for (const AreaError::Fault& fault : error.faults())
+            diagnostics.error(
+                protocol.file.string(),
+                protocol.places.first_written({fmt::format("object[{}].areas.{}", object, fault.area),
+                                               fmt::format("object[{}].{}", object, fault.area)}),
+                as_finding(fault.message));
+    }
+}
+
+bool gives_head_share(const Protocol& protocol) {
+    return std::ranges::any_of(protocol.tasks,
+                               [](const Task& task) { return simulated_shares(task).front().second > 0.0; });
+}
+
+void examine_cameras(const Protocol& protocol, const Object& object, Diagnostics& diagnostics) {
+    const PoseTable poses = poses_of(protocol);
+    for (std::size_t view = 0; view < protocol.views.size(); ++view) {
+        // A camera that overt places itself has the object in its picture.
+        if (!protocol.views[view].camera_position)
             continue;
-        diagnostics.error(
-            protocol.file.string(), protocol.places.of("view.camera_position"),
-            fmt::format("object \"{}\" is nowhere in the picture at {:.3g} degrees", object.id, angle.value),
-            "the camera looks at view.camera_target; lengths are in the unit of the mesh");
-        return;
+        const auto outside = std::ranges::find_if(poses.angles, [&](Degrees angle) {
+            return !is_in_picture(object, static_cast<int>(view), angle);
+        });
+        if (outside == poses.angles.end())
+            continue;
+        diagnostics.error(protocol.file.string(),
+                          protocol.places.of(fmt::format("view[{}].camera_position", view)),
+                          fmt::format("object \"{}\" is nowhere in the picture at {:.3g} degrees", object.id,
+                                      outside->value),
+                          "the camera looks at view.camera_target; lengths are in the unit of the mesh");
     }
 }
 
@@ -57,12 +87,16 @@ std::vector<Object> examine_objects(const Protocol& protocol, const std::filesys
         const Place place = protocol.places.first_written(
             {fmt::format("object[{}].mesh", i), fmt::format("object[{}].shipped", i)});
         examine(protocol, place, diagnostics, [&] {
-            const Object& object = objects.emplace_back(load_object(settings, protocol, cache));
+            std::optional<Object> loaded;
+            examine_areas(protocol, i, diagnostics, [&] { loaded = load_object(settings, protocol, cache); });
+            if (!loaded)
+                return;
+            const Object& object = objects.emplace_back(*std::move(loaded));
             for (const std::string& remark : object.remarks)
                 diagnostics.warning(protocol.file.string(), place, as_finding(remark));
             if (!object.has_mesh())
                 return;
-            examine_camera(protocol, object, diagnostics);
+            examine_cameras(protocol, object, diagnostics);
             const std::string unit = fmt::format("object[{}].unit", i);
             if (const auto doubt =
                     doubt_of_size(size_of(object, settings, protocol),
@@ -73,6 +107,85 @@ std::vector<Object> examine_objects(const Protocol& protocol, const std::filesys
         });
     }
     return objects;
+}
+
+/// Gaze can be meant for areas that an object has, and for each place by one of them.
+void examine_simulated_areas(const Experiment& experiment, Diagnostics& diagnostics) {
+    const Protocol& protocol = experiment.protocol;
+    const std::vector<std::string> areas = areas_of(experiment.objects);
+    const auto error = [&](const std::string& key, std::string message, std::string hint) {
+        diagnostics.error(protocol.file.string(), protocol.places.of(key), std::move(message),
+                          std::move(hint));
+    };
+    const auto expect_known = [&](const std::string& key, const std::string& area) {
+        const bool is_known = std::ranges::find(areas, area) != areas.end();
+        if (!is_known)
+            error(key, fmt::format("no object has an area \"{}\"", area),
+                  areas.empty() ? std::string("areas are described by \"areas\" in [[object]]")
+                                : fmt::format("there are {}", fmt::join(areas, ", ")));
+        return is_known;
+    };
+    std::vector<std::string> meant{std::string(head_area)};
+    for (std::size_t i = 0; i < protocol.tasks.size(); ++i) {
+        const std::string key = fmt::format("task[{}].simulated_area_shares", i);
+        for (const auto& [area, share] : protocol.tasks[i].simulated_area_shares) {
+            if (!expect_known(key, area) || std::ranges::find(meant, area) != meant.end())
+                continue;
+            for (const Object& object : experiment.objects) {
+                const Areas own(object.mesh.part_names);
+                const auto overlaps = [&](const std::string& other) {
+                    const auto a = own.find(area), b = own.find(other);
+                    for (std::size_t part = 0; a && b && part < object.mesh.part_names.size(); ++part) {
+                        const auto index = static_cast<PartIndex>(part);
+                        if (own.holds(*a, index) && own.holds(*b, index))
+                            return true;
+                    }
+                    return false;
+                };
+                const auto other = std::ranges::find_if(meant, overlaps);
+                if (other != meant.end() && (*other != head_area || gives_head_share(protocol)))
+                    error(key,
+                          fmt::format(
+                              "on object \"{}\" the areas \"{}\" and \"{}\" overlap, and both have shares",
+                              object.id, area, *other),
+                          "give shares to areas that lie beside each other; the analysis tells of all");
+            }
+            meant.push_back(area);
+        }
+    }
+    for (std::size_t i = 0; i < protocol.tasks.size(); ++i) {
+        double all = 0.0;
+        for (const auto& [area, share] : simulated_shares(protocol.tasks[i]))
+            all += share;
+        for (const Object& object : experiment.objects) {
+            const Areas own(object.mesh.part_names);
+            const auto is_meant = [&](std::size_t part) {
+                return std::ranges::any_of(meant, [&](const std::string& area) {
+                    const auto found = own.find(area);
+                    return found && own.holds(*found, static_cast<PartIndex>(part));
+                });
+            };
+            bool is_whole = object.has_mesh();
+            for (std::size_t part = 0; part < object.mesh.part_names.size(); ++part)
+                is_whole = is_whole && is_meant(part);
+            if (is_whole && all < 1.0 - 1e-9 && !protocol.tasks[i].simulated_area_shares.empty())
+                diagnostics.warning(
+                    protocol.file.string(),
+                    protocol.places.of(fmt::format("task[{}].simulated_area_shares", i)),
+                    fmt::format(
+                        "areas with shares are all of object \"{}\", and their shares come to {:.3g}: what "
+                        "is left goes to the first of them",
+                        object.id, all),
+                    "let the shares come to 1");
+        }
+    }
+    for (std::size_t i = 0; i < protocol.simulated_effects.size(); ++i) {
+        const std::string &area = protocol.simulated_effects[i].area,
+                          key = fmt::format("simulated_effect[{}].area", i);
+        if (!area.empty() && expect_known(key, area) && std::ranges::find(meant, area) == meant.end())
+            error(key, fmt::format("no task says how often \"{}\" is looked at", area),
+                  fmt::format("give simulated_area_shares = {{ {} = 0.2 }} in a [[task]]", area));
+    }
 }
 
 void examine_given_maps(const Protocol& protocol, Diagnostics& diagnostics) {
@@ -91,13 +204,16 @@ void examine_given_maps(const Protocol& protocol, Diagnostics& diagnostics) {
 }
 
 void examine_surroundings(const Protocol& protocol, Diagnostics& diagnostics) {
-    const Place probe = protocol.places.of("light.probe");
-    if (protocol.light.is_file()) {
+    for (std::size_t i = 0; i < protocol.lights.size(); ++i) {
+        const LightSettings& light = protocol.lights[i];
+        if (!light.is_file())
+            continue;
+        const Place probe = protocol.places.of(fmt::format("light[{}].probe", i));
         examine(protocol, probe, diagnostics, [&] {
-            if (const int negative = load_light_probe(protocol.light).negative_texels; negative > 0) {
+            if (const int negative = load_light_probe(light).negative_texels; negative > 0) {
                 diagnostics.warning(protocol.file.string(), probe,
                                     fmt::format("{} texels of {} hold negative light, which counts as none",
-                                                negative, protocol.light.probe));
+                                                negative, light.probe));
             }
         });
     }
@@ -114,8 +230,10 @@ void examine_frames(const Protocol& protocol, Diagnostics& diagnostics) {
         const FrameSequenceSettings& sequence = protocol.frames[static_cast<std::size_t>(i)];
         bar.update("reading ready-made frames", i, count);
         examine(protocol, protocol.places.of(fmt::format("frames[{}].files", i)), diagnostics, [&] {
-            check_frame_pixels(sequence, protocol.animation.frame_count,
-                               {protocol.view.width_px, protocol.view.height_px});
+            const Stimulus stimulus = stimulus_of(protocol, sequence);
+            const ViewSettings& view = protocol.view_of(stimulus);
+            check_frame_pixels(sequence, protocol.motion_of(stimulus).frame_count,
+                               {view.width_px, view.height_px});
             if (sequence.colour_space == FrameColours::display &&
                 has_other_primaries(frame_file(sequence, {0})))
                 diagnostics.warning(
@@ -127,6 +245,26 @@ void examine_frames(const Protocol& protocol, Diagnostics& diagnostics) {
     }
 }
 
+/// Gaze is waited for on areas that every object has: a trial of any of them can come.
+void examine_waited_areas(const Experiment& experiment, Diagnostics& diagnostics) {
+    for (const Task& task : experiment.protocol.tasks)
+        for (const StepSettings& step : task.steps)
+            for (const Object& object : experiment.objects) {
+                if (!step.gaze || step.gaze->area.empty())
+                    continue;
+                const std::vector<std::string>& parts = object.mesh.part_names;
+                if (object.has_mesh() && std::ranges::any_of(parts, [&](const std::string& part) {
+                        return part_is_in_area(part, step.gaze->area);
+                    }))
+                    continue;
+                diagnostics.error(
+                    experiment.protocol.file.string(), step.gaze->area_place,
+                    fmt::format("gaze_on: object \"{}\" has no area \"{}\"", object.id, step.gaze->area),
+                    object.has_mesh() ? fmt::format("it has {}", fmt::join(parts, ", "))
+                                      : "it has no mesh, and so no surface to look at");
+            }
+}
+
 /// Nothing if there is an error, now or before.
 std::optional<Experiment> look_into(std::optional<Protocol> protocol, const std::filesystem::path& cache,
                                     InputDepth depth, Diagnostics& diagnostics) {
@@ -134,6 +272,9 @@ std::optional<Experiment> look_into(std::optional<Protocol> protocol, const std:
         return std::nullopt;
     Experiment experiment{*std::move(protocol), {}};
     experiment.objects = examine_objects(experiment.protocol, cache, diagnostics);
+    if (!diagnostics.has_errors())
+        examine_waited_areas(experiment, diagnostics);
+    examine_simulated_areas(experiment, diagnostics);
     examine_surroundings(experiment.protocol, diagnostics);
     if (depth == InputDepth::everything) {
         examine_frames(experiment.protocol, diagnostics);

@@ -8,6 +8,7 @@
 
 #include "experiment/base/error.h"
 #include "experiment/design/schedule.h"
+#include "experiment/protocol/all_stimuli.h"
 
 namespace overt {
 
@@ -21,21 +22,27 @@ template <class Entries> int index_of(const Entries& entries, const std::string&
     return found == entries.end() ? -1 : static_cast<int>(found - entries.begin());
 }
 
-ObservedEffect planted(const PowerEffect& effect, const Protocol& protocol) {
+ObservedEffect planted(const PowerEffect& effect, const Protocol& protocol, const ObservedScene& scene) {
     ObservedEffect planted;
+    SimulatedEffect holds;
     const auto hold_in = [&](const std::string& column, const std::string& level) {
+        const auto list = std::ranges::find(stimulus_lists, column, &StimulusList::name);
         if (column == "task")
             planted.task = index_of(protocol.tasks, level);
-        else if (column == "material")
-            planted.material = index_of(protocol.materials, level);
+        else if (list != stimulus_lists.end())
+            holds.entries[static_cast<std::size_t>(list - stimulus_lists.begin())] = level;
         else
-            planted.object = index_of(protocol.objects, level);
+            holds.where.push_back({column, level, {}});
     };
     hold_in(effect.column, effect.level);
     for (const StudyKey& key : effect.within)
         hold_in(key.column, key.value);
-    if (effect.measure == PowerMeasure::head)
-        planted.head_odds = effect.size;
+    planted.entries = chosen_by(protocol, holds);
+    if (effect.measure == PowerMeasure::area) {
+        planted.area = area_in(scene, effect.area);
+        OVERT_EXPECTS(planted.area >= 0);
+        planted.odds = effect.size;
+    }
     if (effect.measure == PowerMeasure::cc)
         planted.spot_share = effect.size;
     return planted;
@@ -52,12 +59,12 @@ ObservedScene planned_scene(const Experiment& experiment, std::span<const PowerE
     }
     ObservedScene scene = make_observed_scene(protocol, experiment.objects, screen_geometry_of(protocol));
     scene.effects.clear();
-    scene.head_share_sd = settings.head_share_sd;
+    scene.share_sd = settings.head_share_sd;
     for (const PowerEffect& effect : effects) {
-        scene.effects.push_back(planted(effect, protocol));
+        scene.effects.push_back(planted(effect, protocol, scene));
         if (effect.column == "task")
-            scene.tasks[static_cast<std::size_t>(index_of(protocol.tasks, effect.level))].head_share =
-                scene.tasks[static_cast<std::size_t>(index_of(protocol.tasks, effect.against))].head_share;
+            scene.tasks[static_cast<std::size_t>(index_of(protocol.tasks, effect.level))].shares =
+                scene.tasks[static_cast<std::size_t>(index_of(protocol.tasks, effect.against))].shares;
     }
     return scene;
 }
@@ -70,19 +77,21 @@ GazeStudySettings gaze_study_settings(const Protocol& protocol) {
 
 GazeStudies::GazeStudies(const Experiment& experiment, std::vector<PowerEffect> effects,
                          const GazeStudySettings& settings)
-    : experiment_(experiment), effects_(std::move(effects)), settings_(settings),
-      scene_(planned_scene(experiment, effects_, settings)), turn_(scene_),
+    : experiment_(experiment), factors_(factors_of(experiment.protocol)), effects_(std::move(effects)),
+      settings_(settings), scene_(planned_scene(experiment, effects_, settings)), turns_(turns_of(scene_)),
       spread_of_log_(effects_.size(), 0.0) {
     const Protocol& protocol = experiment.protocol;
-    for (std::size_t i = 0; i < experiment.objects.size(); ++i) {
+    for (const ViewedObject& viewed : all_viewed_objects(protocol)) {
+        const auto i = static_cast<std::size_t>(viewed.object);
         const Object& shown = experiment.objects[i];
-        targets_.push_back(std::make_unique<GazeTargets>(scene_.objects[i], scene_));
+        const SceneView& scene = shown.scene(viewed.view);
+        targets_.push_back(std::make_unique<GazeTargets>(scene_.objects[targets_.size()], scene_));
         StudyObject object;
         object.id = shown.id;
         object.part_names = shown.mesh.part_names;
-        object.head = HeadParts(shown.mesh.part_names);
-        object.camera = shown.scene.view.camera;
-        object.axis_point = shown.scene.bounds.centre();
+        object.areas = Areas(shown.mesh.part_names);
+        object.camera = scene.view.camera;
+        object.axis_point = scene.bounds.centre();
         object.screen = scene_.screen;
         ObjectSurface surface;
         surface.scale = object_scale(object.camera, object.axis_point, object.screen,
@@ -94,15 +103,9 @@ GazeStudies::GazeStudies(const Experiment& experiment, std::vector<PowerEffect> 
         frame_.objects.push_back(std::move(object));
         surfaces_.push_back(std::move(surface));
     }
-    const auto ids_of = [](const auto& entries) {
-        std::vector<std::string> ids;
-        for (const auto& entry : entries)
-            ids.push_back(entry.id);
-        return ids;
-    };
-    levels_ = {{"task", ids_of(protocol.tasks)},
-               {"object", ids_of(protocol.objects)},
-               {"material", ids_of(protocol.materials)}};
+    for (const Factor& factor : factors_.all())
+        for (const FactorLevel& level : factor.levels)
+            levels_[factor.name].push_back(level.name);
 }
 
 void GazeStudies::plant_spread(std::size_t effect, double spread, double of_log) {
@@ -118,8 +121,8 @@ ObservedScene GazeStudies::scene_of(std::uint64_t observer_seed) const {
             continue;
         const double own = effects_[i].sd * RandomStream(observer_seed, "effect on an observer", i).normal();
         ObservedEffect& effect = scene.effects[i];
-        if (effects_[i].measure == PowerMeasure::head)
-            effect.head_odds *= std::exp(own);
+        if (effects_[i].measure == PowerMeasure::area)
+            effect.odds *= std::exp(own);
         else if (effects_[i].measure == PowerMeasure::wss)
             effect.spread += own * spread_of_log_[i];
         else
@@ -153,24 +156,27 @@ StudyResults GazeStudies::study(std::uint64_t seed, int observers,
 void GazeStudies::add_trial(const Trial& trial, std::uint64_t seed, const ObservedScene& planned,
                             GazeScript& script, StudyResults& results) const {
     const Protocol& protocol = experiment_.protocol;
-    const auto object = static_cast<std::size_t>(trial.stimulus.object);
+    const std::size_t object = scene_.index_of(trial.stimulus);
+    const PursuedTurn& turn = turns_[static_cast<std::size_t>(trial.stimulus.motion)];
     const GazeTargets& targets = *targets_[object];
     StudyTrial shown;
     shown.session = static_cast<int>(results.sessions.size()) - 1;
-    shown.object = trial.stimulus.object;
+    shown.object = static_cast<int>(object);
     shown.number = trial.index + 1;
-    shown.presentation_s = protocol.animation.duration_s;
-    shown.keys = {{"observer", results.sessions.back().observer},
-                  {"task", protocol.tasks[static_cast<std::size_t>(trial.task)].id},
-                  {"object", protocol.objects[object].id},
-                  {"material", protocol.materials[static_cast<std::size_t>(trial.stimulus.material)].id}};
+    shown.presentation_s = protocol.motion_of(trial.stimulus).duration_s;
+    shown.keys = {{"observer", results.sessions.back().observer}};
+    for (const Factor& factor : factors_.all())
+        if (!factor.levels.empty())
+            shown.keys.push_back(
+                {factor.name,
+                 factor.levels[static_cast<std::size_t>(factors_.level_of(factor, trial))].name});
     shown.first_fixation = results.fixations.size();
 
     RandomStream random(seed, "calibration offset", static_cast<std::uint64_t>(trial.index));
     const double x = random.normal(), y = random.normal();
     const glm::dvec2 offset_px =
         settings_.accuracy_deg * glm::dvec2(x, y) * px_per_deg_at_centre(scene_.screen);
-    script.compose(scene_, &targets, turn_, observer_, seed, trial.index,
+    script.compose(scene_, &targets, turn, observer_, seed, trial.index,
                    gaze_plan(planned, seed, trial.task, trial.stimulus));
     const SessionDuration end = from_seconds(shown.presentation_s);
     for (const ScriptedFixation& fixation : script.fixations()) {
@@ -182,11 +188,11 @@ void GazeStudies::add_trial(const Trial& trial, std::uint64_t seed, const Observ
         found.trial = static_cast<int>(results.trials.size());
         found.onset_s = to_seconds(fixation.begin);
         found.duration_s = to_seconds(until - fixation.begin);
-        const ScreenPoint meant = place_of(fixation, middle, scene_, &targets, turn_);
+        const ScreenPoint meant = place_of(fixation, middle, scene_, &targets, turn);
         found.place = {meant.x_px + offset_px.x, meant.y_px + offset_px.y};
         const std::optional<SurfacePoint> point =
             surface_near(targets, scene_.screen.image_from_screen(found.place),
-                         turn_.angle_at(middle - fixation.light_delay));
+                         turn.angle_at(middle - fixation.light_delay));
         if (point) {
             found.triangle = point->triangle;
             found.barycentric = point->barycentric;

@@ -37,8 +37,8 @@ GazeStudySettings gaze_study_settings(const Protocol& protocol);
 class GazeStudies {
   public:
     /// `experiment` must outlive this. The protocol's own simulated effects are left out: only `effects`
-    /// hold. Where levels of `task` are compared, the head is as attractive in one as in the other but for
-    /// the effect. Effects on WSS need plant_spread() besides. Throws InputError if an object has no mesh.
+    /// hold. Where levels of `task` are compared, areas are as attractive in one as in the other but for the
+    /// effect. Effects on WSS need plant_spread() besides. Throws InputError if an object has no mesh.
     GazeStudies(const Experiment& experiment, std::vector<PowerEffect> effects,
                 const GazeStudySettings& settings);
 
@@ -51,7 +51,7 @@ class GazeStudies {
     StudyResults study(std::uint64_t seed, int observers,
                        const std::function<bool(const Trial&)>& wanted = {}) const;
 
-    /// By object, only the scale.
+    /// By object in a view, only the scale.
     const std::vector<ObjectSurface>& surfaces() const { return surfaces_; }
     /// Objects with their scale, without trials.
     const StudyResults& frame() const { return frame_; }
@@ -70,11 +70,12 @@ class GazeStudies {
                                              Degrees angle) const;
 
     const Experiment& experiment_;
+    Factors factors_;
     std::vector<PowerEffect> effects_;
     GazeStudySettings settings_;
     ObserverSettings observer_;
     ObservedScene scene_;
-    PursuedTurn turn_;
+    std::vector<PursuedTurn> turns_;    ///< by motion
     std::vector<double> spread_of_log_; ///< by effect
     std::vector<std::unique_ptr<GazeTargets>> targets_;
     std::vector<ObjectSurface> surfaces_;

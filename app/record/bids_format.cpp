@@ -20,9 +20,9 @@ class Bids final : public ExportFormat {
         // Trials of all objects come in turn.
         RecordedSurfaces surfaces(request.record, RecordedSurfaces::Keep::all,
                                   CoordinateMaps::Use::few_lookups);
-        const BidsExportCounts counts =
-            export_bids(request.record, [&](int object) { return surfaces.lookup_of(object); },
-                        request.folder, {request.overwrite, with_answers_, request.progress});
+        const BidsExportCounts counts = export_bids(
+            request.record, [&](const ViewedObject& viewed) { return surfaces.lookup_of(viewed); },
+            request.folder, {request.overwrite, with_answers_, request.progress});
         std::string said;
         for (const std::string& remark : counts.remarks)
             said += remark + '\n';

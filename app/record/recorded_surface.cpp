@@ -6,7 +6,7 @@
 
 #include "experiment/base/content_hash.h"
 #include "experiment/base/error.h"
-#include "experiment/scene/mesh_reader.h"
+#include "experiment/scene/files/mesh_reader.h"
 #include "experiment/stimulus/object.h"
 
 namespace overt {
@@ -29,10 +29,11 @@ Mesh recorded_mesh(const std::filesystem::path& file) {
 }
 
 /// An object's maps of one kind, by pose; null where there is none.
-std::vector<const RecordedMap*> maps_of(const SessionHeader& header, int object, RecordedMap::Kind kind) {
+std::vector<const RecordedMap*> maps_of(const SessionHeader& header, const ViewedObject& viewed,
+                                        RecordedMap::Kind kind) {
     std::vector<const RecordedMap*> maps(header.poses.angles.size(), nullptr);
     for (const RecordedMap& map : header.maps)
-        if (map.object == object && map.kind == kind)
+        if (map.viewed == viewed && map.kind == kind)
             maps[static_cast<std::size_t>(map.pose.value)] = &map;
     return maps;
 }
@@ -47,42 +48,42 @@ std::filesystem::path sound_file(const SessionRecord& record, const RecordedMap&
 
 } // namespace
 
-const SurfaceLookup* RecordedSurfaces::lookup_of(int object) {
-    const Surface& surface = surface_of(object);
+const SurfaceLookup* RecordedSurfaces::lookup_of(const ViewedObject& viewed) {
+    const Surface& surface = surface_of(viewed);
     if (surface.maps)
         return surface.maps.get();
     return surface.images.get();
 }
 
-RecordedSurfaces::Surface& RecordedSurfaces::surface_of(int object) {
-    if (keep_ == Keep::last && !loaded_.contains(object)) {
+RecordedSurfaces::Surface& RecordedSurfaces::surface_of(const ViewedObject& viewed) {
+    if (keep_ == Keep::last && !loaded_.contains(viewed)) {
         loaded_.clear();
         malloc_trim(0); // else the C library keeps it, and the next object's comes on top
     }
-    std::unique_ptr<Surface>& surface = loaded_[object];
+    std::unique_ptr<Surface>& surface = loaded_[viewed];
     if (surface)
         return *surface;
     auto loading = std::make_unique<Surface>();
-    if (!record_->header().objects[static_cast<std::size_t>(object)].mesh_file.empty()) {
-        load_maps(*loading, object);
+    if (!record_->header().objects[static_cast<std::size_t>(viewed.object)].mesh_file.empty()) {
+        load_maps(*loading, viewed);
     } else {
-        load_images(*loading, object);
+        load_images(*loading, viewed);
     }
     surface = std::move(loading);
     return *surface;
 }
 
-void RecordedSurfaces::load_maps(Surface& surface, int object) const {
+void RecordedSurfaces::load_maps(Surface& surface, const ViewedObject& viewed) const {
     const SessionHeader& header = record_->header();
-    const RecordedObject& recorded = header.objects[static_cast<std::size_t>(object)];
+    const RecordedObject& recorded = header.objects[static_cast<std::size_t>(viewed.object)];
     const std::filesystem::path mesh_file = record_->directory() / recorded.mesh_file;
     surface.mesh = recorded_mesh(mesh_file);
     if (hash_of_mesh(surface.mesh) != recorded.mesh_sha256)
         throw not_as_recorded(mesh_file, "mesh");
-    SceneView scene{{recorded.camera, header.display.screen.image_px}, surface.mesh.bounds()};
+    SceneView scene{{recorded.camera(viewed.view), header.display.screen.image_px}, surface.mesh.bounds()};
     const glm::ivec2 image_px = header.display.screen.image_px;
     const std::size_t pixels = static_cast<std::size_t>(image_px.x) * static_cast<std::size_t>(image_px.y);
-    const auto maps = maps_of(header, object, RecordedMap::Kind::triangles);
+    const auto maps = maps_of(header, viewed, RecordedMap::Kind::triangles);
     surface.maps = std::make_unique<CoordinateMaps>(
         surface.mesh, scene, header.poses.angles,
         [&](PoseIndex pose) {
@@ -94,9 +95,9 @@ void RecordedSurfaces::load_maps(Surface& surface, int object) const {
         use_);
 }
 
-void RecordedSurfaces::load_images(Surface& surface, int object) const {
+void RecordedSurfaces::load_images(Surface& surface, const ViewedObject& viewed) const {
     const SessionHeader& header = record_->header();
-    const auto maps = maps_of(header, object, RecordedMap::Kind::coordinates);
+    const auto maps = maps_of(header, viewed, RecordedMap::Kind::coordinates);
     // Without maps there is no surface; an object with ready-made maps has one of every pose.
     if (!maps.front())
         return;

@@ -10,8 +10,8 @@
 
 namespace overt {
 
-/// Loads each object's mesh and maps when it is first asked for. Every one of these throws InputError or
-/// RecordError for damaged or missing files.
+/// Loads an object's mesh and its maps in a view when they are first asked for. Every one of these throws
+/// InputError or RecordError for damaged or missing files.
 class RecordedSurfaces {
   public:
     enum class Keep : std::uint8_t { all, last };
@@ -21,8 +21,9 @@ class RecordedSurfaces {
                               CoordinateMaps::Use use = CoordinateMaps::Use::many_lookups)
         : record_(&record), keep_(keep), use_(use) {}
 
-    /// Where gaze on an object goes, be its maps of triangles or of coordinates; null if it has none.
-    const SurfaceLookup* lookup_of(int object);
+    /// Where gaze on an object in a view goes, be its maps of triangles or of coordinates; null if it has
+    /// none.
+    const SurfaceLookup* lookup_of(const ViewedObject& viewed);
 
   private:
     struct Surface {
@@ -30,14 +31,14 @@ class RecordedSurfaces {
         std::unique_ptr<CoordinateMaps> maps;          ///< with a mesh
         std::unique_ptr<CoordinateImageLookup> images; ///< without, if there are maps
     };
-    Surface& surface_of(int object);
-    void load_maps(Surface& surface, int object) const;
-    void load_images(Surface& surface, int object) const;
+    Surface& surface_of(const ViewedObject& viewed);
+    void load_maps(Surface& surface, const ViewedObject& viewed) const;
+    void load_images(Surface& surface, const ViewedObject& viewed) const;
 
     const SessionRecord* record_;
     Keep keep_;
     CoordinateMaps::Use use_;
-    std::map<int, std::unique_ptr<Surface>> loaded_;
+    std::map<ViewedObject, std::unique_ptr<Surface>> loaded_;
 };
 
 } // namespace overt

@@ -35,7 +35,8 @@ class Tables final : public ExportFormat {
             options.cone_accuracy = Degrees{*cone_deg_};
         options.progress = request.progress;
         const TableExportCounts counts = export_tables(
-            request.record, [&](int object) { return surfaces.lookup_of(object); }, request.folder, options);
+            request.record, [&](const ViewedObject& viewed) { return surfaces.lookup_of(viewed); },
+            request.folder, options);
         const auto share = [&](std::int64_t part) {
             return counts.samples > 0
                        ? 100.0 * static_cast<double>(part) / static_cast<double>(counts.samples)

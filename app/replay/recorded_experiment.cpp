@@ -47,7 +47,8 @@ std::optional<RecordDifference> changed_content(const SessionRecord& record) {
             return RecordDifference{"map",
                                     {},
                                     {},
-                                    fmt::format("object {}, pose {}", map.object, map.pose.value),
+                                    fmt::format("object {}, view {}, pose {}", map.viewed.object,
+                                                map.viewed.view, map.pose.value),
                                     "sha256",
                                     map.sha256,
                                     fmt::format("its file {} has {}", map.file, found)};

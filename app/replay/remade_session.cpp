@@ -41,7 +41,7 @@ void keep_recorded_maps(const SessionHeader& recorded, SessionHeader& now) {
     std::erase_if(now.maps, [&](RecordedMap& map) {
         const auto same =
             std::find_if(recorded.maps.begin(), recorded.maps.end(), [&](const RecordedMap& other) {
-                return other.object == map.object && other.pose == map.pose;
+                return other.viewed == map.viewed && other.pose == map.pose;
             });
         if (same != recorded.maps.end())
             map.made = same->made;

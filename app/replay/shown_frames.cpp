@@ -23,25 +23,27 @@ SessionTime first_light_of(const SessionRecord& record, const TrialRecord& trial
 } // namespace
 
 ShownFrames::ShownFrames(const SessionRecord& record, const TrialRecord& trial, const SurfaceLookup* lookup)
-    : record_(record), lookup_(lookup), history_(record.flip_history(record.ledger(trial))) {
+    : record_(record), lookup_(lookup), history_(record.flip_history(trial, record.ledger(trial))) {
     const SessionHeader& header = record.header();
     const std::optional<TrialLedger> ledger = record.ledger(trial);
     first_light_ = first_light_of(record, trial, ledger);
     const double refresh_hz = header.display.refresh_hz;
-    const int held = std::max(1, refreshes_per_frame(header.animation.frame_rate_hz, refresh_hz));
+    const int held =
+        std::max(1, refreshes_per_frame(header.animation_of(trial.trial.stimulus).frame_rate_hz, refresh_hz));
     period_s_ = held / refresh_hz;
     const SessionTime last = ledger->recorded.back().report.vertical_blank + header.display.latency;
     const double lit_s = to_seconds(last - first_light_) + 1.0 / refresh_hz;
     // The last period counts if it was lit for half of its time.
     count_ = std::max(1, static_cast<int>(std::lround(lit_s / period_s_)));
-    const SampleJoin join(header.display.screen, record.clock_map(trial), record.flip_history(ledger),
-                          nullptr);
+    screen_ = header.screen_of_slot(trial.trial.slot);
+    const SampleJoin join(record, trial, ledger, nullptr);
     constexpr std::size_t piece = 4096;
     record.read_samples(trial, piece, [&](std::span<const GazeSample> samples) {
         for (const GazeSample& sample : samples) {
             const JoinedSample joined = join.join(sample);
             if (joined.at)
-                gaze_.push_back({to_seconds(joined.at->time - first_light_), joined.image_px});
+                gaze_.push_back({to_seconds(joined.at->time - first_light_),
+                                 joined.is_elsewhere ? std::nullopt : joined.image_px});
         }
     });
     std::ranges::stable_sort(gaze_, {}, &TimedGaze::at_s);
@@ -49,7 +51,7 @@ ShownFrames::ShownFrames(const SessionRecord& record, const TrialRecord& trial, 
 
 ShownFrame ShownFrames::frame(int number) const {
     OVERT_EXPECTS(number >= 1 && number <= count_);
-    const ScreenGeometry& screen = record_.header().display.screen;
+    const ScreenGeometry& screen = screen_;
     ShownFrame frame;
     frame.number = number;
     frame.begin_s = (number - 1) * period_s_;

@@ -7,6 +7,7 @@
 #include "app/rig/response_devices.h"
 #include "app/rig/tracker_devices.h"
 #include "app/rig/video_check.h"
+#include "devices/simulated/faulty_tracker.h"
 #include "devices/simulated/operator_script.h"
 #include "devices/simulated/simulated_observer.h"
 #include "experiment/base/error.h"
@@ -72,7 +73,8 @@ Rig::Rig(const Protocol& protocol, std::span<const Object> objects, const RigReq
       display_(display_of(protocol, request)),
       screen_findings_(display_.is_real() ? examine_screen(*display_.window(), protocol)
                                           : std::vector<ScreenFinding>()),
-      library_(display_.context(), protocol, objects, cache) {
+      library_(display_.context(), protocol, objects, cache),
+      areas_(protocol, objects, library_.cache().poses()) {
     if (!display_.is_real())
         return;
     const std::vector<ScreenFinding>& quiet = quiet_desktop_.emplace(display_.window()->native()).findings();
@@ -87,8 +89,10 @@ std::string Rig::timing_word() const {
 
 bool Rig::maps_are_live() const {
     // Software takes a tenth of a second for a map: far longer than a refresh.
-    return request_.maps == MapTime::live ||
-           (request_.maps == MapTime::automatic && !context().description().is_software);
+    // Live maps are of the one object that is shown.
+    return protocol_->slots.size() == 1 &&
+           (request_.maps == MapTime::live ||
+            (request_.maps == MapTime::automatic && !context().description().is_software));
 }
 
 std::vector<PresentationListener*> Rig::listeners() {
@@ -111,8 +115,9 @@ void Rig::open(SimulatedFaults faults, SessionTime start) {
     if (!request_.draws_stimuli)
         undrawn_ = std::make_unique<UndrawnFrames>(library_, geometry.image_px);
     const FrameSource& frames = undrawn_ ? static_cast<const FrameSource&>(*undrawn_) : library_;
-    presenter_ = std::make_unique<PagePresenter>(display_.context(), display_.surface(), frames, geometry,
-                                                 protocol_->display, protocol_->screens);
+    presenter_ =
+        std::make_unique<PagePresenter>(display_.context(), display_.surface(), frames, geometry,
+                                        protocol_->display, protocol_->screens, slot_places(*protocol_));
     if (maps_are_live())
         live_maps_ = std::make_unique<LiveMaps>(display_.context(), objects_, library_.cache().poses(),
                                                 geometry.image_px);
@@ -150,6 +155,21 @@ void Rig::open_further_trackers() {
                                        request_.virtual_time)
                               .tracker;
     }
+}
+
+std::vector<StruckFault> Rig::take_struck_faults() {
+    std::vector<StruckFault> struck;
+    if (const VirtualRefresh* display = display_.virtual_refresh())
+        for (const DisplayFault& fault : display->struck())
+            struck.push_back(
+                {false, fault.kind == DisplayFault::Kind::skip
+                            ? fmt::format("skip of {} at refresh {}", fault.refreshes, fault.refresh)
+                            : fmt::format("{} by {:.3f} ms at refresh {}", name_of(fault.kind),
+                                          fault.amount_ms, fault.refresh)});
+    if (faulty_tracker_)
+        for (std::string& fault : faulty_tracker_->take_struck())
+            struck.push_back({true, std::move(fault)});
+    return struck;
 }
 
 AnswerEquipment Rig::answer_equipment() const {

@@ -8,6 +8,7 @@
 
 #include "app/rig/answer_equipment.h"
 #include "app/rig/open_display.h"
+#include "app/rig/seen_areas.h"
 #include "app/rig/undrawn_frames.h"
 #include "experiment/ports/eye_tracker.h"
 #include "experiment/ports/presentation_listener.h"
@@ -43,6 +44,12 @@ struct RigRequest {
     std::vector<std::string> operator_keys = {}; ///< of a simulated operator, see read_operator_key()
     bool draws_stimuli = true;      ///< without: see UndrawnFrames; for a display that only keeps time
     std::string observer = "overt"; ///< whom files on a tracker's host are for
+};
+
+/// A fault that was simulated, as the record has it.
+struct StruckFault {
+    bool is_trackers = false; ///< else the display's
+    std::string what;
 };
 
 class Rig {
@@ -110,12 +117,14 @@ class Rig {
     AnswerEquipment answer_equipment() const;
     /// What the operator should know once the session has ended, a line each.
     std::vector<std::string> closing_warnings() const;
-    /// The refresh of a display that only keeps time; null for a real screen in real time.
-    const VirtualRefresh* virtual_refresh() const { return display_.virtual_refresh(); }
     /// The simulated observer, the hidden pass if it is live, and a display that only keeps time.
     std::vector<PresentationListener*> listeners();
-    /// With what goes wrong as the faults say; null if they say nothing of the tracker.
-    FaultyTracker* faulty_tracker() { return faulty_tracker_; }
+    /// The simulated faults that struck since the last call: after each attempt.
+    std::vector<StruckFault> take_struck_faults();
+    /// Of the object that a stimulus shows; see SeenAreas.
+    std::shared_ptr<const AreaView> area_of(const PlacedStimulus& stimulus, const std::string& area) {
+        return areas_.area_of(stimulus, area);
+    }
     LiveMaps* live_maps() { return live_maps_.get(); } ///< null unless maps_are_live()
 
   private:
@@ -129,6 +138,7 @@ class Rig {
     std::vector<ScreenFinding> screen_findings_;
     std::optional<QuietDesktop> quiet_desktop_; ///< on a real screen
     StimulusLibrary library_;
+    SeenAreas areas_;
     std::unique_ptr<UndrawnFrames> undrawn_; ///< in its place, if stimuli are not drawn
     std::unique_ptr<PagePresenter> presenter_;
     std::unique_ptr<LiveMaps> live_maps_;

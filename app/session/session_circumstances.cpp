@@ -37,21 +37,6 @@ void note_faults(const std::filesystem::path& file, const Clock& clock, SessionL
     fmt::print("with the simulated faults of {}\n", file.string());
 }
 
-void note_struck(FaultyTracker& tracker, const Trial& trial, const Clock& clock, SessionLog& log) {
-    for (const std::string& fault : tracker.take_struck())
-        log.event({clock.now(), trial.index, tracker_fault_event, fault});
-}
-
-void note_struck(const VirtualRefresh& display, const Trial& trial, const Clock& clock, SessionLog& log) {
-    for (const DisplayFault& fault : display.struck()) {
-        const bool skips = fault.kind == DisplayFault::Kind::skip;
-        log.event({clock.now(), trial.index, display_fault_event,
-                   skips ? fmt::format("skip of {} at refresh {}", fault.refreshes, fault.refresh)
-                         : fmt::format("{} by {:.3f} ms at refresh {}", name_of(fault.kind), fault.amount_ms,
-                                       fault.refresh)});
-    }
-}
-
 void note_thread(const std::vector<ThreadWish>& wishes, const Clock& clock, SessionLog& log) {
     for (const ThreadWish& wish : wishes) {
         const std::string answer =

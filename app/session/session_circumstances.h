@@ -9,7 +9,6 @@
 #include "app/rig/rig.h"
 #include "app/session/session_commands.h"
 #include "devices/host/thread_priority.h"
-#include "devices/simulated/faulty_tracker.h"
 #include "experiment/design/schedule.h"
 #include "experiment/record/write/session_store.h"
 
@@ -38,10 +37,6 @@ void note_tracker(const RecordedTracker& recorded, const Clock& clock);
 /// A session with simulated faults must not be taken for one on a real display. `file` may be empty: there
 /// are none.
 void note_faults(const std::filesystem::path& file, const Clock& clock, SessionLog& log);
-
-/// The simulated faults that struck since the last call.
-void note_struck(FaultyTracker& tracker, const Trial& trial, const Clock& clock, SessionLog& log);
-void note_struck(const VirtualRefresh& display, const Trial& trial, const Clock& clock, SessionLog& log);
 
 /// How the session's thread is scheduled.
 void note_thread(const std::vector<ThreadWish>& wishes, const Clock& clock, SessionLog& log);

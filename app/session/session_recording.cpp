@@ -9,7 +9,7 @@
 #include "experiment/protocol/protocol_keys.h"
 #include "experiment/record/header_rows.h"
 #include "experiment/record/session_schema.h"
-#include "experiment/scene/ply_writer.h"
+#include "experiment/scene/files/ply_writer.h"
 
 namespace overt {
 
@@ -24,19 +24,22 @@ void copy_into(const std::filesystem::path& from, const std::filesystem::path& t
         throw RecordError(fmt::format("{}: cannot be written: {}", to.string(), error.message()));
 }
 
-std::string map_name(const std::string& object, PoseIndex pose) {
-    return fmt::format("maps/{}/pose_{:02}.exr", object, pose.value);
+/// Of an object in one of so many views.
+std::string map_name(const std::string& object, const ViewedObject& viewed, std::size_t views,
+                     PoseIndex pose) {
+    const std::string view = views > 1 ? fmt::format("view_{}/", viewed.view + 1) : "";
+    return fmt::format("maps/{}/{}pose_{:02}.exr", object, view, pose.value);
 }
 
-void add_prepared_maps(SessionHeader& header, const std::string& id, int object,
+void add_prepared_maps(SessionHeader& header, const RecordedObject& object, const ViewedObject& viewed,
                        const StimulusLibrary& library) {
-    const auto kind = library.cache().has_given_maps(object) ? RecordedMap::Kind::coordinates
-                                                             : RecordedMap::Kind::triangles;
-    for (int pose = 0; pose < static_cast<int>(library.cache().poses().angles.size()); ++pose) {
-        header.maps.push_back({object,
+    const auto kind = library.cache().has_given_maps(viewed.object) ? RecordedMap::Kind::coordinates
+                                                                    : RecordedMap::Kind::triangles;
+    for (int pose = 0; pose < library.cache().poses().count(); ++pose) {
+        header.maps.push_back({viewed,
                                {pose},
-                               map_name(id, {pose}),
-                               hash_of_file(library.cache().map_file(object, {pose})),
+                               map_name(object.id, viewed, object.cameras.size(), {pose}),
+                               hash_of_file(library.cache().map_file(viewed, {pose})),
                                RecordedMap::Made::prepared,
                                kind});
     }
@@ -52,20 +55,23 @@ void describe_objects(SessionHeader& header, const Protocol& protocol, std::span
         recorded.mesh_sha256 = object.mesh_hash;
         recorded.part_names = object.mesh.part_names;
         recorded.unit = unit_of_lengths(protocol.objects[i]);
-        if (object.has_mesh()) {
-            recorded.mesh_file = fmt::format("meshes/{}.ply", object.id);
-            recorded.camera = object.scene.view.camera;
-            recorded.bounds = object.scene.bounds;
-            recorded.axis_point = object.scene.bounds.centre();
-            if (with_prepared_maps)
-                add_prepared_maps(header, recorded.id, static_cast<int>(i), library);
-        } else if (library.cache().has_given_maps(static_cast<int>(i))) {
-            const SceneView scene = library.cache().scene_of_given_maps(static_cast<int>(i));
-            recorded.camera = scene.view.camera;
+        recorded.origin = object.origin;
+        const bool has_given_maps = library.cache().has_given_maps(static_cast<int>(i));
+        recorded.cameras.resize(protocol.views.size());
+        for (std::size_t view = 0; view < protocol.views.size(); ++view) {
+            const ViewedObject viewed{static_cast<int>(i), static_cast<int>(view)};
+            if (!object.has_mesh() && !has_given_maps)
+                continue;
+            const SceneView scene =
+                object.has_mesh() ? object.scenes[view] : library.cache().scene_of_given_maps(viewed);
+            recorded.cameras[view] = scene.view.camera;
             recorded.bounds = scene.bounds;
             recorded.axis_point = scene.bounds.centre();
-            add_prepared_maps(header, recorded.id, static_cast<int>(i), library);
+            if (with_prepared_maps || has_given_maps)
+                add_prepared_maps(header, recorded, viewed, library);
         }
+        if (object.has_mesh())
+            recorded.mesh_file = fmt::format("meshes/{}.ply", object.id);
         header.objects.push_back(std::move(recorded));
     }
 }
@@ -121,20 +127,20 @@ SessionHeader make_session_header(const Protocol& protocol, const Schedule& sche
     header.display = {screen_geometry_of(protocol), protocol.display.refresh_hz,
                       from_seconds(1e-3 * protocol.display.latency_ms),
                       std::string(name_of(protocol.display.output)), protocol.display.background};
+    for (const Slot& slot : protocol.slots) {
+        const ScreenGeometry at = slot_geometry(protocol, slot);
+        header.slots.push_back({slot.id, slot.title, at.image_origin_px, at.image_px});
+    }
     header.characterisation = recorded(protocol.display.characterisation);
-    header.animation = protocol.animation;
+    header.animations.assign(protocol.motions.begin(), protocol.motions.end());
     header.poses = library.cache().poses();
     for (const Task& task : protocol.tasks)
         header.tasks.push_back({task.id, task.question});
-    for (const MaterialSettings& material : protocol.materials)
-        header.materials.push_back({material.id, material.title});
-    for (int object = 0; object < static_cast<int>(objects.size()); ++object) {
-        for (int material = 0; material < static_cast<int>(protocol.materials.size()); ++material) {
-            const Stimulus stimulus{object, material};
-            header.stimuli.push_back({stimulus, library.source_of(stimulus), library.frames_hash(stimulus)});
-        }
-    }
+    for (const Stimulus& stimulus : all_stimuli(protocol))
+        header.stimuli.push_back({stimulus, library.source_of(stimulus), library.frames_hash(stimulus)});
     describe_objects(header, protocol, objects, library, with_prepared_maps);
+    for (std::size_t list = 0; list < stimulus_lists.size(); ++list)
+        record_entries(header, list, entries_of(protocol, list));
     return header;
 }
 
@@ -150,11 +156,10 @@ void put_all_files(const SessionDirectory& directory, const SessionHeader& heade
         write_ply(file, objects[i].mesh);
     }
     for (const RecordedMap& map : header.maps)
-        copy_into(library.cache().map_file(map.object, map.pose), directory.path() / map.file);
+        copy_into(library.cache().map_file(map.viewed, map.pose), directory.path() / map.file);
     for (const RecordedStimulus& stimulus : header.stimuli) {
-        const auto& object = header.objects[static_cast<std::size_t>(stimulus.stimulus.object)];
         // Without a surface there is nothing to ask of it.
-        if (object.camera.vertical_fov.value > 0.0) {
+        if (header.camera_of(stimulus.stimulus).vertical_fov.value > 0.0) {
             if (const auto light = library.light_file(stimulus.stimulus, with_pictures))
                 copy_into(*light, directory.path() / light_file(header, stimulus.stimulus));
         }
@@ -213,21 +218,21 @@ std::vector<RecordedMap> record_live_maps(std::vector<LiveMap> maps, const std::
                                           const SessionHeader& header) {
     std::erase_if(maps, [&](const LiveMap& map) {
         return std::any_of(header.maps.begin(), header.maps.end(), [&](const RecordedMap& recorded) {
-            return recorded.object == map.object && recorded.pose == map.pose;
+            return recorded.viewed == map.viewed && recorded.pose == map.pose;
         });
     });
     std::vector<RecordedMap> recorded(maps.size());
     parallel_for(static_cast<int>(maps.size()), [&](int i) {
         const LiveMap& map = maps[static_cast<std::size_t>(i)];
-        const RecordedObject& object = header.objects[static_cast<std::size_t>(map.object)];
-        const std::string name = map_name(object.id, map.pose);
+        const RecordedObject& object = header.objects[static_cast<std::size_t>(map.viewed.object)];
+        const std::string name = map_name(object.id, map.viewed, object.cameras.size(), map.pose);
         const std::filesystem::path file = folder / name;
         std::filesystem::create_directories(file.parent_path());
         const double angle_deg = header.poses.angles[static_cast<std::size_t>(map.pose.value)].value;
         write_triangle_map(
             file, map.map,
             {{"mesh_sha256", object.mesh_sha256}, {"angle_deg", fmt::format("{}", angle_deg)}});
-        recorded[static_cast<std::size_t>(i)] = {map.object, map.pose, name, hash_of_file(file),
+        recorded[static_cast<std::size_t>(i)] = {map.viewed, map.pose, name, hash_of_file(file),
                                                  RecordedMap::Made::live};
     });
     return recorded;

@@ -19,13 +19,12 @@ namespace fs = std::filesystem;
 
 /// The files that are going to be copied, instead of what is assumed of them. Objects that are frames only
 /// have none.
-double bytes_of_maps(const StimulusLibrary& library, std::size_t objects) {
+double bytes_of_maps(const StimulusLibrary& library) {
     double bytes = 0.0;
-    for (std::size_t i = 0; i < objects; ++i) {
-        for (std::size_t pose = 0; pose < library.cache().poses().angles.size(); ++pose) {
+    for (const ViewedObject& viewed : all_viewed_objects(library.cache().protocol())) {
+        for (int pose = 0; pose < library.cache().poses().count(); ++pose) {
             std::error_code missing;
-            const std::uintmax_t size = fs::file_size(
-                library.cache().map_file(static_cast<int>(i), PoseIndex{static_cast<int>(pose)}), missing);
+            const std::uintmax_t size = fs::file_size(library.cache().map_file(viewed, {pose}), missing);
             bytes += missing ? 0.0 : static_cast<double>(size);
         }
     }
@@ -39,7 +38,7 @@ RecordingSize still_to_record(const Experiment& experiment, const SessionPlan& p
     RecordingSize size = recording_size(experiment.protocol, experiment.objects, std::max(0, all - done),
                                         DesignAssumptions().answer_s);
     if (with_prepared_maps)
-        size.maps = bytes_of_maps(library, experiment.objects.size());
+        size.maps = bytes_of_maps(library);
     if (plan.resumed)
         size.maps = size.meshes = size.pictures = 0.0;
     return size;

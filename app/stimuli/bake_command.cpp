@@ -86,7 +86,7 @@ BakeJob job_of(const BakeOptions& options, const Protocol& protocol, const Stimu
     BakeJob job;
     job.quality = quality_asked_for(options, protocol.bake);
     job.stimuli = stimuli_asked_for(options, protocol, library);
-    job.output.frames = frame_range_called(options.frames, protocol.animation);
+    job.output.frames = frame_range_called(options.frames, protocol, job.stimuli);
     job.output.folder = options.out;
     job.output.as = options.as == "xyz"       ? ExportedLight::xyz
                     : options.as == "spectra" ? ExportedLight::spectra
@@ -95,7 +95,7 @@ BakeJob job_of(const BakeOptions& options, const Protocol& protocol, const Stimu
                       : options.half ? ExportedFile::half_exr
                                      : ExportedFile::exr;
     job.output.force = options.force;
-    job.units = bake_units(job.stimuli, job.output.frames, library.cache().poses(), job.quality, protocol);
+    job.units = bake_units(job.stimuli, job.output.frames, library.cache(), job.quality, job.exports());
     if (!options.shard.empty())
         job.units = dealt_to(shard_called(options.shard), job.units);
     return job;
@@ -179,7 +179,10 @@ void remove_remnants(const BakeJob& job, const StimulusLibrary& library, const F
     std::set<std::filesystem::path> folders;
     for (const BakeUnit& unit : job.units) {
         folders.insert(library.cache().frame_file_of(unit.stimulus, job.quality, unit.pose).parent_path());
-        folders.insert(library.cache().map_file(unit.stimulus.object, unit.pose).parent_path());
+        folders.insert(
+            library.cache()
+                .map_file(viewed(unit.stimulus), library.cache().poses().index_of(unit.pose.object))
+                .parent_path());
         if (job.exports())
             folders.insert(output.folder_of(unit.stimulus));
     }
@@ -284,8 +287,13 @@ int run_bake(const BakeOptions& options) {
     if (job.exports())
         output.refuse_to_replace(job.units);
     std::vector<BakeUnit> missing;
+    std::set<std::filesystem::path> rendered; // stimuli may share frames
     for (const BakeUnit& unit : job.units) {
-        if (job.output.as == ExportedLight::spectra ? !output.has(unit) : !is_cached(library, job, unit))
+        if (job.output.as == ExportedLight::spectra
+                ? !output.has(unit)
+                : !is_cached(library, job, unit) &&
+                      rendered.insert(library.cache().frame_file_of(unit.stimulus, job.quality, unit.pose))
+                          .second)
             missing.push_back(unit);
     }
     if (!options.json || options.dry_run)

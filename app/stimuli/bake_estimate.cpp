@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/stimuli/bake_errors.h"
+#include "app/stimuli/bake_plan.h"
 #include "experiment/base/counted.h"
 #include "experiment/protocol/protocol_keys.h"
 
@@ -50,13 +51,13 @@ double seconds_per_path(const BakeScene& scene, const SpectralLight& light, cons
 PathProbe::PathProbe(const Protocol& protocol, std::span<const Object> objects)
     : protocol_(&protocol), seconds_per_path_(protocol.materials.size(), 0.0),
       traced_share_(objects.size(), 0.0) {
-    const SpectralLight light(protocol.light);
+    const SpectralLight light(protocol.lights.front());
     bool measured = false;
     for (std::size_t i = 0; i < objects.size(); ++i) {
         const Object& object = objects[i];
         if (!object.has_mesh())
             continue;
-        const SceneView view = small_view(object.scene);
+        const SceneView view = small_view(object.scene());
         std::vector<std::uint8_t> covered;
         for (std::size_t material = 0; material < protocol.materials.size(); ++material) {
             if (!covered.empty() && measured)
@@ -77,7 +78,8 @@ double PathProbe::seconds_of_frame(const Stimulus& stimulus, const FrameQuality&
     const auto material = static_cast<std::size_t>(stimulus.material);
     const BakeSettings settings =
         bake_settings(quality, protocol_->bake, protocol_->materials[material].kind);
-    const double pixels = static_cast<double>(protocol_->view.width_px) * protocol_->view.height_px;
+    const ViewSettings& view = protocol_->view_of(stimulus);
+    const double pixels = static_cast<double>(view.width_px) * view.height_px;
     const double paths = pixels * traced_share_[static_cast<std::size_t>(stimulus.object)] *
                          settings.samples / (settings.pixel_step * settings.pixel_step);
     return paths * seconds_per_path_[material] + pixels * writing_s_per_px;
@@ -92,21 +94,21 @@ BakeEstimate bake_estimate(const Experiment& experiment, const StimulusLibrary& 
         return estimate;
     estimate.for_session = library.quality_of_session(estimate.wanted);
     estimate.for_simulated = library.quality_of_session(estimate.wanted_by_simulated);
+    const FrameRange all_frames = frame_range_called("all", experiment.protocol, stimuli);
     std::optional<PathProbe> probe;
     for (const BakeQuality quality :
          {BakeQuality::preview, BakeQuality::draft, BakeQuality::standard, BakeQuality::reference}) {
         QualityEstimate one{quality_of(quality, experiment.protocol.bake)};
-        for (const Stimulus& stimulus : stimuli) {
-            const auto missing =
-                static_cast<int>(library.cache().missing_frames(stimulus, one.quality).size());
-            const int all = static_cast<int>(library.cache().poses().angles.size());
-            one.there += all - missing;
-            one.frames += all;
-            if (missing == 0)
+        for (const BakeUnit& unit : bake_units(stimuli, all_frames, library.cache(), one.quality, false)) {
+            ++one.frames;
+            if (std::filesystem::exists(
+                    library.cache().frame_file_of(unit.stimulus, one.quality, unit.pose))) {
+                ++one.there;
                 continue;
+            }
             if (!probe)
                 probe.emplace(experiment.protocol, experiment.objects);
-            one.seconds_left += missing * probe->seconds_of_frame(stimulus, one.quality);
+            one.seconds_left += probe->seconds_of_frame(unit.stimulus, one.quality);
         }
         estimate.qualities.push_back(one);
     }

@@ -14,7 +14,7 @@ namespace overt {
 
 struct QualityEstimate {
     FrameQuality quality;
-    int there = 0, frames = 0; ///< distinct poses of all stimuli that are rendered
+    int there = 0, frames = 0; ///< of all stimuli that are rendered, each that they share once
     double seconds_left = 0.0; ///< for what is missing, by a probe
 };
 

@@ -1,7 +1,9 @@
 #include "app/stimuli/bake_plan.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <numeric>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -9,8 +11,11 @@
 
 namespace overt {
 
-FrameRange frame_range_called(const std::string& text, const Animation& animation) {
-    const int last = animation.frame_count - 1;
+FrameRange frame_range_called(const std::string& text, const Protocol& protocol,
+                              std::span<const Stimulus> stimuli) {
+    int last = 0;
+    for (const Stimulus& stimulus : stimuli)
+        last = std::max(last, protocol.motion_of(stimulus).frame_count - 1);
     if (text == "all")
         return {0, last};
     const std::size_t dash = text.find('-');
@@ -24,17 +29,23 @@ FrameRange frame_range_called(const std::string& text, const Animation& animatio
 }
 
 std::vector<BakeUnit> bake_units(const std::vector<Stimulus>& stimuli, const FrameRange& frames,
-                                 const PoseTable& poses, const FrameQuality& quality,
-                                 const Protocol& protocol) {
-    std::vector<bool> is_shown(poses.angles.size());
-    for (int frame = frames.first; frame <= frames.last; ++frame)
-        is_shown[static_cast<std::size_t>(poses.pose_of({frame}).value)] = true;
+                                 const StimulusCache& cache, const FrameQuality& quality,
+                                 bool is_each_its_own) {
+    std::set<std::filesystem::path> files;
     std::vector<BakeUnit> units;
     for (const Stimulus& stimulus : stimuli) {
-        const MaterialKind kind = protocol.materials[static_cast<std::size_t>(stimulus.material)].kind;
-        for (std::size_t pose = 0; pose < is_shown.size(); ++pose) {
-            if (is_shown[pose])
-                units.push_back({stimulus, {static_cast<int>(pose)}, expected_cost(quality, protocol, kind)});
+        const double cost = expected_cost(quality, cache.protocol(), cache.material_of(stimulus).kind);
+        const std::span<const Pose> pictures = cache.pictures_of(stimulus);
+        const std::span<const int> picture_of = cache.picture_of_frame(stimulus);
+        std::vector<bool> is_shown(pictures.size());
+        for (int frame = frames.first;
+             frame <= std::min(frames.last, static_cast<int>(picture_of.size()) - 1); ++frame)
+            is_shown[static_cast<std::size_t>(picture_of[static_cast<std::size_t>(frame)])] = true;
+        for (std::size_t picture = 0; picture < pictures.size(); ++picture) {
+            if (is_shown[picture] &&
+                (files.insert(cache.frame_file_of(stimulus, quality, pictures[picture])).second ||
+                 is_each_its_own))
+                units.push_back({stimulus, pictures[picture], cost});
         }
     }
     return units;

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "experiment/base/parallel.h"
+#include "experiment/protocol/all_stimuli.h"
 #include "render/image/text_layout.h"
 
 namespace overt {
@@ -53,12 +54,15 @@ LinearImage label(const std::string& text, int width_px, int line_px) {
 } // namespace
 
 LinearImage contact_sheet(const Protocol& protocol, const StimulusLibrary& library, int frame, int cell_px) {
-    const int columns = static_cast<int>(protocol.materials.size()),
-              rows = static_cast<int>(protocol.objects.size());
-    std::vector<LinearImage> cells(static_cast<std::size_t>(columns * rows));
+    const std::vector<Stimulus> stimuli = all_stimuli(protocol);
+    // A row for each object; materials, and what else there is a choice of, side by side.
+    const int rows = static_cast<int>(protocol.objects.size()),
+              columns = static_cast<int>(stimuli.size()) / rows;
+    std::vector<LinearImage> cells(stimuli.size());
     parallel_for(columns * rows, [&](int i) {
-        const Stimulus stimulus{i / columns, i % columns};
-        const int page = library.page_of_frame(stimulus)[static_cast<std::size_t>(frame)];
+        const Stimulus& stimulus = stimuli[static_cast<std::size_t>(i)];
+        const std::vector<int> pages = library.page_of_frame(stimulus);
+        const int page = pages[std::min(static_cast<std::size_t>(frame), pages.size() - 1)];
         cells[static_cast<std::size_t>(i)] = reduced_to(library.page_on_screen(stimulus, page), cell_px);
     });
     const glm::ivec2 cell = cells.front().size_px;
@@ -66,9 +70,7 @@ LinearImage contact_sheet(const Protocol& protocol, const StimulusLibrary& libra
     LinearImage sheet({gap_px + columns * (cell.x + gap_px), rows * (cell.y + label_px) + gap_px});
     for (int i = 0; i < columns * rows; ++i) {
         const glm::ivec2 origin(gap_px + i % columns * (cell.x + gap_px), i / columns * (cell.y + label_px));
-        const std::string title =
-            fmt::format("{}, {}", protocol.objects[static_cast<std::size_t>(i / columns)].title,
-                        protocol.materials[static_cast<std::size_t>(i % columns)].title);
+        const std::string title = stimulus_title(protocol, stimuli[static_cast<std::size_t>(i)]);
         const LinearImage text = label(title, cell.x, line_px);
         paste(sheet, text, origin + glm::ivec2((cell.x - text.size_px.x) / 2, gap_px / 2));
         paste(sheet, cells[static_cast<std::size_t>(i)], origin + glm::ivec2(0, label_px));

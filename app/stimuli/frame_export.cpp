@@ -1,5 +1,6 @@
 #include "app/stimuli/frame_export.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -8,6 +9,7 @@
 #include "app/cli/this_program.h"
 #include "experiment/base/error.h"
 #include "experiment/base/whole_file.h"
+#include "experiment/protocol/all_stimuli.h"
 #include "render/bake/light_colour.h"
 #include "render/signal/display_light.h"
 #include "render/stimulus/frame_description.h"
@@ -81,16 +83,16 @@ FrameExport::FrameExport(const FrameExportOptions& options, const Protocol& prot
     : options_(&options), protocol_(&protocol), objects_(objects), library_(&library), quality_(&quality) {}
 
 std::filesystem::path FrameExport::folder_of(const Stimulus& stimulus) const {
-    return options_->folder /
-           fmt::format("{}_{}", objects_[static_cast<std::size_t>(stimulus.object)].id,
-                       protocol_->materials[static_cast<std::size_t>(stimulus.material)].id);
+    return options_->folder / stimulus_name(*protocol_, stimulus, '_');
 }
 
 std::vector<std::filesystem::path> FrameExport::files_of(const BakeUnit& unit) const {
     const std::filesystem::path folder = folder_of(unit.stimulus);
     std::vector<std::filesystem::path> files;
-    for (int frame = options_->frames.first; frame <= options_->frames.last; ++frame) {
-        if (library_->cache().poses().pose_of({frame}) == unit.pose)
+    const Animation& motion = protocol_->motion_of(unit.stimulus);
+    const int last = std::min(options_->frames.last, motion.frame_count - 1);
+    for (int frame = options_->frames.first; frame <= last; ++frame) {
+        if (is_same_pose(motion.pose_of({frame}), unit.pose))
             files.push_back(folder /
                             fmt::format("frame_{:04}.{}", frame, options_->is_png() ? "png" : "exr"));
     }
@@ -99,10 +101,11 @@ std::vector<std::filesystem::path> FrameExport::files_of(const BakeUnit& unit) c
 
 ContentHash FrameExport::key_of(const BakeUnit& unit) const {
     ContentHasher hasher;
-    hasher.add(export_version).add(std::string_view(library_->cache().frame_key(unit.stimulus, *quality_)));
-    hasher.add(library_->cache().poses().angles[static_cast<std::size_t>(unit.pose.value)].value);
+    hasher.add(export_version)
+        .add(std::string_view(library_->cache().picture_key(unit.stimulus, *quality_, unit.pose.light)));
+    hasher.add(unit.pose.object.value);
     hasher.add(static_cast<int>(options_->as)).add(static_cast<int>(options_->file));
-    hasher.add(protocol_->light.exposure);
+    hasher.add(protocol_->light_of(unit.stimulus).exposure);
     if (options_->is_png())
         hasher.add(protocol_->display.background);
     const auto& light = protocol_->display.characterisation;
@@ -153,8 +156,9 @@ ChannelPicture FrameExport::picture_of(const BakeUnit& unit, const SpectralFrame
         OVERT_EXPECTS(traced);
         picture.size_px = traced->size_px;
         picture.values.reserve(traced->alpha.size() * picture.channels.size());
+        const auto exposure = static_cast<float>(protocol_->light_of(unit.stimulus).exposure);
         for (std::size_t i = 0; i < traced->alpha.size(); ++i) {
-            const float factor = static_cast<float>(protocol_->light.exposure) * traced->alpha[i];
+            const float factor = exposure * traced->alpha[i];
             for (std::size_t bin = 0; bin < spectral_bins; ++bin)
                 picture.values.push_back(factor * traced->radiance[i * spectral_bins + bin]);
             picture.values.push_back(traced->alpha[i]);
@@ -164,8 +168,9 @@ ChannelPicture FrameExport::picture_of(const BakeUnit& unit, const SpectralFrame
     LinearImage image =
         read_linear_image(library_->cache().frame_file_of(unit.stimulus, *quality_, unit.pose));
     transform(image, options_->as == ExportedLight::display
-                         ? library_->cache().display_from_frame(*quality_)
-                         : protocol_->light.exposure * xyz_from(rendered_colours(protocol_->bake.observer)));
+                         ? library_->cache().display_from_frame(unit.stimulus, *quality_)
+                         : protocol_->light_of(unit.stimulus).exposure *
+                               xyz_from(rendered_colours(protocol_->bake.observer)));
     picture.size_px = image.size_px;
     for (const glm::vec4& pixel : image.pixels)
         picture.values.insert(picture.values.end(), {pixel.x, pixel.y, pixel.z, pixel.w});
@@ -173,13 +178,11 @@ ChannelPicture FrameExport::picture_of(const BakeUnit& unit, const SpectralFrame
 }
 
 ImageAttributes FrameExport::attributes_of(const BakeUnit& unit) const {
-    const MaterialSettings& material = protocol_->materials[static_cast<std::size_t>(unit.stimulus.material)];
-    const Degrees angle = library_->cache().poses().angles[static_cast<std::size_t>(unit.pose.value)];
-    ImageAttributes attributes = describe_stimulus(
-        *protocol_, objects_[static_cast<std::size_t>(unit.stimulus.object)], material, angle);
-    for (auto& attribute : describe_tracing(*quality_, *protocol_, material.kind))
+    ImageAttributes attributes = describe_stimulus(*protocol_, objects_, unit.stimulus, unit.pose);
+    for (auto& attribute :
+         describe_tracing(*quality_, *protocol_, protocol_->material_of(unit.stimulus).kind))
         attributes.push_back(std::move(attribute));
-    attributes.emplace_back("overt:exposure", fmt::format("{}", protocol_->light.exposure));
+    attributes.emplace_back("overt:exposure", fmt::format("{}", protocol_->light_of(unit.stimulus).exposure));
     const auto& light = protocol_->display.characterisation;
     if (options_->as == ExportedLight::display) {
         attributes.emplace_back("overt:display",

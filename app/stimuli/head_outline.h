@@ -7,7 +7,7 @@
 
 #include <glm/glm.hpp>
 
-#include "experiment/scene/mesh_parts.h"
+#include "experiment/scene/making/mesh_parts.h"
 
 namespace overt {
 

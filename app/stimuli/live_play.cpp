@@ -91,12 +91,15 @@ void play_until_closed(OpenDisplay& opened, LiveView& view, const Protocol& prot
         wishes.has_changed = false;
         view.choose(wishes.stimulus);
         Orbit orbit = wishes.orbit;
+        Pose pose;
         if (wishes.is_turning) {
+            const Animation& motion = protocol.motion_of(wishes.stimulus);
             const int step =
-                static_cast<int>(to_seconds(opened.clock().now() - begin) * protocol.animation.frame_rate_hz);
-            orbit.turn_deg += protocol.animation.angle_of(protocol.animation.frame_at_step(step)).value;
+                static_cast<int>(to_seconds(opened.clock().now() - begin) * motion.frame_rate_hz);
+            pose = motion.pose_of(motion.frame_at_step(step));
         }
-        picture.show(view.draw(orbit), keys_text);
+        orbit.turn_deg += pose.object.value;
+        picture.show(view.draw(orbit, pose.light), keys_text);
     }
 }
 
@@ -107,7 +110,7 @@ int play_live(const Protocol& protocol, std::span<const Object> objects, const S
     if (options.picture.empty()) {
         if (!display_is_available())
             throw InputError("there is no display to play on: write a frame with --picture FILE instead");
-        const glm::ivec2 image_px = picture_window_size(protocol.view);
+        const glm::ivec2 image_px = picture_window_size(protocol.view_of(stimulus));
         fmt::print("{}\n", keys_text);
         OpenDisplay window({.context = ContextKind::window,
                             .size_px = image_px,
@@ -120,11 +123,13 @@ int play_live(const Protocol& protocol, std::span<const Object> objects, const S
     }
     const auto context =
         make_headless_context(options.context == ContextKind::window ? std::nullopt : options.context);
-    LiveView view(*context, protocol, objects, {protocol.view.width_px, protocol.view.height_px});
+    const ViewSettings& settings = protocol.view_of(stimulus);
+    LiveView view(*context, protocol, objects, {settings.width_px, settings.height_px});
     view.choose(stimulus);
     Orbit orbit;
-    orbit.turn_deg = protocol.animation.angle_of({options.frame.value_or(0)}).value;
-    write_srgb_png(options.picture, view.draw(orbit));
+    const Pose pose = protocol.motion_of(stimulus).pose_of({options.frame.value_or(0)});
+    orbit.turn_deg = pose.object.value;
+    write_srgb_png(options.picture, view.draw(orbit, pose.light));
     fmt::print("{}\n", options.picture.string());
     return 0;
 }

@@ -11,6 +11,7 @@
 #include "app/stimuli/stimulus_commands.h"
 #include "experiment/base/counted.h"
 #include "experiment/maps/coordinate_image_file.h"
+#include "experiment/protocol/all_stimuli.h"
 #include "render/gl/headless_context.h"
 #include "render/stimulus/stimulus_library.h"
 
@@ -22,7 +23,8 @@ namespace {
 constexpr const char* own_unit = "that of the mesh file, times the protocol's scale";
 
 /// The frames to write, by the distinct pose that they show: each pose is drawn once.
-std::map<PoseIndex, std::vector<int>> frames_by_pose(const Animation& animation, const PoseTable& poses,
+std::map<PoseIndex, std::vector<int>> frames_by_pose(const Animation& animation,
+                                                     std::span<const PoseIndex> pose_of_frame,
                                                      std::optional<int> frame) {
     if (frame && *frame >= animation.frame_count) {
         throw InputError(
@@ -31,7 +33,7 @@ std::map<PoseIndex, std::vector<int>> frames_by_pose(const Animation& animation,
     std::map<PoseIndex, std::vector<int>> frames;
     for (int k = 0; k < animation.frame_count; ++k) {
         if (!frame || *frame == k)
-            frames[poses.pose_of({k})].push_back(k);
+            frames[pose_of_frame[static_cast<std::size_t>(k)]].push_back(k);
     }
     return frames;
 }
@@ -89,35 +91,36 @@ class MapFiles {
     bool exr_, png_;
 };
 
-MapDescription description_of(const Object& object, std::string_view unit, int scale) {
+MapDescription description_of(const Object& object, int view, std::string_view unit, int scale) {
+    const SceneView& scene = object.scene(view);
     MapDescription description;
     description.object = object.id;
     description.unit = unit == "mm" ? unit : own_unit;
-    description.bounds = object.scene.bounds;
+    description.bounds = scene.bounds;
     description.scale = scale;
-    description.camera = object.scene.view.camera;
-    description.size_px = object.scene.view.image_px;
+    description.camera = scene.view.camera;
+    description.size_px = scene.view.image_px;
     description.mesh_sha256 = object.mesh_hash;
     return description;
 }
 
 /// The exact maps of some poses, drawn anew.
-CoordinateMaps draw_maps(StimulusLibrary& library, const Object& object, int index,
+CoordinateMaps draw_maps(StimulusLibrary& library, const Object& object, const ViewedObject& viewed,
                          const std::map<PoseIndex, std::vector<int>>& frames, ProgressBar& bar) {
     std::vector<Degrees> angles;
     std::vector<TriangleMap> maps;
     for (const auto& [pose, numbers] : frames) {
         bar.update("mapping " + object.id, static_cast<int>(maps.size()), static_cast<int>(frames.size()));
         angles.push_back(library.cache().poses().angles[static_cast<std::size_t>(pose.value)]);
-        maps.push_back(library.maps().draw_map(index, pose));
+        maps.push_back(library.maps().draw_map(viewed, pose));
         if (maps.back().covered_pixels() == 0) {
-            throw InputError(
-                fmt::format("object \"{}\" is nowhere in the picture at {:.3g} degrees: correct the camera "
-                            "under [view]",
-                            object.id, angles.back().value));
+            throw InputError(fmt::format(
+                "object \"{}\" is nowhere in the picture at {:.3g} degrees: correct the camera "
+                "under {}",
+                object.id, angles.back().value, section_of_view(library.cache().protocol(), viewed.view)));
         }
     }
-    return {object.mesh, object.scene, angles, std::move(maps)};
+    return {object.mesh, object.scene(viewed.view), angles, std::move(maps)};
 }
 
 void print_outcome(const LutOptions& options, const std::vector<std::string>& files,
@@ -137,10 +140,10 @@ void print_outcome(const LutOptions& options, const std::vector<std::string>& fi
 
 int run_lut(const LutOptions& options) {
     const Protocol protocol = read_protocol_or_report(options.protocol);
-    const int index = object_called(protocol, options.stimulus);
-    const ObjectSettings& settings = protocol.objects[static_cast<std::size_t>(index)];
+    const Stimulus stimulus = object_called(protocol, options.stimulus);
+    const ObjectSettings& settings = protocol.object_of(stimulus);
     std::vector<Object> objects(protocol.objects.size());
-    Object& object = objects[static_cast<std::size_t>(index)];
+    Object& object = objects[static_cast<std::size_t>(stimulus.object)];
     object = load_object(settings, protocol, cache_folder());
     if (!object.has_mesh()) {
         throw InputError(
@@ -149,30 +152,33 @@ int run_lut(const LutOptions& options) {
 
     const auto context = make_headless_context(options.context);
     StimulusLibrary library(*context, protocol, objects, cache_folder());
-    const auto frames = frames_by_pose(protocol.animation, library.cache().poses(), options.frame);
-    const MapFiles files(options, object.id);
+    const auto frames = frames_by_pose(protocol.motion_of(stimulus),
+                                       library.cache().poses().frames_of(stimulus.motion), options.frame);
+    const SceneView& scene = object.scenes[static_cast<std::size_t>(stimulus.view)];
+    const MapFiles files(options, viewed_name(protocol, viewed(stimulus), '_'));
     // A check alone leaves nothing behind.
     const bool writes = !options.check || !options.out.empty();
     if (writes && !options.overwrite)
         files.refuse_to_overwrite(frames);
 
     ProgressBar bar;
-    const CoordinateMaps maps = draw_maps(library, object, index, frames, bar);
+    const CoordinateMaps maps = draw_maps(library, object, viewed(stimulus), frames, bar);
     std::optional<RayCaster> rays;
     if (options.check)
         rays.emplace(object.mesh);
     std::optional<MapCheck> check;
     std::vector<std::string> written;
-    MapDescription description = description_of(object, unit_of_lengths(settings), options.scale);
+    MapDescription description =
+        description_of(object, stimulus.view, unit_of_lengths(settings), options.scale);
     std::future<void> writing; // one map is compressed and written while the next is worked out
     int drawn = 0;
     for (const auto& [pose, numbers] : frames) {
         bar.update(fmt::format("{} {}", writes ? "writing maps of" : "checking", object.id), drawn,
                    static_cast<int>(frames.size()));
         description.angle = library.cache().poses().angles[static_cast<std::size_t>(pose.value)];
-        CoordinateImage image = coordinate_image(maps, {drawn++}, object.scene.view.image_px);
+        CoordinateImage image = coordinate_image(maps, {drawn++}, scene.view.image_px);
         if (rays) {
-            const MapCheck one = check_map(image, *rays, object.scene, *description.angle, options.scale);
+            const MapCheck one = check_map(image, *rays, scene, *description.angle, options.scale);
             check = check ? worst_of(*check, one) : one;
         }
         if (!writes)
@@ -192,8 +198,7 @@ int run_lut(const LutOptions& options) {
         writing.get();
     bar.update(fmt::format("{} {}", writes ? "writing maps of" : "checking", object.id), drawn, drawn);
     bar.finish();
-    const BenchFigures figures =
-        check ? figures_of(*check, object.scene.view.image_px, object.id) : BenchFigures{};
+    const BenchFigures figures = check ? figures_of(*check, scene.view.image_px, object.id) : BenchFigures{};
     print_outcome(options, written, figures, files.folder());
     return all_hold(figures) ? 0 : 1;
 }

@@ -9,7 +9,7 @@
 #include "app/stimuli/picture_window.h"
 #include "app/stimuli/stimulus_commands.h"
 #include "experiment/base/error.h"
-#include "experiment/scene/mesh_reader.h"
+#include "experiment/scene/files/mesh_reader.h"
 #include "experiment/scene/ray_caster.h"
 #include "render/gl/headless_context.h"
 #include "render/stimulus/live_view.h"
@@ -37,7 +37,7 @@ Protocol plain_protocol(const PickHeadOptions& options) {
     material.kind = MaterialKind::diffuse;
     protocol.materials = {material};
     protocol.display.background = 0.1;
-    protocol.view.width_px = protocol.view.height_px = 900;
+    protocol.views.front().width_px = protocol.views.front().height_px = 900;
     return protocol;
 }
 
@@ -64,7 +64,7 @@ class HeadView {
   public:
     HeadView(const GlContext& context, const Protocol& protocol, const Object& object, glm::ivec2 image_px)
         : object_(&object), caster_(object.mesh), view_(context, protocol, {&object, 1}, image_px),
-          scene_(object.scene) {
+          scene_(object.scene()) {
         scene_.view.image_px = image_px;
         view_.choose({0, 0});
     }
@@ -223,14 +223,14 @@ int run_pick_head(const PickHeadOptions& options) {
     const glm::dmat3 object_from_file = z_up_from_file(up_axis_named(options.up));
     const double scale = mm_of_unit(settings.unit);
     const bool is_given = !given.spheres.empty() || !given.half_spaces.empty();
-    const double height = object.scene.bounds.max.z - object.scene.bounds.min.z;
+    const double height = object.scene().bounds.max.z - object.scene().bounds.min.z;
     HeadOutline outline(0.1 * height,
                         is_given ? std::optional(transformed(given, object_from_file, scale, -object.origin))
                                  : std::nullopt);
     double share = 0.0;
     if (in_window) {
         OpenDisplay window({.context = ContextKind::window,
-                            .size_px = picture_window_size(protocol.view),
+                            .size_px = picture_window_size(protocol.views.front()),
                             .title = "overt pick-head",
                             .windowed = true});
         HeadView view(window.context(), protocol, object, window.window()->framebuffer_px());
@@ -243,7 +243,8 @@ int run_pick_head(const PickHeadOptions& options) {
     } else {
         const auto context =
             make_headless_context(options.context == ContextKind::window ? std::nullopt : options.context);
-        HeadView view(*context, protocol, object, {protocol.view.width_px, protocol.view.height_px});
+        HeadView view(*context, protocol, object,
+                      {protocol.views.front().width_px, protocol.views.front().height_px});
         share = view.take(outline.region());
         Orbit orbit;
         orbit.turn_deg = options.turn_deg;

@@ -45,14 +45,15 @@ void play_in_window(OpenDisplay& window, StimulusLibrary& library, const Stimulu
     PagePresenter presenter(window.context(), window.surface(), library, screen_geometry_of(protocol),
                             display, protocol.screens);
     presenter.load_frames(stimulus);
-    const double frame_s = 1.0 / protocol.animation.frame_rate_hz;
+    const Animation& motion = protocol.motion_of(stimulus);
+    const double frame_s = 1.0 / motion.frame_rate_hz;
     const SessionTime begin = window.clock().now();
     WindowKeyPress press{};
     while (!presenter.closed() && !window.window()->next_key_press(press)) {
         const double elapsed_s = to_seconds(window.clock().now() - begin);
         if (elapsed_s >= duration_s)
             break;
-        presenter.flip(protocol.animation.frame_at_step(static_cast<int>(elapsed_s / frame_s)));
+        presenter.flip(motion.frame_at_step(static_cast<int>(elapsed_s / frame_s)));
     }
 }
 
@@ -64,9 +65,10 @@ int run_play(const PlayOptions& options) {
     const Protocol& protocol = experiment.protocol;
     const std::vector<Object>& objects = experiment.objects;
     const Stimulus stimulus = stimulus_called(protocol, options.stimulus);
-    if (options.frame.value_or(0) >= protocol.animation.frame_count) {
-        throw InputError(fmt::format("--frame {}: the animation has frames 0 to {}", *options.frame,
-                                     protocol.animation.frame_count - 1));
+    const int frame_count = protocol.motion_of(stimulus).frame_count;
+    if (options.frame.value_or(0) >= frame_count) {
+        throw InputError(
+            fmt::format("--frame {}: the animation has frames 0 to {}", *options.frame, frame_count - 1));
     }
     const bool in_window = options.picture.empty();
     if (options.live)

@@ -9,6 +9,7 @@
 #include "app/stimuli/stimulus_commands.h"
 #include "experiment/maps/coordinate_image_lookup.h"
 #include "experiment/maps/reconstruction_file.h"
+#include "experiment/protocol/all_stimuli.h"
 #include "render/gl/headless_context.h"
 #include "render/stimulus/given_maps.h"
 #include "render/stimulus/stimulus_library.h"
@@ -17,10 +18,10 @@ namespace overt {
 
 namespace {
 
-void refuse(const ReconstructOptions& options, const Protocol& protocol) {
-    if (options.frame && *options.frame >= protocol.animation.frame_count) {
+void refuse(const ReconstructOptions& options, const Animation& motion) {
+    if (options.frame && *options.frame >= motion.frame_count) {
         throw InputError(fmt::format("--frame {}: the animation has frames 0 to {}", *options.frame,
-                                     protocol.animation.frame_count - 1));
+                                     motion.frame_count - 1));
     }
     const auto extension = options.out.extension();
     if (extension != ".ply" && extension != ".obj")
@@ -31,22 +32,24 @@ void refuse(const ReconstructOptions& options, const Protocol& protocol) {
     }
 }
 
-/// An object's maps in all poses, be they drawn from its mesh or made by another program.
+/// An object's maps in a view and all poses, be they drawn from its mesh or made by another program.
 class StimulusMaps {
   public:
-    StimulusMaps(const Protocol& protocol, int index, const ContextChoice& context, ProgressBar& bar)
-        : poses_(distinct_poses(protocol.animation)), objects_(protocol.objects.size()) {
-        const auto place = static_cast<std::size_t>(index);
+    StimulusMaps(const Protocol& protocol, const Stimulus& stimulus, const ContextChoice& context,
+                 ProgressBar& bar)
+        : poses_(poses_of(protocol)), objects_(protocol.objects.size()) {
+        const auto place = static_cast<std::size_t>(stimulus.object);
+        const ViewSettings& view = protocol.view_of(stimulus);
         const ObjectSettings& settings = protocol.objects[place];
         objects_[place] = load_object(settings, protocol, cache_folder());
         const Object& object = objects_[place];
         part_names_ = object.mesh.part_names;
-        size_px_ = {protocol.view.width_px, protocol.view.height_px};
+        size_px_ = {view.width_px, view.height_px};
         if (object.has_mesh()) {
             const auto headless = make_headless_context(context);
             StimulusLibrary library(*headless, protocol, objects_, cache_folder());
-            library.maps().prepare_maps(index, std::ref(bar));
-            maps_.emplace(library.cache().maps_of(index));
+            library.maps().prepare_maps(viewed(stimulus), std::ref(bar));
+            maps_.emplace(library.cache().maps_of(viewed(stimulus)));
             return;
         }
         if (settings.lut.empty())
@@ -57,7 +60,7 @@ class StimulusMaps {
             bar.update("reading maps of " + object.id, static_cast<int>(pose),
                        static_cast<int>(poses_.angles.size()));
             images.push_back(
-                read_given_map(protocol, index, first_frame_of(poses_, {static_cast<int>(pose)})));
+                read_given_map(protocol, stimulus.object, first_frame_of(poses_, {static_cast<int>(pose)})));
         }
         images_.emplace(std::move(images), size_px_);
     }
@@ -80,14 +83,16 @@ class StimulusMaps {
     std::optional<CoordinateImageLookup> images_;
 };
 
-Reconstruction reconstruct(const ReconstructOptions& options, const StimulusMaps& maps, ProgressBar& bar) {
+Reconstruction reconstruct(const ReconstructOptions& options, int motion, const StimulusMaps& maps,
+                           ProgressBar& bar) {
     if (options.frame && !options.points)
-        return reconstruct_surface(maps.lookup(), maps.poses().pose_of({*options.frame}), maps.size_px());
+        return reconstruct_surface(maps.lookup(), maps.poses().pose_of(motion, {*options.frame}),
+                                   maps.size_px());
     std::vector<PoseIndex> poses;
     if (options.frame) {
-        poses.push_back(maps.poses().pose_of({*options.frame}));
+        poses.push_back(maps.poses().pose_of(motion, {*options.frame}));
     } else {
-        for (int pose = 0; pose < static_cast<int>(maps.poses().angles.size()); ++pose)
+        for (int pose = 0; pose < maps.poses().count(); ++pose)
             poses.push_back({pose});
     }
     return reconstruct_cloud(maps.lookup(), poses, maps.size_px(), options.spacing,
@@ -98,11 +103,11 @@ Reconstruction reconstruct(const ReconstructOptions& options, const StimulusMaps
 
 int run_reconstruct(const ReconstructOptions& options) {
     const Protocol protocol = read_protocol_or_report(options.protocol);
-    const int index = object_called(protocol, options.stimulus);
-    refuse(options, protocol);
+    const Stimulus stimulus = object_called(protocol, options.stimulus);
+    refuse(options, protocol.motion_of(stimulus));
     ProgressBar bar;
-    const StimulusMaps maps(protocol, index, options.context, bar);
-    const Reconstruction made = reconstruct(options, maps, bar);
+    const StimulusMaps maps(protocol, stimulus, options.context, bar);
+    const Reconstruction made = reconstruct(options, stimulus.motion, maps, bar);
     if (made.positions.empty())
         throw InputError("the maps show nothing of the object");
     bar.update("writing " + options.out.filename().string(), 0, 1);

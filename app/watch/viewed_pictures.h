@@ -10,7 +10,7 @@
 
 namespace overt {
 
-/// Reads the file of a stimulus once, when its first pose is asked for.
+/// Reads the file of a stimulus once, when its first picture is asked for.
 class ViewedPictures {
   public:
     /// The picture that the view's frame has; without squares where there is none, or none that can be read.
@@ -19,7 +19,7 @@ class ViewedPictures {
   private:
     std::string file_;
     std::optional<LightPictures> light_;
-    int pose_ = -1;
+    int number_ = -1;
     ViewedPicture picture_;
 };
 

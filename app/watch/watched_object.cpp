@@ -7,7 +7,7 @@
 #include "experiment/base/error.h"
 #include "experiment/maps/sight_lines.h"
 #include "experiment/record/read/session_record.h"
-#include "experiment/scene/mesh_reader.h"
+#include "experiment/scene/files/mesh_reader.h"
 
 namespace overt {
 
@@ -20,11 +20,13 @@ struct Recorded {
     Mesh mesh;
 };
 
-Recorded read_object(const std::filesystem::path& session, const std::string& id) {
+Recorded read_object(const std::filesystem::path& session, const std::string& id, std::size_t view) {
     const SessionRecord record(session);
     const SessionHeader& header = record.header();
     const auto found = std::ranges::find(header.objects, id, &RecordedObject::id);
-    if (found == header.objects.end() || found->mesh_file.empty() || found->camera.vertical_fov.value <= 0.0)
+    if (found == header.objects.end() || found->mesh_file.empty() ||
+        view >= found->cameras.size() ||
+        found->cameras[view].vertical_fov.value <= 0.0)
         throw InputError(fmt::format("{}: has no mesh in {}", id, session.string()));
     MeshCleaningReport unused;
     return {*found, header.display.screen, header.poses.angles,
@@ -33,13 +35,13 @@ Recorded read_object(const std::filesystem::path& session, const std::string& id
 
 } // namespace
 
-WatchedObject::WatchedObject(const std::filesystem::path& session, const std::string& id)
-    : id_(id), rays_([&] {
-          Recorded recorded = read_object(session, id);
+WatchedObject::WatchedObject(const std::filesystem::path& session, const std::string& id, int view)
+    : id_(id), view_(view), rays_([&] {
+          Recorded recorded = read_object(session, id, static_cast<std::size_t>(view));
           unit_ = recorded.object.unit;
           mesh_ = std::move(recorded.mesh);
           screen_ = recorded.screen;
-          scene_ = {{recorded.object.camera, screen_.image_px}, mesh_.bounds()};
+          scene_ = {{recorded.object.camera(view), screen_.image_px}, mesh_.bounds()};
           angles_ = std::move(recorded.angles);
           return RayCaster(mesh_);
       }()) {}

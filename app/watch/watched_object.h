@@ -17,11 +17,12 @@ namespace overt {
 /// May be read from any thread once it is made.
 class WatchedObject {
   public:
-    /// From the session's folder, also while the session runs. Throws InputError for an object without a
+    /// As it is seen in a view, by its index. From the session's folder, also while the session runs. Throws InputError for an object without a
     /// mesh or of an unknown camera, and RecordError for what cannot be read.
-    WatchedObject(const std::filesystem::path& session, const std::string& id);
+    WatchedObject(const std::filesystem::path& session, const std::string& id, int view = 0);
 
     const std::string& id() const { return id_; }
+    int view() const { return view_; }
     const Mesh& mesh() const { return mesh_; }
     const SceneView& scene() const { return scene_; }
     const RayCaster& rays() const { return rays_; }
@@ -40,6 +41,7 @@ class WatchedObject {
 
   private:
     std::string id_, unit_;
+    int view_ = 0;
     Mesh mesh_;
     ScreenGeometry screen_;
     SceneView scene_;

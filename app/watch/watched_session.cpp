@@ -29,18 +29,18 @@ ViewedPicture grey_of(const ViewedCamera& camera) {
 
 /// A view without a surface is still a view: what cannot be read is left out.
 void WatchedSession::read_object() {
-    const std::string& now = client_.view().object;
+    const SeenObject now{client_.view().object, client_.view().seen_in};
     if (reading_.valid() && reading_.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
         object_ = reading_.get();
-    if (now == wanted_ || now.empty() || reading_.valid())
+    if (now == wanted_ || now.id.empty() || reading_.valid())
         return;
     wanted_ = now;
     object_.reset();
     reading_ = std::async(std::launch::async,
                           [folder = std::filesystem::path(client_.facts().folder),
-                           id = now]() -> std::shared_ptr<const WatchedObject> {
+                           object = now]() -> std::shared_ptr<const WatchedObject> {
                               try {
-                                  return std::make_shared<const WatchedObject>(folder, id);
+                                  return std::make_shared<const WatchedObject>(folder, object.id, object.view);
                               } catch (const Error&) {
                                   return nullptr;
                               }
@@ -56,13 +56,15 @@ bool WatchedSession::read(std::chrono::milliseconds wait) {
     while (events_.size() > most_kept_events)
         events_.pop_front();
     new_gaze_.clear();
-    const bool is_known = object_ && object_->id() == client_.view().object;
+    const bool is_known = object_ && object_->id() == client_.view().object &&
+                          object_->view() == client_.view().seen_in;
     for (const ViewedGaze& one : client_.take_gaze()) {
         gaze_.push_back(one);
         new_gaze_.push_back({one, is_known && one.place && one.trial == client_.view().trial
                                       ? object_->met_at(*one.place, one.pose)
                                       : std::nullopt});
         last_gaze_ = new_gaze_.back();
+        tally(*last_gaze_);
     }
     // Gaze is told while a trial is recorded; afterwards it is old.
     if (client_.view().pose < 0) {
@@ -80,6 +82,24 @@ bool WatchedSession::read(std::chrono::milliseconds wait) {
     if (camera_ && now - camera_came_ > camera_lasts)
         camera_.reset();
     return goes_on;
+}
+
+void WatchedSession::tally(const GazeOnSurface& gaze) {
+    has_right_ = has_right_ || gaze.gaze.is_right;
+    if (!gaze.hit || gaze.gaze.is_right != has_right_)
+        return;
+    const Mesh& mesh = object_->mesh();
+    const auto at = tallies_.try_emplace(object_->id(), std::span<const std::string>(mesh.part_names)).first;
+    at->second.add(gaze.gaze.trial, mesh.triangle_parts[gaze.hit->triangle], 1.0); // points come evenly
+}
+
+std::string WatchedSession::areas_text() const {
+    const auto found = object_ ? tallies_.find(object_->id()) : tallies_.end();
+    if (found == tallies_.end())
+        return {};
+    const std::string session = words_of(found->second.shares(false)),
+                      trial = words_of(found->second.shares(true));
+    return session.empty() ? session : fmt::format("{}; this trial {}", session, trial);
 }
 
 std::string WatchedSession::surface_text() const {
@@ -100,6 +120,7 @@ ViewText WatchedSession::text() {
             camera_ ? camera_picture_ : pictures_.of(client_.facts(), client_.view()),
             client_.silence() > long_silence,
             surface_text(),
+            areas_text(),
             camera_.has_value()};
 }
 

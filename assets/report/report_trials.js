@@ -16,11 +16,12 @@ function draw_time() {
   const time = Number(by_id('time').value), keep = by_id('all_fixations').checked;
   by_id('time_text').textContent = time.toFixed(2) + ' s';
   const circles = [];
-  trial.fixations.forEach(([onset, duration, x, y, position, counted], i) => {
+  trial.fixations.forEach((fixation, i) => {
+    const [onset, duration, x, y, position] = fixation, counted = counts(fixation);
     const now = time >= onset && time < onset + duration;
     if (onset <= time && (keep || now)) circles.push({position, place: [x, y], number: i + 1, radius: 30 * Math.sqrt(Math.max(0.02, duration)), now, counted});
   });
-  view.draw(angle_at(time), circles);
+  view.draw(angle_at(time), circles, (trial.areas === undefined ? [] : data.area_sets[trial.areas]).filter(a => time >= a.from && (a.until === null || time < a.until)));
   if (marker_line) for (const name of ['x1', 'x2']) marker_line.setAttribute(name, frame_of_trace.px(time));
 }
 view.redraw = () => { if (trial) draw_time(); };
@@ -113,7 +114,7 @@ function load_trial() {
   by_id('time').value = trial.seconds || 8;
   const q = trial.quality;
   by_id('trial_caption').replaceChildren(element('b', {}, `${trial.label}: ${words(trial.keys.filter(k => data.by.includes(k[0])))}.`),
-      (trial.excluded ? ' Excluded: ' + trial.excluded : '') + ' Circles turn with the surface; their area is the duration; dashed ones are not counted.');
+      (trial.excluded ? ' Excluded: ' + trial.excluded : '') + (data.objects[trial.object].mesh ? ' Circles turn with the surface; their' : ' Circles are fixations on the screen; their') + ' area is the duration; dashed ones are not counted.' + (trial.areas === undefined ? '' : ' Dashed outlines are areas of the screen.'));
   const facts = [['accuracy of the validation / deg', digits(q.accuracy)], ['error at the drift check / deg', digits(q.drift)], ['RMS-S2S / deg', digits(q.rms)],
        ['SD / deg', digits(q.sd)], ['samples lost without blinks', percent(q.lost)], ['lost in blinks', percent(q.blinked)], ['rate / Hz', digits(q.rate, 5)],
        ['refreshes, missed', `${q.refreshes}, ${q.missed}`], ['fixations', trial.fixations.length]];

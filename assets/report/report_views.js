@@ -174,6 +174,11 @@ class TrialView {
     this.mesh = null;
     this.object = object;
     const geometry = geometry_of(object, index);
+    // Without an object the whole screen is shown, in its own shape.
+    this.shown = geometry ? {origin: object.origin, size: object.image} : {origin: [0, 0], size: object.screen};
+    this.height = geometry ? 1000 : 1000 * object.screen[1] / object.screen[0];
+    this.overlay.setAttribute('viewBox', `0 0 1000 ${this.height}`);
+    this.stage.style.aspectRatio = geometry ? '' : `${object.screen[0]} / ${object.screen[1]}`;
     if (!geometry) return;
     this.mesh = new THREE.Mesh(geometry, new THREE.MeshLambertMaterial({color: 0xc9b48a, side: THREE.DoubleSide}));
     this.mesh.matrixAutoUpdate = false;
@@ -188,8 +193,25 @@ class TrialView {
     this.camera.lookAt(new THREE.Vector3(...object.target));
   }
 
-  // Draws the object at an angle and circles: {position or place, number, radius, now, counted}.
-  draw(angle_deg, circles) {
+  on_stage([x, y]) {
+    const {origin, size} = this.shown;
+    return [(x - origin[0]) / size[0] * 1000, (y - origin[1]) / size[1] * this.height];
+  }
+
+  // Outlines of areas of the screen, each {name, shape, points}.
+  draw_areas(areas) {
+    for (const {name, shape: kind, points} of areas) {
+      const corners = points.map(point => this.on_stage(point)), style = {fill: 'none', stroke: 'var(--mark)', 'stroke-width': 2, 'stroke-dasharray': '8 5'};
+      const [[left, top], [right, bottom]] = [0, 1].map(end => [0, 1].map(axis => (end ? Math.max : Math.min)(...corners.map(corner => corner[axis]))));
+      this.overlay.append(kind === 'ellipse' ? shape('ellipse', {cx: (left + right) / 2, cy: (top + bottom) / 2, rx: (right - left) / 2, ry: (bottom - top) / 2, ...style})
+          : kind === 'polygon' ? shape('polygon', {points: corners.map(c => c.join(',')).join(' '), ...style})
+          : shape('rect', {x: left, y: top, width: right - left, height: bottom - top, ...style}),
+          shape('text', {x: (left + right) / 2, y: Math.max(18, top + 18), 'text-anchor': 'middle'}, name));
+    }
+  }
+
+  // Draws the object at an angle, areas of the screen, and circles: {position or place, number, radius, now, counted}.
+  draw(angle_deg, circles, areas = []) {
     while (this.overlay.firstChild) this.overlay.firstChild.remove();
     if (this.renderer) fit(this.renderer, this.camera, this.stage);
     let turned = null;
@@ -202,13 +224,13 @@ class TrialView {
       this.mesh.matrixWorldNeedsUpdate = true;
     }
     if (this.renderer) this.renderer.render(this.scene, this.camera);
+    this.draw_areas(areas);
     const places = circles.map(circle => {
       if (circle.position && turned) {
         const p = new THREE.Vector3(...circle.position).applyMatrix4(turned).project(this.camera);
         return [500 * (p.x + 1), 500 * (1 - p.y)];
       }
-      const s = this.object;
-      return [(circle.place[0] - s.origin[0]) / s.image[0] * 1000, (circle.place[1] - s.origin[1]) / s.image[1] * 1000];
+      return this.on_stage(circle.place);
     });
     for (let i = 1; i < places.length; ++i)
       this.overlay.append(shape('line', {x1: places[i - 1][0], y1: places[i - 1][1], x2: places[i][0], y2: places[i][1],

@@ -24,12 +24,13 @@ void WatchedLog::tell(ViewNews news) const noexcept {
 
 void WatchedLog::flip(const FlipRecord& flip) noexcept {
     record_.flip(flip);
-    if (flip.pose.value == told_pose_)
+    if (flip.shown.value == told_frame_)
         return;
-    told_pose_ = flip.pose.value;
+    told_frame_ = flip.shown.value;
     tell({.kind = ViewNews::Kind::flip,
           .trial = flip.trial,
           .pose = flip.pose.value,
+          .frame = flip.shown.value,
           .refresh = flip.refresh_in_trial,
           .at = flip.report.vertical_blank});
 }
@@ -77,7 +78,7 @@ void WatchedLog::calibration(const RecordedCalibration& calibration) {
 void WatchedLog::trial_started(const Trial& trial, SessionTime at) {
     record_.trial_started(trial, at);
     samples_in_trial_ = lost_in_trial_ = missed_in_trial_ = 0;
-    told_pose_ = -1;
+    told_frame_ = -1;
     tell({.kind = ViewNews::Kind::trial_started, .trial = trial.index, .at = at});
 }
 

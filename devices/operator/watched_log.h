@@ -21,6 +21,7 @@ class WatchedLog final : public SessionLog {
         : record_(record), server_(server), panel_(panel), clock_(clock), gaze_(gaze) {}
 
     void flip(const FlipRecord& flip) noexcept override;
+    void slot_flip(const SlotFlip& flip) noexcept override { record_.slot_flip(flip); }
     void missed(const MissedRefresh& refresh) noexcept override;
     void sample(int trial, const GazeSample& sample) noexcept override;
     void tracker_item(int trial, const TrackerItem& item) noexcept override {
@@ -57,7 +58,7 @@ class WatchedLog final : public SessionLog {
     std::int64_t missed_ = 0, missed_in_trial_ = 0;
     SampleListener* gaze_;
     std::optional<TrackerTime> told_samples_;
-    int told_pose_ = -1;
+    int told_frame_ = -1;
     std::optional<SessionTime> told_level_;
 };
 

@@ -26,35 +26,35 @@ constexpr double image_spread = 0.15;
 /// Composes one script: what the steps below share.
 struct Composer {
     const ObservedScene& scene;
-    const GazeTargets* targets;
-    const PursuedTurn& turn;
+    std::span<const ObservedPresentation> shown;
     const ObserverSettings& settings;
-    const GazePlan& plan;
     RandomStream random;
+    RandomStream which; ///< of the things shown
 
     ScreenPoint place(const ScriptedFixation& fixation, SessionDuration since_onset) const {
-        return place_of(fixation, since_onset, scene, targets, turn);
+        return place_of(fixation, since_onset, shown);
     }
 
-    /// Where and when a fixation ends: what all targets that may follow it have in common.
+    /// Where and when a fixation ends: what all targets on one thing that may follow it have in common.
     struct Departure {
         SessionDuration at{};
         ScreenPoint place;
         glm::dmat4 world_from_object{1.0}; ///< then, in the middle of the screen
     };
-    Departure departure_of(const ScriptedFixation& before) const {
+    Departure departure_of(const ScriptedFixation& before, const ObservedPresentation& on) const {
         Departure departure{before.end, place(before, before.end)};
-        if (targets)
-            departure.world_from_object = targets->world_from_object(
-                turn.angle_at(before.end - scene.light_delay(scene.screen.centre().y_px)));
+        if (on.targets)
+            departure.world_from_object = on.targets->world_from_object(
+                on.turn->angle_at(before.end - scene.light_delay(scene.screen.centre().y_px)));
         return departure;
     }
 
     /// Sets the begin after a saccade from there, and the end. Gives the saccade's size.
     Degrees follow(const Departure& before, ScriptedFixation& next, double duration_s) const {
         if (next.target) {
-            const glm::dvec2 image = targets->project(next.target->position, before.world_from_object);
-            next.light_delay = scene.light_delay(scene.screen.screen_from_image(image).y_px);
+            const ObservedPresentation& on = shown[next.shown];
+            const glm::dvec2 image = on.targets->project(next.target->position, before.world_from_object);
+            next.light_delay = scene.light_delay(on.screen.screen_from_image(image).y_px);
         }
         const Degrees amplitude = scene.screen.angle_between(before.place, place(next, before.at));
         next.begin = before.at + saccade_duration(amplitude);
@@ -63,9 +63,10 @@ struct Composer {
     }
 
     bool stays_visible(const ScriptedFixation& fixation, SessionDuration from) const {
-        const int last = turn.step_at(fixation.end - fixation.light_delay);
-        for (int step = turn.step_at(from - fixation.light_delay); step <= last; ++step) {
-            if (!targets->is_visible(*fixation.target, step))
+        const ObservedPresentation& on = shown[fixation.shown];
+        const int last = on.turn->step_at(fixation.end - fixation.light_delay);
+        for (int step = on.turn->step_at(from - fixation.light_delay); step <= last; ++step) {
+            if (!on.targets->is_visible(*fixation.target, on.turn->motion(), step))
                 return false;
         }
         return true;
@@ -95,13 +96,14 @@ struct Composer {
         return true;
     }
 
-    bool find_target(const Departure& before, ScriptedFixation& next, double duration_s, Region region) {
+    bool find_target(const Departure& before, ScriptedFixation& next, double duration_s, std::size_t region) {
+        const auto& [targets, screen, plan, turn] = shown[next.shown];
         return find_target(before, next, duration_s,
                            [&] { return targets->draw(random, region, plan.spread); });
     }
 
     /// The effect to whose spot a fixation goes; -1: to none.
-    int choose_spot() {
+    int choose_spot(const GazePlan& plan) {
         if (plan.spot_count == 0)
             return -1;
         double chance = random.uniform();
@@ -114,29 +116,49 @@ struct Composer {
         return -1;
     }
 
+    /// An area of the scene, or elsewhere.
+    std::size_t choose_region(const GazePlan& plan) {
+        double chance = random.uniform();
+        std::size_t area = 0;
+        for (; area < plan.area_count && chance >= plan.shares[area]; ++area)
+            chance -= plan.shares[area];
+        return area;
+    }
+
+    bool find_in_another(const Departure& before, ScriptedFixation& next, double duration_s,
+                         std::size_t region) {
+        for (std::size_t other = shown[next.shown].targets->elsewhere() + 1; other-- > 0;) {
+            if (other != region && find_target(before, next, duration_s, other))
+                return true;
+        }
+        return false;
+    }
+
     ScriptedFixation next_fixation(const ScriptedFixation& last) {
-        const Departure before = departure_of(last);
+        ScriptedFixation next;
+        if (shown.size() > 1)
+            next.shown = which.below(static_cast<std::uint32_t>(shown.size()));
+        const auto& [targets, screen, plan, turn] = shown[next.shown];
+        const Departure before = departure_of(last, shown[next.shown]);
         const double duration_s =
             log_normal_within(random, settings.fixation_median_s, settings.fixation_log_sd,
                               settings.shortest_fixation_s, settings.longest_fixation_s);
-        const int spot = choose_spot();
-        const Region region = random.uniform() < plan.head_share ? Region::head : Region::elsewhere;
-        const Region other = region == Region::head ? Region::elsewhere : Region::head;
-        ScriptedFixation next;
+        const int spot = choose_spot(plan);
+        const std::size_t region = choose_region(plan);
         if (targets) {
-            const bool found_spot = spot >= 0 && find_target(before, next, duration_s, [&] {
-                                        return targets->draw_from_spot(random, spot);
+            const bool found_spot = spot >= 0 && find_target(before, next, duration_s, [&, on = targets] {
+                                        return on->draw_from_spot(random, spot);
                                     });
             if (found_spot || find_target(before, next, duration_s, region) ||
-                find_target(before, next, duration_s, other))
+                find_in_another(before, next, duration_s, region))
                 return next;
             next.target.reset();
             next.place = scene.screen.centre();
         } else {
-            const glm::dvec2 size(scene.screen.image_px);
+            const glm::dvec2 size(screen.image_px);
             const glm::dvec2 image(size.x * (0.5 + image_spread * random.normal()),
                                    size.y * (0.5 + image_spread * random.normal()));
-            next.place = scene.screen.screen_from_image(glm::clamp(image, glm::dvec2(0.0), size - 1.0));
+            next.place = screen.screen_from_image(glm::clamp(image, glm::dvec2(0.0), size - 1.0));
         }
         follow(before, next, duration_s);
         return next;
@@ -145,11 +167,20 @@ struct Composer {
 
 } // namespace
 
-PursuedTurn::PursuedTurn(const ObservedScene& scene)
-    : frame_period_(scene.frame_period()), steps_(scene.animation.shown_frame_count()) {
+PursuedTurn::PursuedTurn(const ObservedScene& scene, int motion)
+    : frame_period_(scene.frame_period(motion)), steps_(scene.animation_of(motion).shown_frame_count()),
+      motion_(motion) {
     OVERT_EXPECTS(steps_ > 0);
-    for (int step = 0; step < scene.animation.steps_per_period(); ++step)
-        angles_.push_back(scene.animation.angle_of(scene.animation.frame_at_step(step)));
+    const Animation& animation = scene.animation_of(motion);
+    for (int step = 0; step < animation.steps_per_period(); ++step)
+        angles_.push_back(animation.angle_of(animation.frame_at_step(step)));
+}
+
+std::vector<PursuedTurn> turns_of(const ObservedScene& scene) {
+    std::vector<PursuedTurn> turns;
+    for (int motion = 0; motion < static_cast<int>(scene.animations.size()); ++motion)
+        turns.emplace_back(scene, motion);
+    return turns;
 }
 
 Degrees PursuedTurn::angle_at(SessionDuration since_lit) const noexcept {
@@ -167,17 +198,17 @@ int PursuedTurn::step_at(SessionDuration since_lit) const noexcept {
 }
 
 GazeScript::GazeScript(const ObservedScene& scene, const ObserverSettings& settings)
-    : horizon_(from_seconds(scene.animation.duration_s) + afterwards) {
+    : horizon_(from_seconds(scene.longest_s()) + afterwards) {
     const double shortest_s =
         settings.shortest_fixation_s + to_seconds(saccade_duration(Degrees{0.0})) + 1e-3;
     fixations_.reserve(static_cast<std::size_t>(to_seconds(horizon_) / shortest_s) + 2);
 }
 
-void GazeScript::compose(const ObservedScene& scene, const GazeTargets* targets, const PursuedTurn& turn,
-                         const ObserverSettings& settings, std::uint64_t seed, int trial,
-                         const GazePlan& plan) noexcept {
-    Composer composer{scene,    targets, turn,
-                      settings, plan,    RandomStream(seed, "scanpath", static_cast<std::uint64_t>(trial))};
+void GazeScript::compose(const ObservedScene& scene, std::span<const ObservedPresentation> shown,
+                         const ObserverSettings& settings, std::uint64_t seed, int trial) noexcept {
+    const auto number = static_cast<std::uint64_t>(trial);
+    Composer composer{scene, shown, settings, RandomStream(seed, "scanpath", number),
+                      RandomStream(seed, "slot of fixation", number)};
     fixations_.clear();
     ScriptedFixation first;
     first.place = scene.screen.centre();
@@ -195,13 +226,20 @@ std::size_t GazeScript::fixation_at(SessionDuration since_onset) const noexcept 
 }
 
 ScreenPoint place_of(const ScriptedFixation& fixation, SessionDuration since_onset,
-                     const ObservedScene& scene, const GazeTargets* targets,
-                     const PursuedTurn& turn) noexcept {
+                     std::span<const ObservedPresentation> shown) noexcept {
     if (!fixation.target)
         return fixation.place;
-    const Degrees angle = turn.angle_at(since_onset - fixation.light_delay);
-    return scene.screen.screen_from_image(
-        targets->project(fixation.target->position, targets->world_from_object(angle)));
+    const ObservedPresentation& on = shown[fixation.shown];
+    const Degrees angle = on.turn->angle_at(since_onset - fixation.light_delay);
+    return on.screen.screen_from_image(
+        on.targets->project(fixation.target->position, on.targets->world_from_object(angle)));
+}
+
+ScreenPoint place_of(const ScriptedFixation& fixation, SessionDuration since_onset,
+                     const ObservedScene& scene, const GazeTargets* targets,
+                     const PursuedTurn& turn) noexcept {
+    const ObservedPresentation only{targets, scene.screen, {}, &turn};
+    return place_of(fixation, since_onset, {&only, 1});
 }
 
 } // namespace overt

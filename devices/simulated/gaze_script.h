@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "devices/simulated/gaze_plan.h"
@@ -32,7 +33,9 @@ struct ObserverSettings {
 /// eye is at most half a step from what is lit.
 class PursuedTurn {
   public:
-    explicit PursuedTurn(const ObservedScene& scene);
+    explicit PursuedTurn(const ObservedScene& scene, int motion = 0);
+
+    int motion() const noexcept { return motion_; }
 
     /// `since_lit` counts from the instant at which the first frame's light reached the place looked at.
     Degrees angle_at(SessionDuration since_lit) const noexcept;
@@ -47,7 +50,11 @@ class PursuedTurn {
     std::vector<Degrees> angles_; ///< of one period
     SessionDuration frame_period_;
     int steps_ = 0; ///< shown in one presentation
+    int motion_ = 0;
 };
+
+/// Of all motions of a scene.
+std::vector<PursuedTurn> turns_of(const ObservedScene& scene);
 
 /// A stretch of time during which the eye stays with one place. Times count from the presentation's onset.
 struct ScriptedFixation {
@@ -55,6 +62,15 @@ struct ScriptedFixation {
     std::optional<SurfacePoint> target; ///< what is pursued; nothing: `place` on the screen is looked at
     ScreenPoint place;
     SessionDuration light_delay{}; ///< from vertical blank to the light of the row looked at
+    std::size_t shown = 0;         ///< what of the things shown the target is on
+};
+
+/// One of the things that a trial shows: what there is to look at, where, and how.
+struct ObservedPresentation {
+    const GazeTargets* targets = nullptr; ///< nullptr for an object without a mesh
+    ScreenGeometry screen;                ///< with the image where it is shown
+    GazePlan plan;
+    const PursuedTurn* turn = nullptr; ///< with `targets`, never null
 };
 
 /// The fixations of one presentation in order; between the end of one and the begin of the next lies a
@@ -62,20 +78,27 @@ struct ScriptedFixation {
 /// chosen: in an analysis it drops out as begun before the onset.
 class GazeScript {
   public:
-    /// Sets aside room for a presentation of the scene's animation.
+    /// Sets aside room for the scene's longest presentation.
     GazeScript(const ObservedScene& scene, const ObserverSettings& settings);
 
     /// Writes the script of a trial: a function of its arguments alone. `targets` is nullptr for an object
     /// without a mesh. Allocates nothing; some thousand rays are cast.
     ///
-    /// Each fixation goes where the plan says, by chance: to a spot, to the head or elsewhere, at a point
+    /// Each fixation goes where the plan says, by chance: to a spot, to an area or elsewhere, at a point
     /// that is visible in every frame lit from the saccade's start to the fixation's end, and at least the
     /// shortest saccade away or, if none of 200 is, the farthest of them. If 200 points of a spot are not
     /// visible, head or elsewhere is tried; if 200 of these, the other of the two, and at last the middle of
     /// the screen.
     void compose(const ObservedScene& scene, const GazeTargets* targets, const PursuedTurn& turn,
                  const ObserverSettings& settings, std::uint64_t seed, int trial,
-                 const GazePlan& plan) noexcept;
+                 const GazePlan& plan) noexcept {
+        const ObservedPresentation only{targets, scene.screen, plan, &turn};
+        compose(scene, {&only, 1}, settings, seed, trial);
+    }
+    /// The same of several things shown at once (one at least): each fixation is on one of them, all equally
+    /// probable.
+    void compose(const ObservedScene& scene, std::span<const ObservedPresentation> shown,
+                 const ObserverSettings& settings, std::uint64_t seed, int trial) noexcept;
 
     const std::vector<ScriptedFixation>& fixations() const { return fixations_; }
 
@@ -88,6 +111,9 @@ class GazeScript {
 };
 
 /// Where a fixation's target is on the screen, as the eye pursues it.
+ScreenPoint place_of(const ScriptedFixation& fixation, SessionDuration since_onset,
+                     std::span<const ObservedPresentation> shown) noexcept;
+/// The same of the only thing shown.
 ScreenPoint place_of(const ScriptedFixation& fixation, SessionDuration since_onset,
                      const ObservedScene& scene, const GazeTargets* targets,
                      const PursuedTurn& turn) noexcept;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "experiment/scene/mesh_parts.h"
+#include "experiment/scene/areas.h"
 
 namespace overt {
 
@@ -32,27 +32,40 @@ glm::dvec3 turned_back(glm::dvec3 world_point, const TurntablePose& pose) {
 } // namespace
 
 GazeTargets::GazeTargets(const ObservedObject& object, const ObservedScene& scene)
-    : mesh_(object.mesh), scene_(object.scene), caster_(*object.mesh) {
+    : mesh_(object.mesh), scene_(object.scene), caster_(*object.mesh), regions_(scene.areas.size() + 1) {
+    const Areas areas(mesh_->part_names);
+    std::vector<std::size_t> region_of_part(mesh_->part_names.size(), elsewhere());
+    for (std::size_t part = 0; part < region_of_part.size(); ++part) {
+        for (std::size_t area = scene.areas.size(); area-- > 0;) {
+            const auto own = areas.find(scene.areas[area]);
+            if (own && areas.holds(*own, static_cast<PartIndex>(part)))
+                region_of_part[part] = area;
+        }
+    }
     for (std::uint32_t i = 0; i < mesh_->triangles.size(); ++i) {
         const std::string_view part = mesh_->part_names[mesh_->triangle_parts[i]];
         const double area = glm::length(corners_of(*mesh_, i).normal_times_area());
         const double weight = part == "plinth" ? plinth_weight * area : area;
-        WeightedTriangles& region = is_of_head(part) ? head_ : elsewhere_;
-        region.add(i, weight);
+        regions_[region_of_part[mesh_->triangle_parts[i]]].add(i, weight);
     }
     find_middle();
-    for (int step = 0; step < scene.animation.steps_per_period(); ++step)
-        eyes_.push_back(turned_back(scene_.view.camera.position, scene_.pose_at(scene.animation.angle_of(
-                                                                     scene.animation.frame_at_step(step)))));
+    for (const Animation& motion : scene.animations) {
+        std::vector<glm::dvec3>& eyes = eyes_.emplace_back();
+        for (int step = 0; step < motion.steps_per_period(); ++step)
+            eyes.push_back(turned_back(scene_.view.camera.position,
+                                       scene_.pose_at(motion.angle_of(motion.frame_at_step(step)))));
+    }
     for (std::size_t effect = 0; effect < scene.effects.size(); ++effect) {
         RandomStream random(effect, "spot of an effect");
-        const Region region = random.uniform() < 0.5 ? Region::head : Region::elsewhere;
+        const std::size_t region = random.uniform() < 0.5 ? 0 : elsewhere();
         SurfacePoint middle;
         for (int tries = 0; tries < most_tries; ++tries) {
             middle = draw(random, region);
             bool is_seen = true;
-            for (int step = 0; step < scene.animation.steps_per_period() && is_seen; ++step)
-                is_seen = is_visible(middle, step);
+            for (std::size_t motion = 0; motion < eyes_.size(); ++motion) {
+                for (std::size_t step = 0; step < eyes_[motion].size() && is_seen; ++step)
+                    is_seen = is_visible(middle, static_cast<int>(motion), static_cast<int>(step));
+            }
             if (is_seen)
                 break;
         }
@@ -79,12 +92,12 @@ void GazeTargets::find_middle() {
     double all = 0.0, squares = 0.0;
     glm::dvec3 sum(0.0);
     const auto for_each = [&](const auto& visit) {
-        for (const WeightedTriangles* region : {&head_, &elsewhere_}) {
+        for (const WeightedTriangles& region : regions_) {
             double before = 0.0;
-            for (std::size_t i = 0; i < region->triangles.size(); ++i) {
-                const Corners corners = corners_of(*mesh_, region->triangles[i]);
-                visit((corners.a + corners.b + corners.c) / 3.0, region->cumulative[i] - before);
-                before = region->cumulative[i];
+            for (std::size_t i = 0; i < region.triangles.size(); ++i) {
+                const Corners corners = corners_of(*mesh_, region.triangles[i]);
+                visit((corners.a + corners.b + corners.c) / 3.0, region.cumulative[i] - before);
+                before = region.cumulative[i];
             }
         }
     };
@@ -107,10 +120,18 @@ void GazeTargets::find_middle() {
     most_square_ = most / usual_square_;
 }
 
-SurfacePoint GazeTargets::draw(RandomStream& random, Region region, double spread) const noexcept {
-    const bool wants_head = region == Region::head;
-    const WeightedTriangles& wanted = wants_head ? head_ : elsewhere_;
-    const WeightedTriangles& from = wanted.triangles.empty() ? (wants_head ? elsewhere_ : head_) : wanted;
+const GazeTargets::WeightedTriangles& GazeTargets::region_or_other(std::size_t region) const noexcept {
+    if (regions_[region].triangles.empty())
+        region = elsewhere();
+    if (regions_[region].triangles.empty())
+        region = 0;
+    while (regions_[region].triangles.empty()) // the mesh has triangles
+        ++region;
+    return regions_[region];
+}
+
+SurfacePoint GazeTargets::draw(RandomStream& random, std::size_t region, double spread) const noexcept {
+    const WeightedTriangles& from = region_or_other(region);
     SurfacePoint point = draw_from(random, from);
     if (spread == 0.0)
         return point;
@@ -150,8 +171,9 @@ SurfacePoint GazeTargets::draw_from(RandomStream& random, const WeightedTriangle
     return point;
 }
 
-bool GazeTargets::is_visible(const SurfacePoint& point, int step) const noexcept {
-    const glm::dvec3& eye = eyes_[static_cast<std::size_t>(step) % eyes_.size()];
+bool GazeTargets::is_visible(const SurfacePoint& point, int motion, int step) const noexcept {
+    const std::vector<glm::dvec3>& eyes = eyes_[static_cast<std::size_t>(motion)];
+    const glm::dvec3& eye = eyes[static_cast<std::size_t>(step) % eyes.size()];
     const glm::dvec3 normal = corners_of(*mesh_, point.triangle).normal_times_area();
     const glm::dvec3 to_eye = eye - point.position;
     const double facing = std::abs(glm::dot(normal, to_eye)) / (glm::length(normal) * glm::length(to_eye));

@@ -1,4 +1,4 @@
-/// Places on one object that an observer may look at.
+/// Places on one object in a view that an observer may look at.
 #pragma once
 
 #include <cstdint>
@@ -12,22 +12,22 @@
 
 namespace overt {
 
-/// The head, or all that is not the head.
-enum class Region : std::uint8_t { head, elsewhere };
-
 /// Draws surface points and knows what is visible of them. Constant queries allocate nothing.
 class GazeTargets {
   public:
     /// The object's mesh must outlive this and have triangles. Each effect of the scene has a spot on it,
-    /// the same for all observers: a place that is seen at every angle of the animation, if there is one, and
+    /// the same for all observers: a place that is seen at every angle of all motions, if there is one, and
     /// what of the surface lies within `spot_radius` of the mesh's height about it and faces the same way.
     GazeTargets(const ObservedObject& object, const ObservedScene& scene);
     static constexpr double spot_radius = 0.04;
 
+    /// Regions are the scene's areas, by their index, and what is in none of them.
+    std::size_t elsewhere() const noexcept { return regions_.size() - 1; }
+
     /// A point of the region, all of its area equally probable, save that the part "plinth" is looked at a
-    /// tenth as often. An object without that region gives a point of the other. `spread`: see GazePlan;
-    /// the usual distance is the root mean square one of both regions.
-    SurfacePoint draw(RandomStream& random, Region region, double spread = 0.0) const noexcept;
+    /// tenth as often. An object without that region gives a point elsewhere, or of its first region.
+    /// `spread`: see GazePlan; the usual distance is the root mean square one of all regions.
+    SurfacePoint draw(RandomStream& random, std::size_t region, double spread = 0.0) const noexcept;
 
     /// The part on which an effect's spot lies.
     PartIndex part_of_spot(int effect) const noexcept {
@@ -36,9 +36,9 @@ class GazeTargets {
     /// A point of an effect's spot, all of its area equally probable.
     SurfacePoint draw_from_spot(RandomStream& random, int effect) const noexcept;
 
-    /// Whether the point is seen at a step of the animation, and not too obliquely (up to 78 degrees between
+    /// Whether the point is seen at a step of a motion, and not too obliquely (up to 78 degrees between
     /// line of sight and normal).
-    bool is_visible(const SurfacePoint& point, int step) const noexcept;
+    bool is_visible(const SurfacePoint& point, int motion, int step) const noexcept;
 
     /// What is seen at a place of the image.
     std::optional<SurfacePoint> surface_at(glm::dvec2 image_point_px, Degrees angle) const noexcept;
@@ -58,6 +58,8 @@ class GazeTargets {
         }
     };
 
+    /// A region with triangles: this one, else elsewhere, else the first that has any.
+    const WeightedTriangles& region_or_other(std::size_t region) const noexcept;
     SurfacePoint draw_from(RandomStream& random, const WeightedTriangles& from) const noexcept;
     struct Spot {
         SurfacePoint middle;
@@ -70,12 +72,13 @@ class GazeTargets {
     const Mesh* mesh_;
     SceneView scene_;
     RayCaster caster_;
-    std::vector<glm::dvec3> eyes_; ///< the camera as the object sees it, by step of a period
-    WeightedTriangles head_, elsewhere_;
-    std::vector<Spot> spots_;   ///< by effect
-    glm::dvec3 middle_{0.0};    ///< of both regions by weighted area
-    double usual_square_ = 1.0; ///< mean square distance from it
-    double most_square_ = 1.0;  ///< largest, as a multiple of that
+    /// The camera as the object sees it, by motion and by step of a period.
+    std::vector<std::vector<glm::dvec3>> eyes_;
+    std::vector<WeightedTriangles> regions_; ///< the last is elsewhere
+    std::vector<Spot> spots_;                ///< by effect
+    glm::dvec3 middle_{0.0};                 ///< of all regions by weighted area
+    double usual_square_ = 1.0;              ///< mean square distance from it
+    double most_square_ = 1.0;               ///< largest, as a multiple of that
 };
 
 } // namespace overt

@@ -1,12 +1,15 @@
 /// What a simulated observer can look at, and how its light reaches the eye.
 #pragma once
 
+#include <array>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "experiment/animation.h"
 #include "experiment/protocol/protocol.h"
+#include "experiment/scene/areas.h"
 #include "experiment/scene/mesh.h"
 #include "experiment/scene/viewing.h"
 #include "experiment/screen_geometry.h"
@@ -16,49 +19,78 @@
 
 namespace overt {
 
+/// An object in a view.
 struct ObservedObject {
     const Mesh* mesh = nullptr; ///< nullptr or without triangles: ready-made frames whose surface is unknown
     SceneView scene;
 };
 
+/// Most of ObservedScene::areas.
+inline constexpr std::size_t most_observed_areas = most_simulated_areas;
+
 struct ObservedTask {
     std::string id;
-    double head_share = 0.0; ///< share of fixations that go to the part "head", 0 … 1
+    std::vector<double> shares; ///< of fixations that go to each of ObservedScene::areas; 0 … 1 together
 };
 
-/// What the gaze depends on besides the task; -1: any.
+/// What the gaze depends on besides the task.
 struct ObservedEffect {
-    int task = -1, object = -1, material = -1;
-    double head_odds = 1.0, spot_share = 0.0;
+    int task = -1; ///< -1: any
+    /// For each list, whether it holds for each entry.
+    std::array<std::vector<bool>, stimulus_lists.size()> entries;
+    int area = 0; ///< index into ObservedScene::areas
+    double odds = 1.0, spot_share = 0.0;
     double spread = 0.0; ///< see GazePlan
 
     bool holds_in(int of_task, Stimulus stimulus) const {
-        return (task < 0 || task == of_task) && (object < 0 || object == stimulus.object) &&
-               (material < 0 || material == stimulus.material);
+        for (std::size_t list = 0; list < stimulus_lists.size(); ++list)
+            if (const int entry = stimulus.*stimulus_lists[list].index;
+                !entries[list].empty() && !entries[list][static_cast<std::size_t>(entry)])
+                return false;
+        return task < 0 || task == of_task;
     }
 };
 
 struct ObservedScene {
     ScreenGeometry screen;
-    Animation animation;
+    std::vector<Animation> animations = std::vector<Animation>(1); ///< by Stimulus::motion
     double refresh_hz = 120.0;
     SessionDuration display_latency{};   ///< from vertical blank to the first row's light
-    std::vector<ObservedObject> objects; ///< by Stimulus::object
-    std::vector<ObservedTask> tasks;     ///< by Trial::task
+    std::vector<ObservedObject> objects; ///< see index_of(): each object in each view
+    int views = 1;
+    std::vector<std::string> areas{std::string(head_area)}; ///< that gaze is meant for, without overlap
+    std::vector<ObservedTask> tasks;                        ///< by Trial::task
     std::vector<ObservedEffect> effects = {};
-    double head_share_sd = 0.0; ///< of the logit, over observers
+    double share_sd = 0.0;                  ///< of the logit of each area's share, over observers
+    std::vector<ScreenGeometry> slots = {}; ///< the screen with each slot's image; none: `screen` alone
+
+    const ScreenGeometry& screen_of_slot(int slot) const {
+        return slots.empty() ? screen : slots[static_cast<std::size_t>(slot)];
+    }
 
     /// From vertical blank to the light of a row: rows are lit one after another, evenly over one refresh.
     /// Rows above and below the screen are taken as its first and last.
     SessionDuration light_delay(double y_px) const;
 
-    /// How long an animation frame is lit.
-    SessionDuration frame_period() const;
+    /// How long a frame of a motion is lit.
+    SessionDuration frame_period(int motion) const;
+
+    const Animation& animation_of(int motion) const { return animations[static_cast<std::size_t>(motion)]; }
+    /// Of the longest presentation that there is.
+    double longest_s() const;
+    /// Where `objects` has what is seen of a stimulus.
+    std::size_t index_of(const Stimulus& stimulus) const {
+        return static_cast<std::size_t>(stimulus.object) * static_cast<std::size_t>(views) +
+               static_cast<std::size_t>(stimulus.view);
+    }
 };
 
 /// The scene of a protocol. Its meshes stay where they are: `objects` must outlive the result.
 ObservedScene make_observed_scene(const Protocol& protocol, std::span<const Object> objects,
                                   const ScreenGeometry& screen);
+
+/// Index of an area of the scene; -1 if gaze is not meant for it.
+int area_in(const ObservedScene& scene, std::string_view area);
 
 /// Pixels per degree at the middle of the screen, along each axis.
 glm::dvec2 px_per_deg_at_centre(const ScreenGeometry& screen);

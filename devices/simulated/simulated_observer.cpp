@@ -26,16 +26,20 @@ double share_of(SessionTime time, SessionTime begin, SessionTime end) {
 SimulatedObserver::Presentation::Presentation(const ObservedScene& scene, const ObserverSettings& settings)
     : script(scene, settings) {
     // One for each refresh; a missed refresh takes its place in the count.
-    flips.reserve(static_cast<std::size_t>(scene.animation.duration_s * scene.refresh_hz) + 64);
+    shown.reserve(std::max<std::size_t>(1, scene.slots.size()));
+    flips.reserve(static_cast<std::size_t>(scene.longest_s() * scene.refresh_hz) + 64);
 }
 
 SimulatedObserver::SimulatedObserver(ObservedScene scene, std::uint64_t seed,
                                      const ObserverSettings& settings)
-    : scene_(std::move(scene)), seed_(seed), settings_(settings), turn_(scene_),
+    : scene_(std::move(scene)), seed_(seed), settings_(settings),
       wandering_(seed, settings.drift, settings.tremor), blinks_(seed, settings.blinks_per_minute),
       px_per_deg_(px_per_deg_at_centre(scene_.screen)) {
-    for (int frame = 0; frame < scene_.animation.frame_count; ++frame)
-        angle_of_frame_.push_back(scene_.animation.angle_of({frame}));
+    for (std::size_t i = 0; i < scene_.animations.size(); ++i) {
+        Motion& motion = motions_.emplace_back(Motion{PursuedTurn(scene_, static_cast<int>(i)), {}});
+        for (int frame = 0; frame < scene_.animations[i].frame_count; ++frame)
+            motion.angle_of_frame.push_back(scene_.animations[i].angle_of({frame}));
+    }
     for (const ObservedObject& object : scene_.objects) {
         const bool has_surface = object.mesh && !object.mesh->triangles.empty();
         targets_.push_back(has_surface ? std::make_unique<GazeTargets>(object, scene_) : nullptr);
@@ -52,9 +56,14 @@ void SimulatedObserver::presentation_begins(const Trial& trial) noexcept {
     OVERT_EXPECTS(begun_ < presentations_.size());
     Presentation& presentation = *presentations_[begun_++];
     presentation.trial = trial.index;
-    presentation.targets = targets_[static_cast<std::size_t>(trial.stimulus.object)].get();
-    presentation.script.compose(scene_, presentation.targets, turn_, settings_, seed_, trial.index,
-                                gaze_plan(scene_, seed_, trial.task, trial.stimulus));
+    presentation.shown.clear();
+    for (std::size_t i = 0; i < trial.shown_count(); ++i) {
+        const auto [stimulus, slot] = trial.shown(i);
+        presentation.shown.push_back({targets_[scene_.index_of(stimulus)].get(), scene_.screen_of_slot(slot),
+                                      gaze_plan(scene_, seed_, trial.task, stimulus),
+                                      &motions_[static_cast<std::size_t>(stimulus.motion)].turn});
+    }
+    presentation.script.compose(scene_, presentation.shown, settings_, seed_, trial.index);
 }
 
 void SimulatedObserver::flipped(const FlipRecord& flip) noexcept {
@@ -127,13 +136,13 @@ SimulatedObserver::Looking SimulatedObserver::scripted(const Presentation& prese
     const std::vector<ScriptedFixation>& fixations = presentation.script.fixations();
     const std::size_t index = presentation.script.fixation_at(since_onset);
     const ScriptedFixation& fixation = fixations[index];
-    const ScreenPoint place = place_of(fixation, since_onset, scene_, presentation.targets, turn_);
+    const ScreenPoint place = place_of(fixation, since_onset, presentation.shown);
     if (since_onset < fixation.end || index + 1 == fixations.size())
         return {place, EyeState::fixation, &fixation};
     // Both ends of the way go on with the turning object.
     const ScriptedFixation& next = fixations[index + 1];
     const double share = to_seconds(since_onset - fixation.end) / to_seconds(next.begin - fixation.end);
-    const ScreenPoint to = place_of(next, since_onset, scene_, presentation.targets, turn_);
+    const ScreenPoint to = place_of(next, since_onset, presentation.shown);
     return {between(place, to, saccade_progress(share)), EyeState::saccade, nullptr};
 }
 
@@ -164,11 +173,20 @@ GazeTruth SimulatedObserver::truth_at(SessionTime time) const noexcept {
     if (looking.fixation && truth.gaze.state == EyeState::fixation)
         truth.target = looking.fixation->target;
     truth.frame = frame_lit(*presentation, time, truth.gaze.place.y_px);
-    if (truth.frame && presentation->targets && truth.gaze.state != EyeState::blink) {
-        const glm::dvec2 image = scene_.screen.image_from_screen(truth.gaze.place);
-        if (scene_.screen.is_inside_image(image))
-            truth.surface = presentation->targets->surface_at(
-                image, angle_of_frame_[static_cast<std::size_t>(truth.frame->value)]);
+    if (!truth.frame || truth.gaze.state == EyeState::blink)
+        return truth;
+    const int motion = presentation->shown.front().turn->motion();
+    for (std::size_t i = 0; i < presentation->shown.size(); ++i) {
+        const auto& [targets, screen, plan, turn] = presentation->shown[i];
+        const glm::dvec2 image = screen.image_from_screen(truth.gaze.place);
+        if (!screen.is_inside_image(image))
+            continue;
+        truth.shown = i;
+        // Which frame of another motion is lit beside the first is not kept.
+        if (targets && turn->motion() == motion)
+            truth.surface =
+                targets->surface_at(image, motions_[static_cast<std::size_t>(motion)]
+                                               .angle_of_frame[static_cast<std::size_t>(truth.frame->value)]);
     }
     return truth;
 }

@@ -32,6 +32,7 @@ struct GazeTruth {
     std::optional<SurfacePoint> target;       ///< what the fixation under way pursues
     std::optional<AnimationFrameIndex> frame; ///< really lit then on the row looked at
     std::optional<SurfacePoint> surface;      ///< what is under the gaze in that frame, by ray casting
+    std::optional<std::size_t> shown;         ///< which of the things shown has it in its image
 };
 
 /// What an observer answers, and how long after the question.
@@ -87,7 +88,7 @@ class SimulatedObserver final : public PresentationListener {
     struct Presentation {
         Presentation(const ObservedScene& scene, const ObserverSettings& settings);
         int trial = -1;
-        const GazeTargets* targets = nullptr;
+        std::vector<ObservedPresentation> shown;
         GazeScript script;
         std::vector<SeenFlip> flips;
         std::optional<SessionTime> end; ///< onset of the screen that followed
@@ -120,12 +121,16 @@ class SimulatedObserver final : public PresentationListener {
     ObservedScene scene_;
     std::uint64_t seed_;
     ObserverSettings settings_;
-    PursuedTurn turn_;
+    /// A motion as it is seen.
+    struct Motion {
+        PursuedTurn turn;
+        std::vector<Degrees> angle_of_frame;
+    };
+    std::vector<Motion> motions_;
     FixationalMotion wandering_;
     BlinkTrain blinks_;
     glm::dvec2 px_per_deg_;
-    std::vector<Degrees> angle_of_frame_;
-    std::vector<std::unique_ptr<GazeTargets>> targets_;        ///< by object; nullptr without a mesh
+    std::vector<std::unique_ptr<GazeTargets>> targets_; ///< as the scene has objects; nullptr without a mesh
     std::vector<std::unique_ptr<Presentation>> presentations_; ///< in order; the last ones still empty
     std::size_t begun_ = 0;                                    ///< presentations that have begun
     std::vector<Place> places_; ///< in order of their times; none: always in the middle

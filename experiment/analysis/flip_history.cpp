@@ -41,12 +41,6 @@ FlipHistory::FlipHistory(std::span<const FlipRecord> flips, const ScanOut& scan_
     }
 }
 
-SessionTime FlipHistory::blank_lighting(SessionTime time, double row_px) const {
-    const double row_share = std::clamp(row_px / scan_out_.screen_rows, 0.0, 1.0);
-    return time - scan_out_.latency -
-           SessionDuration(static_cast<std::int64_t>(row_share * refresh_ns_ + 0.5));
-}
-
 std::ptrdiff_t FlipHistory::picture_at(SessionTime blank) const {
     if (blanks_.empty() || blank < blanks_.front() || blank >= end_)
         return -1;
@@ -79,7 +73,7 @@ std::optional<LitFrame> FlipHistory::frame_shown_at(SessionTime time, double row
 }
 
 std::optional<AnimationFrameIndex> FlipHistory::frame_planned_at(SessionTime time, double row_px) const {
-    const std::ptrdiff_t refresh = planned_at(blank_lighting(time, row_px));
+    const std::ptrdiff_t refresh = planned_at(blank_lighting(scan_out_, refresh_ns_, time, row_px));
     return refresh < 0 ? std::nullopt : std::optional(planned_frames_[static_cast<std::size_t>(refresh)]);
 }
 
@@ -97,14 +91,16 @@ bool FlipHistory::is_off_plan(std::ptrdiff_t picture, SessionTime blank) const {
 }
 
 Lighting FlipHistory::lighting_at(SessionTime time, double row_px) const {
-    const SessionTime blank = blank_lighting(time, row_px);
+    const SessionTime blank = blank_lighting(scan_out_, refresh_ns_, time, row_px);
     const std::ptrdiff_t picture = picture_at(blank);
-    return {picture < 0 ? std::nullopt : std::optional(pictures_[static_cast<std::size_t>(picture)]),
+    // A slot may be empty for a while.
+    const bool is_lit = picture >= 0 && pictures_[static_cast<std::size_t>(picture)].frame != no_frame;
+    return {is_lit ? std::optional(pictures_[static_cast<std::size_t>(picture)]) : std::nullopt,
             is_off_plan(picture, blank)};
 }
 
 bool FlipHistory::is_off_plan(SessionTime time, double row_px) const {
-    const SessionTime blank = blank_lighting(time, row_px);
+    const SessionTime blank = blank_lighting(scan_out_, refresh_ns_, time, row_px);
     return is_off_plan(picture_at(blank), blank);
 }
 

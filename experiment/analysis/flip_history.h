@@ -11,15 +11,9 @@
 #include "experiment/animation.h"
 #include "experiment/flip_report.h"
 #include "experiment/session_time.h"
+#include "experiment/timing/lit_frames.h"
 
 namespace overt {
-
-/// How light follows a vertical blank on one display.
-struct ScanOut {
-    SessionDuration latency{};  ///< from the vertical blank to the light of the first row
-    double refresh_hz = 120.0;  ///< nominal
-    double screen_rows = 1080.; ///< rows are lit one after another, evenly over one refresh
-};
 
 struct LitFrame {
     AnimationFrameIndex frame;
@@ -59,8 +53,6 @@ class FlipHistory {
     bool is_off_plan(SessionTime time, double row_px) const;
 
   private:
-    /// The vertical blank, latency included, whose scan-out reaches the row at this time.
-    SessionTime blank_lighting(SessionTime time, double row_px) const;
     /// Index of the picture that was lit, or of the planned refresh; -1 where there is none.
     std::ptrdiff_t picture_at(SessionTime blank) const;
     std::ptrdiff_t planned_at(SessionTime blank) const;

@@ -157,6 +157,13 @@ void Diagnostics::add(Severity severity, std::string file, Place place, std::str
                       std::string hint) {
     if (place.file > 0 && place.file <= static_cast<int>(files_.size()))
         file = files_[static_cast<std::size_t>(place.file) - 1];
+    // What a file says once may be read several times, as an entry that stands for a series.
+    const bool is_known = std::ranges::any_of(findings_, [&](const Finding& known) {
+        return known.severity == severity && known.file == file && known.place.line == place.line &&
+               known.place.column == place.column && known.message == message;
+    });
+    if (is_known)
+        return;
     findings_.push_back(
         {severity, std::move(file), {place.line, place.column}, std::move(message), std::move(hint)});
 }

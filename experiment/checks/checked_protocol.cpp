@@ -36,7 +36,7 @@ std::optional<Protocol> read_text(std::string_view text, const std::filesystem::
         check_image_fits(examination);
         check_sizes(examination);
         check_output(examination);
-        check_animation(examination);
+        check_motions(examination);
         check_screens(examination);
         check_ids(examination);
         check_blocks(examination);
@@ -49,9 +49,15 @@ std::optional<Protocol> read_text(std::string_view text, const std::filesystem::
         check_objects(examination, shipped_sculptures);
         check_materials(examination);
         check_frames(examination);
+        check_steps(examination);
+        check_slots(examination);
+        if (diagnostics.error_count() == errors_before)
+            check_trials(examination);
         check_bake(examination);
         if (look_at_files)
             check_files(examination);
+        if (diagnostics.error_count() == errors_before)
+            check_slot_memory(examination);
         if (diagnostics.error_count() == errors_before)
             check_schedule(examination);
     }

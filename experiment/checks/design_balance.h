@@ -29,4 +29,7 @@ Presentations count_presentations(const Protocol& protocol, ScheduleMaker& maker
 /// another does.
 std::vector<std::string> balance_warnings(const Protocol& protocol, const Presentations& presentations);
 
+/// Factors that always change together, so that no analysis can part them.
+std::vector<std::string> aliased_factor_warnings(const Factors& factors, const Presentations& presentations);
+
 } // namespace overt

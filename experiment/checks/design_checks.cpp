@@ -16,15 +16,79 @@ namespace overt {
 
 namespace {
 
-template <class Entry>
 void check_names(ProtocolExamination& examination, const std::string& path,
-                 const std::vector<std::string>& names, const std::vector<Entry>& entries,
+                 const std::vector<std::string>& names, const std::vector<std::string_view>& known,
                  std::string_view noun) {
-    const auto known = ids_of<std::string_view>(entries);
     for (auto name = names.begin(); name != names.end(); ++name)
         if (is_known(examination, path, noun, *name, known) && std::find(names.begin(), name, *name) != name)
             examination.error({path}, fmt::format("{} \"{}\" is listed twice", noun, *name),
                               "to show more often, there is \"repetitions\"");
+}
+
+/// What a block or a group chooses of the lists; `path` begins the keys' paths.
+void check_chosen(ProtocolExamination& examination, const std::string& path, const ChosenEntries& chosen) {
+    for (std::size_t list = 0; list < stimulus_lists.size(); ++list)
+        check_names(examination, fmt::format("{}.{}", path, stimulus_lists[list].plural), chosen[list],
+                    ids_in_list(examination.protocol, list), stimulus_lists[list].name);
+}
+
+/// Factors by which trials can be ordered.
+std::vector<std::string_view> names_to_order_by(const Factors& factors) {
+    std::vector<std::string_view> names;
+    for (const Factor& factor : factors.all())
+        if (can_be_limited(factor))
+            names.push_back(factor.name);
+    return names;
+}
+
+/// Limits by name, in a block or in the schedule; `path` begins the keys' paths.
+void check_named_limits(ProtocolExamination& examination, const std::string& path, const NamedNumbers& limits,
+                        OrderLimit::Kind kind) {
+    const Factors factors = factors_of(examination.protocol);
+    const std::string_view key = kind == OrderLimit::Kind::longest_run ? "max_run" : "min_distance";
+    for (const NamedNumber& limit : limits) {
+        const std::string here = fmt::format("{}.{}.{}", path, key, limit.name);
+        if (!is_known(examination, here, "factor", limit.name, names_to_order_by(factors)))
+            continue;
+        const std::string own = fmt::format("{}.{}", path, own_limit_key(limit.name, kind));
+        if (!own_limit_key(limit.name, kind).empty() && examination.is_written(own))
+            examination.error({here},
+                              fmt::format("{} says it already, in {}", own_limit_key(limit.name, kind),
+                                          examination.line_of(own, here)),
+                              "take one of the two out");
+        if (factors.at(limit.name).levels.size() == 1 && limit.number > 0)
+            examination.error({here},
+                              fmt::format("the factor \"{}\" has one level, \"{}\": there is nothing to keep "
+                                          "apart",
+                                          limit.name, factors.at(limit.name).levels.front().name));
+    }
+}
+
+/// The factor that a block goes by; false if there is none of this name, or it has nothing to go by.
+bool check_by(ProtocolExamination& examination, int index) {
+    const BlockSettings& block = examination.protocol.blocks[static_cast<std::size_t>(index)];
+    const Factors factors = factors_of(examination.protocol);
+    const std::string path = fmt::format("block[{}].by", index);
+    if (!is_known(examination, path, "factor", block.by, names_to_order_by(factors)))
+        return false;
+    const Factor& by = factors.at(block.by);
+    if (examination.is_written(path) && by.levels.size() == 1) {
+        std::string others;
+        for (const Factor& other : factors.all())
+            if (other.levels.size() > 1)
+                others += fmt::format("{}{}", others.empty() ? "" : ", ", other.name);
+        examination.error({path},
+                          fmt::format("the factor \"{}\" has one level, \"{}\": there is nothing to go by",
+                                      by.name, by.levels.front().name),
+                          others.empty() ? "" : "with several levels there are " + others);
+        return false;
+    }
+    return true;
+}
+
+std::size_t level_count_in(const Protocol& protocol, const BlockScope& scope, const std::string& by) {
+    const Factors factors = factors_of(protocol);
+    return levels_in(factors, scope, factors.at(by)).size();
 }
 
 void check_weights(ProtocolExamination& examination, const BlockSettings& block, int index) {
@@ -32,11 +96,11 @@ void check_weights(ProtocolExamination& examination, const BlockSettings& block,
     if (block.weights.empty())
         return;
     const std::size_t levels =
-        levels_in(examination.protocol, scope_of(examination.protocol, index), block.by).size();
+        level_count_in(examination.protocol, scope_of(examination.protocol, index), block.by);
     if (block.weights.size() != levels) {
         examination.error({path},
                           fmt::format("there are {} weights for {} levels of the factor {}",
-                                      block.weights.size(), levels, name_of(block.by)),
+                                      block.weights.size(), levels, block.by),
                           "a weight for each level, in the order of the list");
         return;
     }
@@ -66,20 +130,24 @@ void check_block(ProtocolExamination& examination, int index) {
     const Protocol& protocol = examination.protocol;
     const BlockSettings& block = protocol.blocks[static_cast<std::size_t>(index)];
     const auto path = [&](std::string_view key) { return fmt::format("block[{}].{}", index, key); };
-    check_names(examination, path("tasks"), block.tasks, protocol.tasks, "task");
-    check_names(examination, path("objects"), block.objects, protocol.objects, "object");
-    check_names(examination, path("materials"), block.materials, protocol.materials, "material");
+    check_names(examination, path("tasks"), block.tasks, ids_of<std::string_view>(protocol.tasks), "task");
+    check_chosen(examination, fmt::format("block[{}]", index), block.chosen);
+    check_named_limits(examination, fmt::format("block[{}]", index), block.max_run,
+                       OrderLimit::Kind::longest_run);
+    check_named_limits(examination, fmt::format("block[{}]", index), block.min_distance,
+                       OrderLimit::Kind::least_distance);
+    const bool has_factor = check_by(examination, index);
     const bool is_blocked = block.order == OrderMethod::blocked,
                is_weighted = block.order == OrderMethod::weighted;
     check_idle(examination, index, "by", is_blocked || is_weighted, "blocked or weighted");
     check_idle(examination, index, "levels", is_blocked, "blocked");
     check_idle(examination, index, "weights", is_weighted, "weighted");
     check_idle(examination, index, "draws", is_weighted, "weighted");
-    if (is_weighted)
+    if (is_weighted && has_factor)
         check_weights(examination, block, index);
     constexpr std::size_t most_levels = 60;
-    if (is_blocked && block.levels == LevelOrder::random) {
-        const std::size_t levels = levels_in(protocol, scope_of(protocol, index), block.by).size();
+    if (is_blocked && has_factor && block.levels == LevelOrder::random) {
+        const std::size_t levels = level_count_in(protocol, scope_of(protocol, index), block.by);
         if (levels > most_levels)
             examination.error({path("by"), path("levels")},
                               fmt::format("{} levels are too many for a random order of them; {} is the most",
@@ -133,13 +201,12 @@ void check_fill(ProtocolExamination& examination, const AlikeObservers& observer
                   : fmt::format("{} observers{} would", rows, observers.of_group));
 }
 
-/// Rows after which the materials of a block have gone round; 1 where they do not.
-int rows_of_materials(const Protocol& protocol, int block, const BlockScope& scope) {
+/// Rows after which the rotated list has gone round in a block; 1 where it does not.
+int rows_of_rotation(const Protocol& protocol, int block, const BlockScope& scope) {
     const bool do_rotate =
-        std::ranges::any_of(scope.tasks, [&](int task) { return rotates_materials(protocol, block, task); });
-    return do_rotate
-               ? rows_of_square(protocol.schedule.material_rotation, static_cast<int>(scope.materials.size()))
-               : 1;
+        std::ranges::any_of(scope.tasks, [&](int task) { return rotates(protocol, block, task); });
+    return do_rotate ? rows_of_square(protocol.schedule.material_rotation, rotated_entries(protocol, scope))
+                     : 1;
 }
 
 void check_squares(ProtocolExamination& examination) {
@@ -154,14 +221,16 @@ void check_squares(ProtocolExamination& examination) {
         for (const BlockPlan& plan : plans) {
             const BlockSettings& block = block_at(protocol, plan.block);
             if (block.order == OrderMethod::blocked && block.levels >= LevelOrder::cyclic)
-                check_fill(
-                    examination, observers, fmt::format("the square of levels of block \"{}\"", block.id),
-                    rows_of_square(square_of(block.levels),
-                                   static_cast<int>(levels_in(protocol, plan.scope, block.by).size())));
-            rotation = std::max(rotation, rows_of_materials(protocol, plan.block, plan.scope));
+                check_fill(examination, observers,
+                           fmt::format("the square of levels of block \"{}\"", block.id),
+                           rows_of_square(square_of(block.levels),
+                                          static_cast<int>(level_count_in(protocol, plan.scope, block.by))));
+            rotation = std::max(rotation, rows_of_rotation(protocol, plan.block, plan.scope));
         }
         if (!protocol.groups.empty())
-            check_fill(examination, observers, "the rotation of materials", rotation);
+            check_fill(examination, observers,
+                       fmt::format("the rotation of {}", stimulus_lists.at(rotated_list(protocol)).plural),
+                       rotation);
     }
 }
 
@@ -173,14 +242,14 @@ void check_rotation(ProtocolExamination& examination) {
     const int observers = protocol.schedule.observers;
     int rotation = 1;
     for (int index = 0; index < block_count(protocol); ++index)
-        rotation = std::max(rotation, rows_of_materials(protocol, index, scope_of(protocol, index)));
+        rotation = std::max(rotation, rows_of_rotation(protocol, index, scope_of(protocol, index)));
     if (observers % rotation != 0) {
         const int below = observers / rotation * rotation;
         examination.warning(
             {"schedule.observers"},
-            fmt::format(
-                "{} cannot see {} materials equally often under the tasks that are asked once per object",
-                counted(observers, "observer"), protocol.materials.size()),
+            fmt::format("{} cannot see {} {} equally often under the tasks that are asked once per object",
+                        counted(observers, "observer"), ids_in_list(protocol, rotated_list(protocol)).size(),
+                        stimulus_lists.at(rotated_list(protocol)).plural),
             below > 0 ? fmt::format("{} or {} observers would", below, below + rotation)
                       : fmt::format("{} observers would", rotation));
     }
@@ -190,6 +259,9 @@ void check_rotation(ProtocolExamination& examination) {
 
 void check_blocks(ProtocolExamination& examination) {
     const Protocol& protocol = examination.protocol;
+    check_named_limits(examination, "schedule", protocol.schedule.max_run, OrderLimit::Kind::longest_run);
+    check_named_limits(examination, "schedule", protocol.schedule.min_distance,
+                       OrderLimit::Kind::least_distance);
     check_ids_differ(examination, "block", ids_of<std::string_view>(protocol.blocks));
     for (int index = 0; index < static_cast<int>(protocol.blocks.size()); ++index)
         check_block(examination, index);
@@ -224,10 +296,9 @@ void check_practice_of_groups(ProtocolExamination& examination) {
             };
             if (lacks(group.tasks, practice.task))
                 warn("task", "task", practice.task);
-            if (lacks(group.objects, practice.object))
-                warn("object", "object", practice.object);
-            if (lacks(group.materials, practice.material))
-                warn("material", "material", practice.material);
+            for (std::size_t list = 0; list < stimulus_lists.size(); ++list)
+                if (!practice.entries[list].empty() && lacks(group.chosen[list], practice.entries[list]))
+                    warn(stimulus_lists[list].name, stimulus_lists[list].name, practice.entries[list]);
         }
     }
 }
@@ -239,10 +310,11 @@ void check_groups(ProtocolExamination& examination) {
     for (std::size_t i = 0; i < protocol.groups.size(); ++i) {
         const GroupSettings& group = protocol.groups[i];
         const auto path = [&](std::string_view key) { return fmt::format("group[{}].{}", i, key); };
-        check_names(examination, path("blocks"), group.blocks, protocol.blocks, "block");
-        check_names(examination, path("tasks"), group.tasks, protocol.tasks, "task");
-        check_names(examination, path("objects"), group.objects, protocol.objects, "object");
-        check_names(examination, path("materials"), group.materials, protocol.materials, "material");
+        check_names(examination, path("blocks"), group.blocks, ids_of<std::string_view>(protocol.blocks),
+                    "block");
+        check_names(examination, path("tasks"), group.tasks, ids_of<std::string_view>(protocol.tasks),
+                    "task");
+        check_chosen(examination, fmt::format("group[{}]", i), group.chosen);
     }
     const std::optional<int> capacity = group_capacity(protocol);
     if (capacity && *capacity < protocol.schedule.observers)
@@ -253,9 +325,8 @@ void check_groups(ProtocolExamination& examination) {
 }
 
 void check_schedule(ProtocolExamination& examination) {
-    // More than anyone sits through, and a bound for all that is reckoned per trial.
-    constexpr int most_trials = 2000;
     const Protocol& protocol = examination.protocol;
+    const Factors factors = factors_of(protocol);
     const int distinct = std::max(1, static_cast<int>(protocol.groups.size()));
     for (int number = 1; number <= std::min(distinct, protocol.schedule.observers); ++number) {
         // Before trials are made, so that no product of large numbers is.
@@ -264,13 +335,13 @@ void check_schedule(ProtocolExamination& examination) {
             const BlockSettings& block = block_at(protocol, plan.block);
             double weight = 0.0;
             for (const Trial& trial : plan.trials)
-                weight += weight_of(protocol, trial);
+                weight += weight_of(protocol, factors, trial);
             trials += (block.draws ? static_cast<double>(*block.draws) : weight) * block.repetitions;
         }
-        if (trials > most_trials) {
-            examination.error(
-                {protocol.blocks.empty() ? "task" : "block[0]"},
-                fmt::format("an observer would have {} trials; {} is the most", trials, most_trials));
+        if (trials > most_trials_of_observer) {
+            examination.error({protocol.blocks.empty() ? "task" : "block[0]"},
+                              fmt::format("an observer would have {} trials; {} is the most", trials,
+                                          most_trials_of_observer));
             return;
         }
         if (trials == 0.0) {

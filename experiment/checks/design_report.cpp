@@ -11,6 +11,7 @@
 #include "experiment/design/observer_groups.h"
 #include "experiment/design/schedule.h"
 #include "experiment/design/trial_queue.h"
+#include "experiment/protocol/all_stimuli.h"
 #include "experiment/protocol/entry_ids.h"
 #include "experiment/protocol/protocol_keys.h"
 #include "experiment/stimulus/frame_memory.h"
@@ -19,12 +20,13 @@ namespace overt {
 
 namespace {
 
-AnimationFacts animation_facts(const Protocol& protocol) {
-    const Animation& animation = protocol.animation;
+AnimationFacts animation_facts(const Protocol& protocol, const MotionSettings& animation) {
     const PageCycle cycle = make_page_cycle(animation, protocol.display.refresh_hz);
     AnimationFacts facts;
+    facts.id = animation.id;
+    facts.motion = animation;
     facts.frames = animation.frame_count;
-    facts.distinct_poses = static_cast<int>(distinct_poses(animation).angles.size());
+    facts.distinct_poses = static_cast<int>(animation.pictures().size());
     facts.shown_frames = animation.shown_frame_count();
     facts.refreshes_per_frame = refreshes_per_frame(animation.frame_rate_hz, protocol.display.refresh_hz);
     facts.refreshes = cycle.total_refreshes;
@@ -56,17 +58,20 @@ VisualAngles visual_angles(const Protocol& protocol) {
     angles.image_up_deg = std::copysign(geometry.angle_between(centre, {centre.x_px, middle.y_px}).value,
                                         centre.y_px - middle.y_px);
     // The camera stands before the middle of its picture, wherever that is shown.
-    angles.camera_fov_deg = protocol.view.vertical_fov_deg.value_or(size_deg(centre, image_px).y);
+    angles.camera_fov_deg = protocol.views.front().vertical_fov_deg.value_or(size_deg(centre, image_px).y);
     angles.px_per_deg = geometry.px_per_deg_at_centre();
     return angles;
 }
 
 /// Of the observer with these trials, if nothing fails.
-SessionLength session_length(const Protocol& protocol, const Schedule& schedule, double animation_s,
-                             const DesignAssumptions& assumptions) {
+SessionLength session_length(const Protocol& protocol, const Schedule& schedule,
+                             std::span<const AnimationFacts> motions, const DesignAssumptions& assumptions) {
     const ScreenSettings& screens = protocol.screens;
     const double question_s = std::max(screens.task_min_s, assumptions.question_s);
-    const double shown_s = animation_s + 2.0 * screens.recording_lead_s;
+    const auto shown_s = [&](const SessionStep& step) {
+        return motions[static_cast<std::size_t>(step.trial.stimulus.motion)].duration_s +
+               2.0 * screens.recording_lead_s;
+    };
     const double answer_s = std::clamp(assumptions.answer_s, screens.response_min_s, screens.response_max_s);
     SessionLength length;
     length.calibration_s = assumptions.calibration_s;
@@ -80,7 +85,7 @@ SessionLength session_length(const Protocol& protocol, const Schedule& schedule,
             length.instructions_s += assumptions.text_s;
             break;
         case SessionStep::Kind::practice:
-            length.practice_s += question_s + screens.drift_target_s + shown_s + answer_s;
+            length.practice_s += question_s + screens.drift_target_s + shown_s(*step) + answer_s;
             if (!protocol.practice[static_cast<std::size_t>(step->trial.index)].feedback.empty())
                 length.practice_s += assumptions.question_s;
             break;
@@ -94,7 +99,7 @@ SessionLength session_length(const Protocol& protocol, const Schedule& schedule,
         case SessionStep::Kind::trial:
             length.questions_s += question_s;
             length.drift_checks_s += screens.drift_target_s;
-            length.animations_s += shown_s;
+            length.animations_s += shown_s(*step);
             length.answers_s += answer_s;
             queue.tell({});
             break;
@@ -103,21 +108,24 @@ SessionLength session_length(const Protocol& protocol, const Schedule& schedule,
     return length;
 }
 
-MemoryNeed memory_need(const Protocol& protocol, int poses) {
+MemoryNeed memory_need(const Protocol& protocol) {
     constexpr double bytes_per_map_px = 4.0; // a triangle's number
     MemoryNeed need;
     need.pages_per_stimulus_bytes = most_pages(protocol) * page_bytes(protocol);
-    need.next_fits = 2.0 * need.pages_per_stimulus_bytes <= 1e6 * protocol.display.frame_store_mb;
-    need.maps_per_object_bytes = bytes_per_map_px * poses * protocol.view.width_px * protocol.view.height_px;
+    const int at_once = protocol.slots.size() > 1 ? most_stimuli_at_once(protocol) : 1;
+    need.next_fits = 2.0 * at_once * need.pages_per_stimulus_bytes <= 1e6 * protocol.display.frame_store_mb;
+    const ViewSettings& view = protocol.views.front();
+    need.maps_per_object_bytes =
+        bytes_per_map_px * poses_of(protocol).count() * view.width_px * view.height_px;
     return need;
 }
 
 std::string order_in_words(const BlockSettings& block) {
     std::string words(name_of(block.order));
     if (block.order == OrderMethod::blocked)
-        words += fmt::format(" by {}, levels {}", name_of(block.by), name_of(block.levels));
+        words += fmt::format(" by {}, levels {}", block.by, name_of(block.levels));
     if (block.order == OrderMethod::weighted)
-        words += fmt::format(" by {}{}", name_of(block.by), block.draws ? ", drawn with replacement" : "");
+        words += fmt::format(" by {}{}", block.by, block.draws ? ", drawn with replacement" : "");
     if (block.repetitions > 1)
         words += fmt::format(", {} times{}", block.repetitions,
                              block.repetition_order == RepetitionOrder::mixed ? ", mixed" : "");
@@ -156,14 +164,14 @@ void add_observers(DesignReport& report, const Protocol& protocol) {
 
 /// The observer who sits longest, among those who differ.
 SessionLength longest_session(const Protocol& protocol, ScheduleMaker& maker, std::uint64_t seed,
-                              double animation_s, const DesignAssumptions& assumptions) {
+                              std::span<const AnimationFacts> motions, const DesignAssumptions& assumptions) {
     SessionLength longest;
     const std::size_t different = std::max<std::size_t>(1, protocol.groups.size());
     std::vector<Observer> observers = planned_observers(protocol);
     observers.resize(std::min(observers.size(), different));
     for (const Observer& observer : observers) {
         const SessionLength length =
-            session_length(protocol, maker.make(observer, seed), animation_s, assumptions);
+            session_length(protocol, maker.make(observer, seed), motions, assumptions);
         if (length.total_s() > longest.total_s())
             longest = length;
     }
@@ -191,21 +199,30 @@ DesignReport make_design_report(const Protocol& protocol, const std::vector<Obse
     report.tasks = ids_of(protocol.tasks);
     report.objects = ids_of(protocol.objects);
     report.materials = ids_of(protocol.materials);
+    report.factors = factors_of(protocol);
     add_observers(report, protocol);
     report.practice_trials = static_cast<int>(protocol.practice.size());
     report.observers = protocol.schedule.observers;
+    report.slots = ids_of(protocol.slots);
     report.display = protocol.display;
-    report.view = protocol.view;
-    report.motion = protocol.animation;
-    report.animation = animation_facts(protocol);
+    report.view = protocol.views.front();
+    for (const Slot& slot : protocol.slots)
+        if (slot.entry >= 0)
+            report.slot_places.push_back({slot.id, slot_geometry(protocol, slot)});
+    for (const MotionSettings& motion : protocol.motions)
+        report.motions.push_back(animation_facts(protocol, motion));
     report.angles = visual_angles(protocol);
     report.assumptions = assumptions;
     report.is_seed_fixed = protocol.schedule.seed.has_value() && !takes_seed;
     report.is_seed_given = takes_seed;
     const std::uint64_t seed = takes_seed ? example_seed : protocol.schedule.seed.value_or(example_seed);
     ScheduleMaker maker(protocol);
-    report.session = longest_session(protocol, maker, seed, report.animation.duration_s, assumptions);
-    report.memory = memory_need(protocol, report.animation.distinct_poses);
+    report.session = longest_session(protocol, maker, seed, report.motions, assumptions);
+    const SessionLength& length = report.session;
+    report.trials = design_in_words(
+        protocol, (length.questions_s + length.drift_checks_s + length.animations_s + length.answers_s) /
+                      std::max(1, report.trials_per_observer));
+    report.memory = memory_need(protocol);
     const Presentations presentations = count_presentations(protocol, maker, seed);
     report.incidence = presentations.cells;
     for (const Observer& observer : observers) {
@@ -214,6 +231,8 @@ DesignReport make_design_report(const Protocol& protocol, const std::vector<Obse
             report.schedule_groups.push_back(protocol.groups[static_cast<std::size_t>(group)].id);
     }
     report.warnings = balance_warnings(protocol, presentations);
+    for (std::string& warning : aliased_factor_warnings(report.factors, presentations))
+        report.warnings.push_back(std::move(warning));
     report.rotations = rotation_facts(protocol);
     for (std::string& warning : rotation_warnings(report.rotations))
         report.warnings.push_back(std::move(warning));

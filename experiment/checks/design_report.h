@@ -9,6 +9,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "experiment/checks/design_words.h"
 #include "experiment/checks/recording_size.h"
 #include "experiment/checks/rotation_balance.h"
 #include "experiment/protocol/protocol.h"
@@ -25,9 +26,12 @@ struct DesignAssumptions {
     double answer_s = 10.0;       ///< answering aloud, kept within response_min_s … response_max_s
 };
 
+/// Of a motion.
 struct AnimationFacts {
+    std::string id;
+    Animation motion;
     int frames = 0;
-    int distinct_poses = 0;
+    int distinct_poses = 0; ///< pictures that differ, by the object's turn or the light's
     int shown_frames = 0;
     int refreshes_per_frame = 0;
     int refreshes = 0; ///< of one presentation
@@ -98,18 +102,26 @@ struct SurfaceFacts {
 struct DesignReport {
     std::string name, title;
     std::vector<std::string> tasks, objects, materials; ///< ids
-    int trials_per_observer = 0;                        ///< of the planned observer who has most
-    int fewest_trials = 0;                              ///< of the one who has fewest
-    int observers = 0;                                  ///< planned
-    std::vector<std::string> blocks;                    ///< ids; empty if the protocol has none
+    Factors factors;
+    int trials_per_observer = 0;     ///< of the planned observer who has most
+    int fewest_trials = 0;           ///< of the one who has fewest
+    int observers = 0;               ///< planned
+    std::vector<std::string> blocks; ///< ids; empty if the protocol has none
     std::vector<BlockFacts> block_facts;
+    std::vector<std::string> slots; ///< ids
+    std::vector<TaskWords> trials;  ///< each task in each block, in plain words
     std::vector<GroupFacts> groups;
     int practice_trials = 0;
 
     DisplaySettings display;
     ViewSettings view;
-    Animation motion;
-    AnimationFacts animation;
+    /// A place for a stimulus, with the image in it.
+    struct SlotFacts {
+        std::string id;
+        ScreenGeometry screen;
+    };
+    std::vector<SlotFacts> slot_places; ///< none without [[slot]]
+    std::vector<AnimationFacts> motions;
     VisualAngles angles;
     DesignAssumptions assumptions;
     SessionLength session;
@@ -119,7 +131,7 @@ struct DesignReport {
     std::vector<SurfaceFacts> surfaces; ///< of objects with a mesh
     std::optional<RecordingSize> recording;
 
-    std::vector<IncidenceCell> incidence; ///< task by task, object by object, material by material
+    std::vector<IncidenceCell> incidence; ///< task by task, stimulus by stimulus
     std::vector<RotationFacts> rotations; ///< of each group in which anything goes round
     std::vector<Schedule> schedules;
     std::vector<std::string> schedule_groups; ///< of each of their observers; empty without groups

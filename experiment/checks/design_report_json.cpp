@@ -11,6 +11,15 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+/// A member for each list that has several entries or is always named.
+void add_stimulus(Json& item, const DesignReport& report, const Stimulus& stimulus) {
+    for (const StimulusList& list : stimulus_lists) {
+        const Factor& factor = report.factors.at(list.name);
+        if (list.is_always_named || factor.levels.size() > 1)
+            item[factor.name] = factor.levels.at(static_cast<std::size_t>(stimulus.*list.index)).name;
+    }
+}
+
 Json order_json(const DesignReport& report, std::size_t index) {
     const Schedule& schedule = report.schedules[index];
     Json trials = Json::array();
@@ -19,8 +28,20 @@ Json order_json(const DesignReport& report, std::size_t index) {
         if (!report.blocks.empty())
             item["block"] = report.blocks.at(static_cast<std::size_t>(trial.block));
         item["task"] = report.tasks.at(static_cast<std::size_t>(trial.task));
-        item["object"] = report.objects.at(static_cast<std::size_t>(trial.stimulus.object));
-        item["material"] = report.materials.at(static_cast<std::size_t>(trial.stimulus.material));
+        add_stimulus(item, report, trial.stimulus);
+        if (report.slots.size() > 1) {
+            for (const PlacedStimulus& shown : trial.all_shown()) {
+                Json in_slot{{"slot", report.slots.at(static_cast<std::size_t>(shown.slot))}};
+                add_stimulus(in_slot, report, shown.stimulus);
+                item["shown"].push_back(std::move(in_slot));
+            }
+        }
+        for (const TrialLevel& of : trial.levels)
+            item["levels"][of.factor] = of.level;
+        if (!trial.correct.empty())
+            item["correct"] = trial.correct;
+        if (trial.role != TrialRole::trial)
+            item["role"] = name_of(trial.role);
         trials.push_back(std::move(item));
     }
     Json order{{"observer", schedule.observer.label},
@@ -31,6 +52,19 @@ Json order_json(const DesignReport& report, std::size_t index) {
         order["group"] = report.schedule_groups.at(index);
     order["trials"] = std::move(trials);
     return order;
+}
+
+Json factors_json(const Factors& factors) {
+    Json json = Json::array();
+    for (const Factor& factor : factors.all()) {
+        if (factor.levels.size() < 2)
+            continue;
+        Json levels = Json::array();
+        for (const FactorLevel& level : factor.levels)
+            levels.push_back(level.number ? Json(*level.number) : Json(level.name));
+        json.push_back({{"factor", factor.name}, {"levels", std::move(levels)}});
+    }
+    return json;
 }
 
 Json blocks_json(const DesignReport& report) {
@@ -70,10 +104,25 @@ Json rotations_json(const DesignReport& report) {
     return groups;
 }
 
+Json motion_json(const AnimationFacts& motion) {
+    return {{"id", motion.id},
+            {"kind", name_of(motion.motion.kind)},
+            {"frames", motion.frames},
+            {"distinct_poses", motion.distinct_poses},
+            {"shown_frames", motion.shown_frames},
+            {"refreshes_per_frame", motion.refreshes_per_frame},
+            {"refreshes", motion.refreshes},
+            {"duration_s", motion.duration_s},
+            {"periods", motion.periods},
+            {"amplitude_deg", motion.motion.amplitude.value},
+            {"angle_deg", motion.motion.angle.value},
+            {"light_amplitude_deg", motion.motion.light_amplitude.value},
+            {"playback", name_of(motion.motion.playback)}};
+}
+
 } // namespace
 
 Json to_json(const DesignReport& report) {
-    const AnimationFacts& animation = report.animation;
     const VisualAngles& angles = report.angles;
     const SessionLength& session = report.session;
     Json json{{"name", report.name},
@@ -85,17 +134,14 @@ Json to_json(const DesignReport& report) {
               {"fewest_trials", report.fewest_trials},
               {"observers", report.observers},
               {"practice_trials", report.practice_trials}};
+    json["factors"] = factors_json(report.factors);
     json["blocks"] = blocks_json(report);
+    json["trials"] = to_json(report.trials);
     json["groups"] = groups_json(report);
-    json["animation"] = {{"frames", animation.frames},
-                         {"distinct_poses", animation.distinct_poses},
-                         {"shown_frames", animation.shown_frames},
-                         {"refreshes_per_frame", animation.refreshes_per_frame},
-                         {"refreshes", animation.refreshes},
-                         {"duration_s", animation.duration_s},
-                         {"periods", animation.periods},
-                         {"amplitude_deg", report.motion.amplitude.value},
-                         {"playback", name_of(report.motion.playback)}};
+    json["animation"] = motion_json(report.motions.front());
+    json["motions"] = Json::array();
+    for (const AnimationFacts& motion : report.motions)
+        json["motions"].push_back(motion_json(motion));
     json["angles"] = {
         {"screen_width_deg", angles.screen_width_deg}, {"screen_height_deg", angles.screen_height_deg},
         {"image_width_deg", angles.image_width_deg},   {"image_height_deg", angles.image_height_deg},
@@ -118,6 +164,14 @@ Json to_json(const DesignReport& report) {
         if (std::isfinite(light->contrast()))
             json["light"]["contrast"] = light->contrast();
     }
+    for (const DesignReport::SlotFacts& slot : report.slot_places)
+        json["slots"].push_back({{"id", slot.id},
+                                 {"left_px", slot.screen.image_origin_px.x},
+                                 {"top_px", slot.screen.image_origin_px.y},
+                                 {"width_px", slot.screen.image_px.x},
+                                 {"height_px", slot.screen.image_px.y},
+                                 {"right_deg", slot.screen.middle_deg().x},
+                                 {"up_deg", slot.screen.middle_deg().y}});
     json["session"] = {{"calibration_s", session.calibration_s},
                        {"questions_s", session.questions_s},
                        {"drift_checks_s", session.drift_checks_s},
@@ -149,11 +203,10 @@ Json to_json(const DesignReport& report) {
     }
     json["incidence"] = Json::array();
     for (const IncidenceCell& cell : report.incidence) {
-        json["incidence"].push_back(
-            {{"task", report.tasks.at(static_cast<std::size_t>(cell.task))},
-             {"object", report.objects.at(static_cast<std::size_t>(cell.stimulus.object))},
-             {"material", report.materials.at(static_cast<std::size_t>(cell.stimulus.material))},
-             {"presentations", cell.presentations}});
+        Json item{{"task", report.tasks.at(static_cast<std::size_t>(cell.task))}};
+        add_stimulus(item, report, cell.stimulus);
+        item["presentations"] = cell.presentations;
+        json["incidence"].push_back(std::move(item));
     }
     json["is_seed_fixed"] = report.is_seed_fixed;
     json["orders"] = Json::array();

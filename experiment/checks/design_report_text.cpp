@@ -15,9 +15,9 @@ namespace overt {
 namespace {
 
 /// What the display makes of a frame rate that it only comes near to; nothing where it is exact.
-std::string difference_of_rates(const DesignReport& report) {
-    const double asked = report.motion.frame_rate_hz;
-    const double shown = report.display.refresh_hz / report.animation.refreshes_per_frame;
+std::string difference_of_rates(const DesignReport& report, const AnimationFacts& animation) {
+    const double asked = animation.motion.frame_rate_hz;
+    const double shown = report.display.refresh_hz / animation.refreshes_per_frame;
     const double percent = 100.0 * (shown / asked - 1.0);
     if (std::abs(percent) < 1e-3)
         return "";
@@ -42,6 +42,31 @@ void add_facts(std::string& text, std::string_view heading, const std::vector<st
         text += fmt::format("  {:<11}{}\n", i == 0 ? heading : "", lines[i]);
 }
 
+/// "6 objects x 3 materials", and the other lists where they have several entries.
+std::string lists_in_words(const DesignReport& report) {
+    std::string words;
+    for (const StimulusList& list : stimulus_lists) {
+        const auto entries = static_cast<int>(report.factors.at(list.name).levels.size());
+        if (list.is_always_named || entries > 1)
+            words += (words.empty() ? "" : " x ") + counted(entries, list.name, list.plural);
+    }
+    return words;
+}
+
+/// What is said of the entries besides: "roughness (material): 0.02, 0.05".
+void add_columns(std::string& text, const DesignReport& report) {
+    std::vector<std::string> lines;
+    for (const Factor& factor : report.factors.all()) {
+        if (factor.source != Factor::Source::column)
+            continue;
+        std::string levels;
+        for (const FactorLevel& level : factor.levels)
+            levels += (levels.empty() ? "" : ", ") + level.name;
+        lines.push_back(fmt::format("{} (of {}): {}", factor.name, stimulus_lists[factor.list].name, levels));
+    }
+    add_facts(text, "Columns", lines);
+}
+
 void add_blocks(std::string& text, const DesignReport& report) {
     std::vector<std::string> lines;
     if (!report.blocks.empty()) {
@@ -55,6 +80,26 @@ void add_blocks(std::string& text, const DesignReport& report) {
                                     group.cap > 0 ? fmt::format(" of {}", group.cap) : "",
                                     counted(group.trials, "trial")));
     add_facts(text, "Groups", lines);
+}
+
+/// Each task in each block, in words.
+void add_trials(std::string& text, const DesignReport& report) {
+    constexpr std::size_t widest = 86;
+    std::vector<std::string> lines;
+    for (const TaskWords& words : report.trials) {
+        std::string line = fmt::format("{}{}: {}, {:.1f} min", words.block.empty() ? "" : words.block + ", ",
+                                       words.task, counted(words.trials, "trial"), words.length_s / 60.0);
+        for (const std::string& sentence : words.sentences) {
+            line += ";";
+            if (line.size() + 1 + sentence.size() > widest) {
+                lines.push_back(line);
+                line = " ";
+            }
+            line += " " + sentence;
+        }
+        lines.push_back(line);
+    }
+    add_facts(text, "Trials", lines);
 }
 
 /// Only where several factors go round, for those have to be told apart.
@@ -80,41 +125,69 @@ void add_rotations(std::string& text, const DesignReport& report) {
     }
 }
 
-void add_overview(std::string& text, const DesignReport& report) {
-    const int objects = static_cast<int>(report.objects.size());
-    const int materials = static_cast<int>(report.materials.size());
-    const int tasks = static_cast<int>(report.tasks.size()), stimuli = objects * materials;
-    const AnimationFacts& animation = report.animation;
-    const VisualAngles& angles = report.angles;
+/// How object and light move, in words.
+std::string movement_of(const Animation& motion) {
+    const double light = motion.light_amplitude.value;
+    std::string words = motion.kind == MotionKind::still
+                            ? fmt::format("still at {} deg", motion.angle.value)
+                            : fmt::format("{} deg to each side", motion.amplitude.value);
+    if (motion.kind == MotionKind::turn && motion.angle.value != 0.0)
+        words += fmt::format(" of {}", motion.angle.value);
+    if (light != 0.0)
+        words += fmt::format(", the light {} deg to each side", light);
+    return words;
+}
+
+void add_motion(std::string& text, const DesignReport& report, const AnimationFacts& animation) {
     add_facts(
-        text, "Design",
-        {fmt::format("{} x {} = {}; {}: {}", counted(objects, "object"), counted(materials, "material"),
-                     counted(stimuli, "stimulus", "stimuli"), counted(tasks, "task"),
-                     counted(tasks * stimuli, "map")),
-         fmt::format("{}{} for each of {}",
-                     report.fewest_trials < report.trials_per_observer
-                         ? fmt::format("{} to ", report.fewest_trials)
-                         : "",
-                     counted(report.trials_per_observer, "trial"), counted(report.observers, "observer"))});
-    add_blocks(text, report);
-    add_rotations(text, report);
-    add_facts(
-        text, "Animation",
-        {fmt::format("{} ({}), {}, {} deg to each side", counted(animation.frames, "frame"),
-                     name_of(report.motion.playback), counted(animation.distinct_poses, "distinct pose"),
-                     report.motion.amplitude.value),
+        text, report.motions.size() > 1 ? "Motion " + animation.id : "Animation",
+        {fmt::format("{} ({}), {}, {}", counted(animation.frames, "frame"),
+                     name_of(animation.motion.playback), counted(animation.distinct_poses, "distinct pose"),
+                     movement_of(animation.motion)),
          fmt::format("shown: {} at {:.6g} Hz = {:.3f} s = {:.4g} swings to and fro",
                      counted(animation.shown_frames, "frame"), animation.shown_frames / animation.duration_s,
                      animation.duration_s, animation.periods),
          fmt::format("each frame is lit for {} at {} Hz: {} refreshes{}",
                      counted(animation.refreshes_per_frame, "refresh", "refreshes"),
-                     report.display.refresh_hz, animation.refreshes, difference_of_rates(report))});
+                     report.display.refresh_hz, animation.refreshes,
+                     difference_of_rates(report, animation))});
+}
+
+void add_overview(std::string& text, const DesignReport& report) {
+    const int tasks = static_cast<int>(report.tasks.size());
+    const int stimuli = static_cast<int>(report.factors.stimulus_count());
+    const VisualAngles& angles = report.angles;
+    add_facts(
+        text, "Design",
+        {fmt::format("{} = {}; {}: {}", lists_in_words(report), counted(stimuli, "stimulus", "stimuli"),
+                     counted(tasks, "task"), counted(tasks * stimuli, "map")),
+         fmt::format("{}{} for each of {}",
+                     report.fewest_trials < report.trials_per_observer
+                         ? fmt::format("{} to ", report.fewest_trials)
+                         : "",
+                     counted(report.trials_per_observer, "trial"), counted(report.observers, "observer"))});
+    add_columns(text, report);
+    add_blocks(text, report);
+    add_trials(text, report);
+    add_rotations(text, report);
+    for (const AnimationFacts& animation : report.motions)
+        add_motion(text, report, animation);
     add_facts(
         text, "Screen",
         {fmt::format("{} x {} px, {} x {} mm, seen from {} mm: {:.2f} x {:.2f} deg", report.display.width_px,
                      report.display.height_px, report.display.width_mm, report.display.height_mm,
                      report.display.viewing_distance_mm, angles.screen_width_deg, angles.screen_height_deg),
          fmt::format("light leaves as {}", name_of(report.display.output))});
+    std::vector<std::string> places;
+    for (const DesignReport::SlotFacts& slot : report.slot_places) {
+        const glm::ivec2 first = slot.screen.image_origin_px, last = first + slot.screen.image_px - 1;
+        const glm::dvec2 middle = slot.screen.middle_deg();
+        places.push_back(
+            fmt::format("{}: middle {:.2f} deg to the right, {:.2f} up; columns {} to {}, rows {} to {}",
+                        slot.id, middle.x, middle.y, first.x, last.x, first.y, last.y));
+    }
+    if (!places.empty())
+        add_facts(text, "Slots", places);
     if (const auto& light = report.display.characterisation) {
         std::vector<std::string> lines = light_lines(*light);
         lines.push_back(fmt::format("measured {} with {}; background {:.4g} cd/m2",
@@ -128,7 +201,8 @@ void add_overview(std::string& text, const DesignReport& report) {
                     report.view.width_px, report.view.height_px, angles.image_width_deg,
                     angles.image_height_deg, angles.px_per_deg),
         fmt::format("rendered under {:.2f} deg", angles.camera_fov_deg)};
-    if (std::hypot(angles.image_right_deg, angles.image_up_deg) > 2.0 / angles.px_per_deg)
+    if (report.slot_places.empty() &&
+        std::hypot(angles.image_right_deg, angles.image_up_deg) > 2.0 / angles.px_per_deg)
         stimulus.push_back(fmt::format("its middle stands {:.2f} deg to the right of the screen's and {:.2f} "
                                        "deg above it",
                                        angles.image_right_deg, angles.image_up_deg));
@@ -186,7 +260,36 @@ void add_session(std::string& text, const DesignReport& report) {
                                minutes(session.breaks_s), counted(session.breaks, "break"))});
 }
 
-void add_balance(std::string& text, const DesignReport& report) {
+/// Where stimuli differ in more than object and material: for each task and factor, how often each level is
+/// shown.
+void add_balance_by_factor(std::string& text, const DesignReport& report) {
+    text += fmt::format("\nPresentations of each level over {}\n\n", counted(report.observers, "observer"));
+    std::size_t width = 0;
+    for (const Factor& factor : report.factors.all())
+        width = std::max(width, factor.name.size());
+    for (int task = 0; task < static_cast<int>(report.tasks.size()); ++task) {
+        text += fmt::format("  {}\n", at(report.tasks, task));
+        for (const Factor& factor : report.factors.all()) {
+            const bool is_of_stimuli =
+                factor.source == Factor::Source::list || factor.source == Factor::Source::column;
+            if (!is_of_stimuli || factor.levels.size() < 2)
+                continue;
+            std::vector<int> shown(factor.levels.size());
+            for (const IncidenceCell& cell : report.incidence)
+                if (cell.task == task)
+                    shown[static_cast<std::size_t>(report.factors.level_of(factor, {}, cell.stimulus))] +=
+                        cell.presentations;
+            std::string levels;
+            for (std::size_t level = 0; level < shown.size(); ++level)
+                levels += fmt::format("{}{} {}", levels.empty() ? "" : ", ", factor.levels[level].name,
+                                      shown[level]);
+            text += fmt::format("    {:<{}}  {}\n", factor.name, width, levels);
+        }
+    }
+}
+
+/// Where stimuli are objects in materials: how often each is shown.
+void add_balance_by_stimulus(std::string& text, const DesignReport& report) {
     text +=
         fmt::format("\nPresentations of each stimulus over {}\n\n", counted(report.observers, "observer"));
     const std::size_t task_width = longest(report.tasks);
@@ -217,8 +320,28 @@ void add_balance(std::string& text, const DesignReport& report) {
     }
 }
 
+void add_balance(std::string& text, const DesignReport& report) {
+    if (report.factors.stimulus_count() == report.objects.size() * report.materials.size())
+        add_balance_by_stimulus(text, report);
+    else
+        add_balance_by_factor(text, report);
+}
+
+/// Lists by which the stimuli of an order are named.
+std::vector<const StimulusList*> named_lists(const DesignReport& report) {
+    std::vector<const StimulusList*> lists;
+    for (const StimulusList& list : stimulus_lists)
+        if (list.is_always_named || report.factors.at(list.name).levels.size() > 1)
+            lists.push_back(&list);
+    return lists;
+}
+
+const std::string& id_in(const DesignReport& report, const StimulusList& list, const Stimulus& stimulus) {
+    return report.factors.at(list.name).levels.at(static_cast<std::size_t>(stimulus.*list.index)).name;
+}
+
 void add_order_of_one(std::string& text, const DesignReport& report, const Schedule& schedule) {
-    const std::size_t task_width = longest(report.tasks), object_width = longest(report.objects);
+    const std::size_t task_width = longest(report.tasks);
     for (const Trial& trial : schedule.trials) {
         const bool begins_block =
             !report.blocks.empty() &&
@@ -226,9 +349,26 @@ void add_order_of_one(std::string& text, const DesignReport& report, const Sched
              schedule.trials[static_cast<std::size_t>(trial.index) - 1].block != trial.block);
         if (begins_block)
             text += fmt::format("  block {}\n", at(report.blocks, trial.block));
-        text += fmt::format("  {:>4}  {:<{}}  {:<{}}  {}\n", trial.index + 1, at(report.tasks, trial.task),
-                            task_width, at(report.objects, trial.stimulus.object), object_width,
-                            at(report.materials, trial.stimulus.material));
+        std::string line =
+            fmt::format("  {:>4}  {:<{}}", trial.index + 1, at(report.tasks, trial.task), task_width);
+        for (const PlacedStimulus& shown : trial.all_shown()) {
+            if (report.slots.size() > 1)
+                line += fmt::format("  {}:", at(report.slots, shown.slot));
+            for (const StimulusList* list : named_lists(report)) {
+                std::size_t width = 0;
+                for (const FactorLevel& level : report.factors.at(list->name).levels)
+                    width = std::max(width, level.name.size());
+                line += fmt::format("  {:<{}}", id_in(report, *list, shown.stimulus), width);
+            }
+        }
+        for (const TrialLevel& of : trial.levels)
+            line += fmt::format("  {} {}", of.factor, of.level);
+        if (!trial.correct.empty())
+            line += fmt::format("  correct {}", trial.correct);
+        if (trial.role != TrialRole::trial)
+            line += fmt::format("  ({})", name_of(trial.role));
+        line.erase(line.find_last_not_of(' ') + 1);
+        text += line + "\n";
     }
 }
 
@@ -248,8 +388,16 @@ std::string legend(const std::vector<std::string>& names, char first) {
 
 void add_orders_of_many(std::string& text, const DesignReport& report) {
     constexpr int codes_per_line = 18;
-    text += fmt::format("  task: {}\n  object: {}\n  material: {}\n\n", legend(report.tasks, '1'),
-                        legend(report.objects, 'A'), legend(report.materials, 'a'));
+    text += fmt::format("  task: {}\n", legend(report.tasks, '1'));
+    // Letters of one list and the next can be told apart: capitals and small ones take turns.
+    std::vector<const StimulusList*> lists = named_lists(report);
+    for (std::size_t i = 0; i < lists.size(); ++i) {
+        std::vector<std::string> ids;
+        for (const FactorLevel& level : report.factors.at(lists[i]->name).levels)
+            ids.push_back(level.name);
+        text += fmt::format("  {}: {}\n", lists[i]->name, legend(ids, i % 2 == 0 ? 'A' : 'a'));
+    }
+    text += "\n";
     for (const Schedule& schedule : report.schedules) {
         std::string line;
         for (const Trial& trial : schedule.trials) {
@@ -260,8 +408,9 @@ void add_orders_of_many(std::string& text, const DesignReport& report) {
                 line += " |";
             if (trial.index > 0 && trial.index % codes_per_line == 0)
                 line += "\n          ";
-            line += fmt::format(" {}{}{}", trial.task + 1, letter('A', trial.stimulus.object),
-                                letter('a', trial.stimulus.material));
+            line += fmt::format(" {}", trial.task + 1);
+            for (std::size_t i = 0; i < lists.size(); ++i)
+                line += letter(i % 2 == 0 ? 'A' : 'a', trial.stimulus.*lists[i]->index);
         }
         const auto index = static_cast<std::size_t>(&schedule - report.schedules.data());
         const std::string group =

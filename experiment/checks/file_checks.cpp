@@ -1,6 +1,7 @@
 #include "experiment/checks/protocol_checks.h"
-#include "experiment/scene/metal_table.h"
+#include "experiment/spectra/metal_table.h"
 
+#include <algorithm>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -16,9 +17,9 @@ bool is_file(const std::filesystem::path& path) {
 
 /// Whether all files of an animation are there; `file_of(frame)` names them, `what` is what they hold.
 template <class FileOf>
-void check_sequence(ProtocolExamination& examination, const std::string& path, const char* what,
-                    const FileOf& file_of) {
-    const int count = examination.protocol.animation.frame_count;
+void check_sequence(ProtocolExamination& examination, const std::string& path, std::size_t motion,
+                    const char* what, const FileOf& file_of) {
+    const int count = examination.protocol.motions[motion].frame_count;
     int missing = 0;
     std::filesystem::path first_missing;
     for (int frame = 0; frame < count; ++frame) {
@@ -29,7 +30,7 @@ void check_sequence(ProtocolExamination& examination, const std::string& path, c
             first_missing = file;
     }
     if (missing > 0) {
-        examination.error({path, "animation.frame_count"},
+        examination.error({path, fmt::format("motion[{}].frame_count", motion)},
                           fmt::format("{} of {} {} are missing", missing, count, what),
                           fmt::format("the first is {}", first_missing.string()));
     }
@@ -40,9 +41,13 @@ void check_sequence(ProtocolExamination& examination, const std::string& path, c
 void check_files(ProtocolExamination& examination) {
     const Protocol& protocol = examination.protocol;
     const std::string remedy = "paths count from the folder of the protocol file";
-    if (protocol.light.is_file() && !is_file(protocol.light.probe))
-        examination.error({"light.probe"}, fmt::format("there is no file {}", protocol.light.probe),
-                          remedy + "; \"gallery\" and \"overcast\" need none");
+    for (std::size_t i = 0; i < protocol.lights.size(); ++i) {
+        const LightSettings& light = protocol.lights[i];
+        if (light.is_file() && !is_file(light.probe))
+            examination.error({fmt::format("light[{}].probe", i)},
+                              fmt::format("there is no file {}", light.probe),
+                              remedy + "; \"gallery\" and \"overcast\" need none");
+    }
     for (std::size_t i = 0; i < protocol.objects.size(); ++i) {
         const ObjectSettings& object = protocol.objects[i];
         for (const auto& [key, file] :
@@ -53,7 +58,7 @@ void check_files(ProtocolExamination& examination) {
         }
         const std::string lut = fmt::format("object[{}].lut", i);
         if (!protocol.objects[i].lut.empty() && !examination.faulty.contains(lut)) {
-            check_sequence(examination, lut, "maps",
+            check_sequence(examination, lut, 0, "maps",
                            [&](AnimationFrameIndex frame) { return lut_file(protocol.objects[i], frame); });
         }
     }
@@ -66,8 +71,15 @@ void check_files(ProtocolExamination& examination) {
     }
     for (std::size_t i = 0; i < protocol.frames.size(); ++i) {
         const std::string path = fmt::format("frames[{}].files", i);
+        // An unknown motion has been found already.
+        const auto motion =
+            std::ranges::find(protocol.motions, protocol.frames[i].motion, &MotionSettings::id);
         if (!protocol.frames[i].files.empty() && !examination.faulty.contains(path))
-            check_sequence(examination, path, "frames",
+            check_sequence(examination, path,
+                           motion == protocol.motions.end()
+                               ? 0
+                               : static_cast<std::size_t>(motion - protocol.motions.begin()),
+                           "frames",
                            [&](AnimationFrameIndex frame) { return frame_file(protocol.frames[i], frame); });
     }
 }

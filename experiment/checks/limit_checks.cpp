@@ -10,16 +10,17 @@ namespace {
 
 /// "block "a" (sequential), block "b" (blocked by stimulus)": those in which a limit of [schedule] is
 /// dropped.
-std::string blocks_without(const Protocol& protocol, TrialFactor factor, OrderLimit::Kind kind) {
+std::string blocks_without(const Protocol& protocol, const Factors& factors, const Factor& factor,
+                           OrderLimit::Kind kind) {
     std::string blocks;
     for (int index = 0; index < block_count(protocol); ++index) {
         if (!limit_in(protocol, index, factor, kind).is_dropped ||
-            levels_in(protocol, scope_of(protocol, index), factor).size() < 2)
+            levels_in(factors, scope_of(protocol, index), factor).size() < 2)
             continue;
         const BlockSettings& block = block_at(protocol, index);
         blocks +=
             fmt::format("{}block \"{}\" ({}{})", blocks.empty() ? "" : ", ", block.id, name_of(block.order),
-                        block.order == OrderMethod::blocked ? fmt::format(" by {}", name_of(block.by)) : "");
+                        block.order == OrderMethod::blocked ? fmt::format(" by {}", block.by) : "");
     }
     return blocks;
 }
@@ -27,14 +28,17 @@ std::string blocks_without(const Protocol& protocol, TrialFactor factor, OrderLi
 } // namespace
 
 void check_dropped_limits(ProtocolExamination& examination) {
-    for (const TrialFactor factor :
-         {TrialFactor::task, TrialFactor::object, TrialFactor::material, TrialFactor::stimulus}) {
+    const Factors factors = factors_of(examination.protocol);
+    for (const Factor& factor : factors.all()) {
+        if (!can_be_limited(factor))
+            continue;
         for (const OrderLimit::Kind kind :
              {OrderLimit::Kind::longest_run, OrderLimit::Kind::least_distance}) {
-            const std::string name = kind == OrderLimit::Kind::longest_run
-                                         ? fmt::format("max_{}_run", name_of(factor))
-                                         : fmt::format("min_{}_distance", name_of(factor));
-            const std::string blocks = blocks_without(examination.protocol, factor, kind);
+            const bool is_run = kind == OrderLimit::Kind::longest_run;
+            const std::string own = own_limit_key(factor.name, kind),
+                              named = fmt::format("{}.{}", is_run ? "max_run" : "min_distance", factor.name),
+                              name = examination.is_written("schedule." + named) ? named : own;
+            const std::string blocks = blocks_without(examination.protocol, factors, factor, kind);
             if (!blocks.empty() && examination.is_written("schedule." + name))
                 examination.warning(
                     {"schedule." + name},

@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
+#include "experiment/base/counted.h"
 #include "experiment/checks/protocol_checks.h"
 #include "experiment/protocol/protocol_keys.h"
 #include "experiment/stimulus/frame_memory.h"
@@ -126,28 +128,30 @@ void check_linearisation(ProtocolExamination& examination) {
 
 void check_place(ProtocolExamination& examination) {
     const Protocol& protocol = examination.protocol;
-    const ViewSettings& view = protocol.view;
+    const ViewSettings& view = protocol.views.front();
     if (view.left_px && view.centre_right_deg)
-        examination.error({"view.centre_right_deg"}, "left_px already says where the stimulus is");
+        examination.error({"view[0].centre_right_deg"}, "left_px already says where the stimulus is");
     if (view.top_px && view.centre_up_deg)
-        examination.error({"view.centre_up_deg"}, "top_px already says where the stimulus is");
+        examination.error({"view[0].centre_up_deg"}, "top_px already says where the stimulus is");
+    if (!protocol.slot_entries.empty())
+        return; // their places are checked themselves
     const ScreenGeometry geometry = screen_geometry_of(protocol);
     const glm::ivec2 first = geometry.image_origin_px, last = first + geometry.image_px - 1;
     // What is larger than the screen has been found already, and is nowhere inside it.
     if (geometry.image_px.x <= geometry.screen_px.x && (first.x < 0 || last.x >= geometry.screen_px.x)) {
-        examination.error({"view.left_px", "view.centre_right_deg", "view.width_px"},
+        examination.error({"view[0].left_px", "view[0].centre_right_deg", "view[0].width_px"},
                           fmt::format("the stimulus takes the columns {} to {}, the screen has 0 to {}",
                                       first.x, last.x, geometry.screen_px.x - 1));
     }
     if (geometry.image_px.y > geometry.screen_px.y)
         return;
     if (first.y < 0 || last.y >= geometry.screen_px.y) {
-        examination.error({"view.top_px", "view.centre_up_deg", "view.height_px"},
+        examination.error({"view[0].top_px", "view[0].centre_up_deg", "view[0].height_px"},
                           fmt::format("the stimulus takes the rows {} to {}, the screen has 0 to {}", first.y,
                                       last.y, geometry.screen_px.y - 1));
     } else if (const int rows = reserved_rows(protocol.display.output); first.y < rows) {
         examination.error(
-            {"view.top_px", "view.centre_up_deg", "view.height_px", "display.output"},
+            {"view[0].top_px", "view[0].centre_up_deg", "view[0].height_px", "display.output"},
             fmt::format(
                 "the stimulus begins in row {}, but {} keeps the first {} for messages to the display",
                 first.y, name_of(protocol.display.output), rows == 1 ? "row" : "three rows"),
@@ -164,6 +168,8 @@ void check_photodiode(ProtocolExamination& examination) {
             examination.warning({"display.photodiode_px"}, "no square is shown: photodiode says no corner");
         return;
     }
+    if (!protocol.slot_entries.empty())
+        return;
     const ScreenGeometry geometry = screen_geometry_of(protocol);
     const glm::ivec2 first = patch->origin_px - patch_distance_px, end = patch->end_px() + patch_distance_px;
     const glm::ivec2 image = geometry.image_origin_px, image_end = image + geometry.image_px;
@@ -198,11 +204,15 @@ void check_tags(ProtocolExamination& examination) {
     }
     const ScreenGeometry geometry = screen_geometry_of(protocol);
     const std::optional<PatchPlace> patch = photodiode_patch_of(display);
-    const std::vector<TagPlace> tags = gaze_tags_of(geometry, display);
+    std::vector<glm::ivec2> images_px = slot_places(protocol);
+    if (images_px.empty())
+        images_px.push_back(geometry.image_origin_px);
+    const std::vector<TagPlace> tags = gaze_tags_of(geometry, display, images_px);
     for (const TagPlace& tag : tags) {
         const auto place = fmt::format("the tag in columns {} to {} and rows {} to {}", tag.origin_px.x,
                                        tag.end_px().x - 1, tag.origin_px.y, tag.end_px().y - 1);
-        if (touches(tag, geometry.image_origin_px, geometry.image_px)) {
+        if (std::ranges::any_of(images_px,
+                                [&](glm::ivec2 image) { return touches(tag, image, geometry.image_px); })) {
             examination.error({"display.tags_px"},
                               fmt::format("{} is closer than {} px to the stimulus", place, tag_distance_px),
                               "take smaller tags or a smaller stimulus");
@@ -225,17 +235,28 @@ void check_tags(ProtocolExamination& examination) {
 
 void check_frame_store(ProtocolExamination& examination) {
     const Protocol& protocol = examination.protocol;
-    const double stimulus_mb = 1e-6 * most_pages(protocol) * page_bytes(protocol);
-    const double store_mb = protocol.display.frame_store_mb;
-    if (stimulus_mb <= store_mb)
-        return;
-    examination.error(
-        {"display.frame_store_mb", "view.width_px", "view.height_px", "animation.frame_count"},
-        fmt::format("a stimulus takes {:.4g} MB of the frame store, which may take {}", stimulus_mb,
-                    store_mb),
-        fmt::format("write frame_store_mb = {:.0f}, if the graphics card has as much ({:.0f} with "
-                    "the next stimulus), or show fewer or smaller frames",
-                    std::ceil(stimulus_mb), std::ceil(2.0 * stimulus_mb)));
+    const double page_mb = 1e-6 * page_bytes(protocol), store_mb = protocol.display.frame_store_mb;
+    for (std::size_t motion = 0; motion < protocol.motions.size(); ++motion) {
+        const int pages = most_pages(protocol, static_cast<int>(motion));
+        const double stimulus_mb = page_mb * pages;
+        if (stimulus_mb <= store_mb)
+            continue;
+        const std::string named = protocol.motions.size() > 1
+                                      ? fmt::format(" in motion \"{}\" takes, with {},",
+                                                    protocol.motions[motion].id, counted(pages, "picture"))
+                                      : " takes";
+        const std::string frames = fmt::format("motion[{}].frame_count", motion),
+                          store = "display.frame_store_mb";
+        const bool is_one_of_several = protocol.motions.size() > 1;
+        examination.error(
+            {is_one_of_several ? frames : store, is_one_of_several ? store : frames, "view[0].width_px",
+             "view[0].height_px"},
+            fmt::format("a stimulus{} {:.4g} MB of the frame store, which may take {}", named, stimulus_mb,
+                        store_mb),
+            fmt::format("write frame_store_mb = {:.0f}, if the graphics card has as much ({:.0f} "
+                        "with the next stimulus), or show fewer or smaller frames",
+                        std::ceil(stimulus_mb), std::ceil(2.0 * stimulus_mb)));
+    }
 }
 
 void check_timing_claim(ProtocolExamination& examination) {

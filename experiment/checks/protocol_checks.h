@@ -14,7 +14,7 @@ void check_image_fits(ProtocolExamination& examination);
 void check_sizes(ProtocolExamination& examination);
 /// What the video signal can carry, and where on the screen.
 void check_output(ProtocolExamination& examination);
-void check_animation(ProtocolExamination& examination);
+void check_motions(ProtocolExamination& examination);
 void check_screens(ProtocolExamination& examination);
 void check_schedule(ProtocolExamination& examination);
 /// Limits that are written in [schedule] and do not hold in a block, because of its order.
@@ -23,6 +23,8 @@ void check_dropped_limits(ProtocolExamination& examination);
 /// Blocks and groups: what they name, and what belongs together in one.
 void check_blocks(ProtocolExamination& examination);
 void check_groups(ProtocolExamination& examination);
+/// Rules and tables of trials: after check_slots().
+void check_trials(ProtocolExamination& examination);
 void check_practice(ProtocolExamination& examination);
 void check_simulated_effects(ProtocolExamination& examination);
 void check_breaks(ProtocolExamination& examination);
@@ -40,6 +42,12 @@ void check_ids(ProtocolExamination& examination);
 void check_objects(ProtocolExamination& examination, std::span<const std::string_view> shipped_sculptures);
 void check_materials(ProtocolExamination& examination);
 void check_frames(ProtocolExamination& examination);
+/// What the stimuli of a trial take of the frame store together. Of a protocol that is sound otherwise.
+void check_slot_memory(ProtocolExamination& examination);
+/// What a trial of each task does.
+void check_steps(ProtocolExamination& examination);
+/// Places on the screen, and in which of them each task shows its stimuli.
+void check_slots(ProtocolExamination& examination);
 /// After take_characterisation().
 void check_bake(ProtocolExamination& examination);
 
@@ -47,6 +55,11 @@ void check_bake(ProtocolExamination& examination);
 void check_files(ProtocolExamination& examination);
 
 // What several of them look for.
+
+/// Reports at `path` the first two of these slots (indices into the protocol's) that share pixels, or one
+/// that is there twice.
+void check_slots_apart(ProtocolExamination& examination, const std::string& path,
+                       std::span<const int> shown_at_once);
 
 /// Reports each entry of a list whose id an earlier one has already. Empty ids are reported elsewhere.
 void check_ids_differ(ProtocolExamination& examination, std::string_view list,

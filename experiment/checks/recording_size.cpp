@@ -8,6 +8,7 @@
 #include "experiment/animation.h"
 #include "experiment/base/bytes_in_words.h"
 #include "experiment/maps/light_pictures.h"
+#include "experiment/protocol/all_stimuli.h"
 
 namespace overt {
 
@@ -15,6 +16,8 @@ namespace {
 
 // Measured in session.sqlite: 41.4 bytes for each of 492,920 samples, 51.5 for each of 28,800 flips.
 constexpr double bytes_per_sample = 42.0, bytes_per_flip = 52.0;
+// The same of a flip's row for a further slot: key, three small numbers.
+constexpr double bytes_per_slot_flip = 16.0;
 constexpr double bytes_at_first = 300e3; ///< of a record without rows, protocol and manifest
 constexpr double bytes_per_px = 0.5;
 // Binary PLY: three float32; a count, three numbers of 32 bits and a part.
@@ -24,11 +27,17 @@ constexpr double bytes_per_vertex = 12.0, bytes_per_triangle = 14.0;
 
 RecordingSize recording_size(const Protocol& protocol, std::span<const Object> objects, int trials,
                              double answer_s) {
-    const PageCycle cycle = make_page_cycle(protocol.animation, protocol.display.refresh_hz);
+    // As if all trials had the longest motion.
+    const std::vector<PageCycle> cycles = page_cycles(protocol);
+    const PageCycle& cycle = std::ranges::max(cycles, {}, &PageCycle::total_refreshes);
     const double recorded_s =
         cycle.total_refreshes / protocol.display.refresh_hz + 2.0 * protocol.screens.recording_lead_s;
     // Each tracker's record has the flips as well.
-    const double flip_bytes = cycle.total_refreshes * bytes_per_flip;
+    std::size_t slots = 1;
+    for (int task = 0; task < static_cast<int>(protocol.tasks.size()); ++task)
+        slots = std::max(slots, slots_of_task(protocol, task).size());
+    const double flip_bytes =
+        cycle.total_refreshes * (bytes_per_flip + bytes_per_slot_flip * static_cast<double>(slots - 1));
     const auto bytes_of = [&](const TrackerSettings& tracker) {
         return recorded_s * (row_of(tracker.kind).measures_gaze ? tracker.rate_hz : 0.0) * bytes_per_sample +
                flip_bytes;
@@ -42,18 +51,20 @@ RecordingSize recording_size(const Protocol& protocol, std::span<const Object> o
     double mapped = 0.0;
     for (std::size_t i = 0; i < objects.size(); ++i)
         mapped += objects[i].has_mesh() || (i < protocol.objects.size() && !protocol.objects[i].lut.empty());
-    const double picture_bytes = bytes_per_px * protocol.view.width_px * protocol.view.height_px;
+    const ViewSettings& view = protocol.views.front(); // of one size in all views
+    const auto views = static_cast<double>(protocol.views.size());
+    const double picture_bytes = bytes_per_px * view.width_px * view.height_px;
     RecordingSize size;
     // SQLite's log holds a trial's rows until they are in the file.
     size.rows = records * bytes_at_first + (trials + 1) * trial_bytes;
-    const auto poses = static_cast<double>(distinct_poses(protocol.animation).angles.size());
-    const auto materials = static_cast<double>(protocol.materials.size());
-    size.maps = picture_bytes * mapped * poses;
-    const LightPictures light{.image_px = {protocol.view.width_px, protocol.view.height_px},
-                              .square_px =
-                                  light_square_px({protocol.view.width_px, protocol.view.height_px})};
-    size.pictures = picture_bytes * object_count * materials +
-                    bytes_per_px * static_cast<double>(light.squares()) * mapped * poses * materials;
+    size.maps = picture_bytes * mapped * views * poses_of(protocol).count();
+    const glm::ivec2 image_px(view.width_px, view.height_px);
+    const LightPictures light{.image_px = image_px, .square_px = light_square_px(image_px)};
+    const auto per_object = static_cast<double>(protocol.materials.size() * protocol.lights.size()) * views;
+    const double light_bytes = bytes_per_px * static_cast<double>(light.squares());
+    for (const Animation& motion : protocol.motions)
+        size.pictures += per_object * (picture_bytes * object_count +
+                                       light_bytes * mapped * static_cast<double>(motion.pictures().size()));
     for (const Object& object : objects)
         size.meshes += bytes_per_vertex * static_cast<double>(object.mesh.positions.size()) +
                        bytes_per_triangle * static_cast<double>(object.mesh.triangles.size());

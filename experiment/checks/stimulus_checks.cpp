@@ -1,15 +1,20 @@
 #include "experiment/checks/protocol_checks.h"
-#include "experiment/scene/metal_table.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "experiment/protocol/all_stimuli.h"
 #include "experiment/protocol/entry_ids.h"
 #include "experiment/protocol/protocol_keys.h"
+#include "experiment/scene/areas.h"
+#include "experiment/spectra/metal_table.h"
+#include "experiment/stimulus/object.h"
 
 namespace overt {
 
@@ -19,23 +24,87 @@ std::string entry_path(std::string_view list, std::size_t index, std::string_vie
     return key.empty() ? fmt::format("{}[{}]", list, index) : fmt::format("{}[{}].{}", list, index, key);
 }
 
-template <class Entry>
-void check_list(ProtocolExamination& examination, std::string_view list, const std::vector<Entry>& entries) {
+void check_list(ProtocolExamination& examination, std::string_view list,
+                const std::vector<std::string_view>& ids) {
     // Indices into the lists travel as bytes in records and textures, 255 meaning none.
     constexpr std::size_t most_entries = 254;
-    if (entries.size() > most_entries) {
+    if (ids.size() > most_entries) {
         examination.error({entry_path(list, most_entries)},
                           fmt::format("more than {} entries of [[{}]]", most_entries, list));
     }
-    check_ids_differ(examination, list, ids_of<std::string_view>(entries));
+    check_ids_differ(examination, list, ids);
+}
+
+bool is_column_name(std::string_view name) {
+    return !name.empty() && name.front() >= 'a' && name.front() <= 'z' &&
+           std::ranges::all_of(name, [](char letter) {
+               return (letter >= 'a' && letter <= 'z') || (letter >= '0' && letter <= '9') || letter == '_';
+           });
+}
+
+void check_columns(ProtocolExamination& examination, std::size_t list);
+
+/// One of the lists that stimuli are made of. An entry may be without an id where it is the only one.
+void check_entries(ProtocolExamination& examination, std::size_t list) {
+    const std::string_view name = stimulus_lists[list].name;
+    std::vector<std::string_view> ids;
+    for (const ListEntry* entry : entries_of(std::as_const(examination.protocol), list)) {
+        const std::string id = entry_path(name, ids.size(), "id");
+        if (examination.is_written(id) || examination.faulty.contains(id)) {
+            ids.push_back(entry->id);
+            continue;
+        }
+        ids.push_back({});
+        if (entries_of(std::as_const(examination.protocol), list).size() > 1)
+            examination.error({id}, fmt::format("one of several [[{}]] has no \"id\"", name),
+                              "each entry of a list needs its own, by which tables name it");
+    }
+    check_list(examination, name, ids);
+    check_columns(examination, list);
+}
+
+/// Words or numbers, the same in all entries; a name that no other list and no table has.
+void check_columns(ProtocolExamination& examination, std::size_t list) {
+    const Protocol& protocol = examination.protocol;
+    std::map<std::string, std::pair<std::string, bool>, std::less<>> known; // path of the first, is a number
+    const auto entries = entries_of(protocol, list);
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+        for (const NamedWord& column : entries[i]->columns) {
+            const std::string path = entry_path(stimulus_lists[list].name, i, "columns." + column.name);
+            const auto [first, is_new] =
+                known.try_emplace(column.name, std::pair(path, column.number.has_value()));
+            if (!is_new && first->second.second != column.number.has_value())
+                examination.error({path},
+                                  fmt::format("the column \"{}\" has a {} here and a {} in {}", column.name,
+                                              column.number ? "number" : "word",
+                                              column.number ? "word" : "number",
+                                              examination.line_of(first->second.first, path)),
+                                  "a column holds words or numbers, not both");
+            if (!is_new)
+                continue;
+            if (!is_column_name(column.name))
+                examination.error({path}, fmt::format("\"{}\" is no name for a column", column.name),
+                                  "letters a to z, digits and _, beginning with a letter");
+            else if (is_name_of_factor(column.name))
+                examination.error({path}, fmt::format("tables have a column \"{}\" already", column.name),
+                                  "call it otherwise");
+            for (std::size_t earlier = 0; earlier < list; ++earlier)
+                for (const ListEntry* other : entries_of(protocol, earlier))
+                    if (std::ranges::find(other->columns, column.name, &NamedWord::name) !=
+                        other->columns.end())
+                        examination.error({path},
+                                          fmt::format("entries of [[{}]] have a column \"{}\", too",
+                                                      stimulus_lists[earlier].name, column.name),
+                                          "call one of them otherwise");
+        }
+    }
 }
 
 bool is_covered_by_frames(const Protocol& protocol, std::size_t object) {
-    for (std::size_t material = 0; material < protocol.materials.size(); ++material) {
-        if (!find_frames(protocol, static_cast<int>(object), static_cast<int>(material)))
-            return false;
-    }
-    return !protocol.materials.empty();
+    return !protocol.materials.empty() &&
+           std::ranges::all_of(all_stimuli(protocol), [&](const Stimulus& stimulus) {
+               return stimulus.object != static_cast<int>(object) || find_frames(protocol, stimulus);
+           });
 }
 
 /// Warns of keys that are written though they have no effect without another.
@@ -69,6 +138,16 @@ void check_lut(ProtocolExamination& examination, std::size_t index) {
             {path("lut")},
             fmt::format("object \"{}\" has maps, but not [[frames]] for every material", object.id),
             "without a mesh nothing can be rendered");
+    }
+    // Their files have the numbers of one motion's frames.
+    for (const auto& [list, entries] : {std::pair{"motion", examination.protocol.motions.size()},
+                                        std::pair{"view", examination.protocol.views.size()}}) {
+        if (entries > 1)
+            examination.error({path("lut"), entry_path(list, 1)},
+                              fmt::format("ready-made maps are of one {0}, and the protocol has {1}: nothing "
+                                          "says of which the maps of \"{2}\" are",
+                                          list, entries, object.id),
+                              "give the mesh, from which maps are made for all");
     }
     if (object.lut_min.has_value() != object.lut_max.has_value()) {
         examination.error({path("lut_min"), path("lut_max")}, "a box needs both \"lut_min\" and \"lut_max\"");
@@ -106,12 +185,54 @@ void check_frame_colours(ProtocolExamination& examination, std::size_t index) {
                             "\"background_tolerance\" has no effect without \"background_colour\"");
 }
 
+/// The path of an area's key, under whichever name of the table it was written.
+std::string area_path(const ProtocolExamination& examination, std::size_t object, const std::string& area) {
+    const std::string path = entry_path("object", object, fmt::format("areas.{}", area));
+    return examination.is_written(path) ? path : entry_path("object", object, area);
+}
+
+void check_areas(ProtocolExamination& examination, std::size_t index) {
+    const ObjectSettings& object = examination.protocol.objects[index];
+    const std::string areas = entry_path("object", index, "areas"),
+                      head = entry_path("object", index, "head");
+    for (std::size_t i = 0; i < object.areas.size(); ++i) {
+        const AreaSettings& area = object.areas[i];
+        const std::string path = area_path(examination, index, area.name);
+        for (std::size_t before = 0; before < i; ++before) {
+            if (object.areas[before].name == area.name)
+                examination.error({head, path}, fmt::format("\"{}\" is described twice", area.name),
+                                  "write it either as \"head\" or in \"areas\"");
+        }
+        const bool is_anywhere = !area.spheres.empty() || !area.boxes.empty() || !area.groups.empty();
+        if (!is_anywhere && area.planes.empty())
+            examination.error({path}, fmt::format("nothing says where \"{}\" is", area.name),
+                              "give it \"spheres\", \"boxes\", \"groups\" or \"planes\"");
+        else if (!is_anywhere && area.name == head_area)
+            examination.warning({path}, "\"planes\" alone make no head", "give \"spheres\" that hold it");
+        if (!object.lut.empty() && !area.groups.empty())
+            examination.error({path}, "ready-made maps have no groups", "give spheres, boxes or planes");
+    }
+    if (!object.lut.empty() && object.areas.size() > most_map_areas)
+        examination.error({areas},
+                          fmt::format("{} areas are described, and maps take {} at most", object.areas.size(),
+                                      most_map_areas),
+                          "take some out, or give the object's mesh in place of \"lut\"");
+}
+
 } // namespace
 
 void check_ids(ProtocolExamination& examination) {
-    check_list(examination, "task", examination.protocol.tasks);
-    check_list(examination, "object", examination.protocol.objects);
-    check_list(examination, "material", examination.protocol.materials);
+    check_list(examination, "task", ids_of<std::string_view>(examination.protocol.tasks));
+    for (std::size_t list = 0; list < stimulus_lists.size(); ++list)
+        check_entries(examination, list);
+    // All of them are counted, task by task.
+    constexpr double most_stimuli = 100000.0;
+    double stimuli = 1.0;
+    for (std::size_t list = 0; list < stimulus_lists.size(); ++list)
+        stimuli *= static_cast<double>(ids_in_list(examination.protocol, list).size());
+    if (stimuli > most_stimuli)
+        examination.error({"object[0]"}, fmt::format("the lists make {:.0f} stimuli; {:.0f} is the most",
+                                                     stimuli, most_stimuli));
 }
 
 void check_objects(ProtocolExamination& examination, std::span<const std::string_view> shipped_sculptures) {
@@ -144,11 +265,10 @@ void check_objects(ProtocolExamination& examination, std::span<const std::string
             check_idle_keys(examination, i, {"lut_first_number", "lut_scale", "lut_min", "lut_max"},
                             "\"lut\"", "it describes ready-made maps");
         if (!has_mesh && !has_lut)
-            check_idle_keys(examination, i, {"head"}, "\"mesh\"",
-                            "it describes the coordinates of a mesh file");
-        else if (object.head_spheres.empty() && !object.head_planes.empty())
-            examination.warning({entry_path("object", i, "head")}, "\"planes\" alone make no head",
-                                "give \"spheres\" that hold it");
+            check_idle_keys(examination, i, {"head", "areas"}, "\"mesh\"",
+                            "it describes places in a mesh file");
+        else
+            check_areas(examination, i);
     }
 }
 
@@ -178,17 +298,40 @@ void check_materials(ProtocolExamination& examination) {
     }
 }
 
+namespace {
+
+/// Frames are of one light, motion and view: where there are several, they say which.
+template <class Entry>
+void check_choice_of_frames(ProtocolExamination& examination, std::size_t index, std::string_view list,
+                            const std::string& id, const std::vector<Entry>& entries) {
+    const std::string path = entry_path("frames", index, list);
+    if (!id.empty()) {
+        is_known(examination, path, fmt::format("[[{}]]", list), id, ids_of<std::string_view>(entries));
+    } else if (entries.size() > 1) {
+        examination.error({path, entry_path("frames", index)},
+                          fmt::format("the frames do not say of which [[{}]] they are, and there are {}",
+                                      list, entries.size()),
+                          fmt::format("such as {} = \"{}\"", list, entries.front().id));
+    }
+}
+
+} // namespace
+
 void check_frames(ProtocolExamination& examination) {
     const Protocol& protocol = examination.protocol;
     const auto objects = ids_of<std::string_view>(protocol.objects),
                materials = ids_of<std::string_view>(protocol.materials);
-    std::map<std::pair<std::string, std::string>, std::size_t> seen;
+    std::map<std::array<std::string, 5>, std::size_t> seen;
     for (std::size_t i = 0; i < protocol.frames.size(); ++i) {
         const FrameSequenceSettings& sequence = protocol.frames[i];
         is_known(examination, entry_path("frames", i, "object"), "[[object]]", sequence.object, objects);
         is_known(examination, entry_path("frames", i, "material"), "[[material]]", sequence.material,
                  materials);
-        const auto [first, is_new] = seen.try_emplace({sequence.object, sequence.material}, i);
+        check_choice_of_frames(examination, i, "light", sequence.light, protocol.lights);
+        check_choice_of_frames(examination, i, "motion", sequence.motion, protocol.motions);
+        check_choice_of_frames(examination, i, "view", sequence.view, protocol.views);
+        const auto [first, is_new] = seen.try_emplace(
+            {sequence.object, sequence.material, sequence.light, sequence.motion, sequence.view}, i);
         if (!is_new) {
             examination.error(
                 {entry_path("frames", i, "object"), entry_path("frames", i, "material")},

@@ -1,12 +1,16 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <set>
 
 #include "experiment/base/random.h"
 #include "experiment/design/block_plan.h"
+#include "experiment/design/drawn_lists.h"
 #include "experiment/design/latin_square.h"
 #include "experiment/design/observer_groups.h"
 #include "experiment/design/schedule.h"
+#include "experiment/design/task_trials.h"
+#include "experiment/protocol/entry_ids.h"
 
 namespace overt {
 
@@ -16,13 +20,12 @@ int count_of(const auto& list) { return static_cast<int>(list.size()); }
 
 /// Indices of the entries that an id list names, in its order; of all, if it names none. Those that `group`
 /// names none of are left out.
-template <class Entry>
-std::vector<int> chosen(const std::vector<Entry>& entries, const std::vector<std::string>& ids,
+std::vector<int> chosen(const std::vector<std::string>& entries, const std::vector<std::string>& ids,
                         const std::vector<std::string>* group) {
     std::vector<int> indices;
     const auto add = [&](const auto& wanted) {
         for (int i = 0; i < count_of(entries); ++i) {
-            const std::string& id = entries[static_cast<std::size_t>(i)].id;
+            const std::string& id = entries[static_cast<std::size_t>(i)];
             if (wanted(id) &&
                 (!group || group->empty() || std::find(group->begin(), group->end(), id) != group->end()))
                 indices.push_back(i);
@@ -35,24 +38,55 @@ std::vector<int> chosen(const std::vector<Entry>& entries, const std::vector<std
     return indices;
 }
 
-/// The material of a cell, c = task * S + object with the task's place among the rotated ones: column (c +
-/// floor(c / L)) mod M of the row, with L the least common multiple of S and M. So the M rows of a square
-/// fill all M materials of a cell once; each row has all materials equally often, to one; and an object
-/// changes its material from task to task.
-int rotated(const Protocol& protocol, int row, int cell, const BlockScope& scope) {
-    const int objects = count_of(scope.objects), materials = count_of(scope.materials);
-    const int round = std::lcm(objects, materials);
-    const int column = (cell + cell / round) % materials;
-    return row_of_square(protocol.schedule.material_rotation, materials, row,
-                         static_cast<std::uint64_t>(protocol.schedule.rotation_seed),
-                         "material rotation")[static_cast<std::size_t>(column)];
+/// What a block shows to a group, or to somebody whom none keeps anything from.
+BlockScope scope_for(const Protocol& protocol, int block, const GroupSettings* group) {
+    const BlockSettings& settings = block_at(protocol, block);
+    BlockScope scope;
+    scope.tasks = chosen(ids_of(protocol.tasks), settings.tasks, group ? &group->tasks : nullptr);
+    for (std::size_t list = 0; list < stimulus_lists.size(); ++list) {
+        const std::vector<std::string_view> ids = ids_in_list(protocol, list);
+        scope.lists[list] =
+            chosen({ids.begin(), ids.end()}, settings.chosen[list], group ? &group->chosen[list] : nullptr);
+    }
+    return scope;
 }
 
-std::vector<Trial> trials_in(const Protocol& protocol, int block, const BlockScope& scope, int row) {
+constexpr std::size_t object_list = 0;
+static_assert(stimulus_lists[object_list].index == &Stimulus::object);
+
+/// The rotated list's entry of a cell, c = task * S + object with the task's place among the rotated ones:
+/// column (c + floor(c / L)) mod M of the row, with L the least common multiple of S and M. So the M rows of
+/// a square fill all M entries of a cell once; each row has all entries equally often, to one; and an object
+/// changes its entry from task to task.
+int rotated(const Protocol& protocol, int row, int cell, const BlockScope& scope) {
+    const int objects = count_of(scope.lists[object_list]), entries = rotated_entries(protocol, scope);
+    const int round = std::lcm(objects, entries);
+    const int column = (cell + cell / round) % entries;
+    return row_of_square(protocol.schedule.material_rotation, entries, row,
+                         static_cast<std::uint64_t>(protocol.schedule.rotation_seed),
+                         std::string(protocol.schedule.rotated_list) +
+                             " rotation")[static_cast<std::size_t>(column)];
+}
+
+/// Whose trials are asked for.
+struct ForObserver {
+    int number = 1;
+    std::uint64_t seed = 0;
+};
+
+std::vector<Trial> trials_in(const Protocol& protocol, int block, const BlockScope& scope, int row,
+                             const ForObserver& observer) {
     std::vector<Trial> trials;
     for (const int task : scope.tasks) {
+        if (protocol.tasks[static_cast<std::size_t>(task)].trials.has_own_trials()) {
+            for (Trial& trial :
+                 own_trials(protocol, task, block, stimuli_in(scope), observer.number, observer.seed))
+                trials.push_back(std::move(trial));
+            continue;
+        }
+        const std::size_t first = trials.size();
         const TaskCoverage own = protocol.tasks[static_cast<std::size_t>(task)].stimuli;
-        const bool rotates = rotates_materials(protocol, block, task);
+        const bool is_rotated = rotates(protocol, block, task);
         // A rotated task's cells are numbered by its place among the rotated tasks, whatever block it is in.
         int rotating_task = task;
         if (own == TaskCoverage::once_per_object)
@@ -60,19 +94,32 @@ std::vector<Trial> trials_in(const Protocol& protocol, int block, const BlockSco
                 std::count_if(protocol.tasks.begin(), protocol.tasks.begin() + task, [](const Task& earlier) {
                     return earlier.stimuli == TaskCoverage::once_per_object;
                 }));
-        for (int i = 0; i < count_of(scope.objects); ++i) {
-            const int object = scope.objects[static_cast<std::size_t>(i)];
-            if (rotates && !scope.materials.empty()) {
-                const int cell = rotating_task * count_of(scope.objects) + i;
-                const int material =
-                    scope.materials[static_cast<std::size_t>(rotated(protocol, row, cell, scope))];
-                trials.push_back({count_of(trials), task, {object, material}, block});
-                continue;
-            }
-            for (const int material : scope.materials)
-                trials.push_back({count_of(trials), task, {object, material}, block});
+        // Of a rotated task, an object has one entry of the list in all that the other lists make of it.
+        const std::size_t list = rotated_list(protocol);
+        std::vector<int> entry_of_object(protocol.objects.size(), -1);
+        const std::vector<int>& objects = scope.lists[object_list];
+        for (int i = 0; is_rotated && !scope.lists[list].empty() && i < count_of(objects); ++i) {
+            const int cell = rotating_task * count_of(objects) + i;
+            entry_of_object[static_cast<std::size_t>(objects[static_cast<std::size_t>(i)])] =
+                scope.lists[list][static_cast<std::size_t>(rotated(protocol, row, cell, scope))];
         }
+        for (const Stimulus& stimulus : stimuli_in(scope)) {
+            if (!is_rotated || entry_of_object[static_cast<std::size_t>(stimulus.object)] ==
+                                   stimulus.*stimulus_lists[list].index)
+                trials.push_back({count_of(trials), task, stimulus, block});
+        }
+        std::for_each(trials.begin() + static_cast<std::ptrdiff_t>(first), trials.end(),
+                      [&](Trial& trial) { fill_slots(protocol, trial); });
+        const std::vector<Trial> once(trials.begin() + static_cast<std::ptrdiff_t>(first), trials.end());
+        for (int i = 1; i < protocol.tasks[static_cast<std::size_t>(task)].repetitions; ++i)
+            trials.insert(trials.end(), once.begin(), once.end());
     }
+    for (const int task : scope.tasks)
+        for (Trial& trial :
+             catch_trials(protocol, task, block, stimuli_in(scope), trials, observer.number, observer.seed))
+            trials.push_back(std::move(trial));
+    for (std::size_t i = 0; i < trials.size(); ++i)
+        trials[i].index = static_cast<int>(i);
     return trials;
 }
 
@@ -97,11 +144,30 @@ std::vector<int> order_of_blocks(const Protocol& protocol, const std::vector<int
 
 } // namespace
 
-BlockScope scope_of(const Protocol& protocol, int block) {
-    const BlockSettings& settings = block_at(protocol, block);
-    return {chosen(protocol.tasks, settings.tasks, nullptr),
-            chosen(protocol.objects, settings.objects, nullptr),
-            chosen(protocol.materials, settings.materials, nullptr)};
+BlockScope scope_of(const Protocol& protocol, int block) { return scope_for(protocol, block, nullptr); }
+
+std::size_t rotated_list(const Protocol& protocol) {
+    return static_cast<std::size_t>(
+        std::ranges::find(stimulus_lists, protocol.schedule.rotated_list, &StimulusList::name) -
+        stimulus_lists.begin());
+}
+
+int rotated_entries(const Protocol& protocol, const BlockScope& scope) {
+    return count_of(scope.lists.at(rotated_list(protocol)));
+}
+
+std::vector<Stimulus> stimuli_in(const BlockScope& scope) {
+    std::vector<Stimulus> stimuli{{}};
+    for (std::size_t list = 0; list < stimulus_lists.size(); ++list) {
+        std::vector<Stimulus> more;
+        for (Stimulus stimulus : stimuli)
+            for (const int entry : scope.lists[list]) {
+                stimulus.*stimulus_lists[list].index = entry;
+                more.push_back(stimulus);
+            }
+        stimuli = std::move(more);
+    }
+    return stimuli;
 }
 
 const BlockSettings whole_session;
@@ -112,41 +178,58 @@ const BlockSettings& block_at(const Protocol& protocol, int block) {
     return protocol.blocks.empty() ? whole_session : protocol.blocks.at(static_cast<std::size_t>(block));
 }
 
-int level_of(const Protocol& protocol, const Trial& trial, TrialFactor factor) {
-    switch (factor) {
-    case TrialFactor::task:
-        return trial.task;
-    case TrialFactor::object:
-        return trial.stimulus.object;
-    case TrialFactor::material:
-        return trial.stimulus.material;
-    case TrialFactor::stimulus:
-        break;
-    }
-    return trial.stimulus.object * count_of(protocol.materials) + trial.stimulus.material;
+void fill_slots(const Protocol& protocol, Trial& trial) {
+    const std::vector<int> slots = slots_of_task(protocol, trial.task);
+    trial.slot = slots.empty() ? 0 : slots.front();
+    trial.beside.clear();
+    for (std::size_t i = 1; i < slots.size(); ++i)
+        trial.beside.push_back({trial.stimulus, slots[i]});
 }
 
-std::vector<int> levels_in(const Protocol& protocol, const BlockScope& scope, TrialFactor factor) {
-    if (factor == TrialFactor::task)
+int most_stimuli_at_once(const Protocol& protocol) {
+    std::size_t most = 1;
+    for (const BlockPlan& plan : block_plans(protocol, 1, 0)) {
+        for (const Trial& trial : plan.trials) {
+            std::set<Stimulus> stimuli{trial.stimulus};
+            for (const PlacedStimulus& placed : trial.beside)
+                stimuli.insert(placed.stimulus);
+            most = std::max(most, stimuli.size());
+        }
+    }
+    return static_cast<int>(most);
+}
+
+std::vector<int> levels_in(const Factors& factors, const BlockScope& scope, const Factor& factor) {
+    if (factor.source == Factor::Source::task)
         return scope.tasks;
-    if (factor == TrialFactor::object)
-        return scope.objects;
-    if (factor == TrialFactor::material)
-        return scope.materials;
-    std::vector<int> stimuli;
-    for (const int object : scope.objects) {
-        for (const int material : scope.materials)
-            stimuli.push_back(level_of(protocol, {0, 0, {object, material}}, factor));
+    std::vector<int> levels;
+    if (factor.source == Factor::Source::stimulus) {
+        for (const Stimulus& stimulus : stimuli_in(scope))
+            levels.push_back(factors.level_of(factor, {}, stimulus));
+        return levels;
     }
-    return stimuli;
+    if (factor.source == Factor::Source::own) {
+        levels.resize(factor.levels.size());
+        std::iota(levels.begin(), levels.end(), 0);
+        return levels;
+    }
+    for (const int entry : scope.lists[factor.list]) {
+        const int level = factor.level_of_entry.at(static_cast<std::size_t>(entry));
+        if (std::ranges::find(levels, level) == levels.end())
+            levels.push_back(level);
+    }
+    if (factor.source == Factor::Source::column)
+        std::ranges::sort(levels);
+    return levels;
 }
 
-double weight_of(const Protocol& protocol, const Trial& trial) {
+double weight_of(const Protocol& protocol, const Factors& factors, const Trial& trial) {
     const BlockSettings& block = block_at(protocol, trial.block);
     if (block.order != OrderMethod::weighted || block.weights.empty())
         return 1.0;
-    const std::vector<int> levels = levels_in(protocol, scope_of(protocol, trial.block), block.by);
-    const auto at = std::find(levels.begin(), levels.end(), level_of(protocol, trial, block.by));
+    const Factor& by = factors.at(block.by);
+    const std::vector<int> levels = levels_in(factors, scope_of(protocol, trial.block), by);
+    const auto at = std::find(levels.begin(), levels.end(), factors.level_of(by, trial));
     return block.weights.at(static_cast<std::size_t>(at - levels.begin()));
 }
 
@@ -154,13 +237,16 @@ int length_of(const Protocol& protocol, const BlockPlan& plan) {
     const BlockSettings& block = block_at(protocol, plan.block);
     if (block.order == OrderMethod::weighted && block.draws)
         return *block.draws * block.repetitions;
+    if (block.order != OrderMethod::weighted)
+        return count_of(plan.trials) * block.repetitions;
+    const Factors factors = factors_of(protocol);
     double length = 0.0;
     for (const Trial& trial : plan.trials)
-        length += weight_of(protocol, trial);
+        length += weight_of(protocol, factors, trial);
     return static_cast<int>(std::lround(length)) * block.repetitions;
 }
 
-bool rotates_materials(const Protocol& protocol, int block, int task) {
+bool rotates(const Protocol& protocol, int block, int task) {
     return block_at(protocol, block)
                .stimuli.value_or(protocol.tasks.at(static_cast<std::size_t>(task)).stimuli) ==
            TaskCoverage::once_per_object;
@@ -170,16 +256,10 @@ std::vector<BlockScopeOf> blocks_of_group(const Protocol& protocol, int number) 
     const GroupSettings* group = number < 0 ? nullptr : &protocol.groups.at(static_cast<std::size_t>(number));
     std::vector<int> blocks{0};
     if (!protocol.blocks.empty())
-        blocks = chosen(protocol.blocks, {}, group ? &group->blocks : nullptr);
+        blocks = chosen(ids_of(protocol.blocks), {}, group ? &group->blocks : nullptr);
     std::vector<BlockScopeOf> scopes;
-    for (const int block : blocks) {
-        const BlockSettings& settings = block_at(protocol, block);
-        scopes.push_back(
-            {block,
-             {chosen(protocol.tasks, settings.tasks, group ? &group->tasks : nullptr),
-              chosen(protocol.objects, settings.objects, group ? &group->objects : nullptr),
-              chosen(protocol.materials, settings.materials, group ? &group->materials : nullptr)}});
-    }
+    for (const int block : blocks)
+        scopes.push_back({block, scope_for(protocol, block, group)});
     return scopes;
 }
 
@@ -197,8 +277,16 @@ std::vector<BlockPlan> block_plans(const Protocol& protocol, int observer_number
          order_of_blocks(protocol, blocks, rotations.row_of(Kind::blocks, -1, place.row), seed)) {
         BlockPlan plan{block, {}, {}, rotations.row_of(Kind::levels, block, place.row)};
         plan.scope = std::ranges::find(scopes, block, &BlockScopeOf::block)->scope;
-        plan.trials =
-            trials_in(protocol, block, plan.scope, rotations.row_of(Kind::materials, -1, place.row));
+        const auto drawn = drawn_list(protocol, scopes, block, observer_number, seed);
+        if (drawn)
+            plan.scope.lists[drawn->list] = drawn->entries;
+        plan.trials = trials_in(protocol, block, plan.scope, rotations.row_of(Kind::entries, -1, place.row),
+                                {observer_number, seed});
+        if (drawn)
+            mark_old_and_new(*drawn, plan.trials);
+        if (block_at(protocol, block).practice)
+            for (Trial& trial : plan.trials)
+                trial.role = TrialRole::practice;
         if (!plan.trials.empty())
             plans.push_back(std::move(plan));
     }

@@ -11,31 +11,50 @@ namespace overt {
 
 namespace {
 
-constexpr TrialFactor factors[] = {TrialFactor::task, TrialFactor::object, TrialFactor::material,
-                                   TrialFactor::stimulus};
 constexpr OrderLimit::Kind kinds[] = {OrderLimit::Kind::longest_run, OrderLimit::Kind::least_distance};
 
-/// A block's own limit, nothing if it has none, or the common one of the schedule.
-auto limit_in(const auto& settings, TrialFactor factor, OrderLimit::Kind kind) {
+/// Keys that limit one factor each; all others are limited by name, in a table.
+template <class Settings> struct OwnLimit {
+    std::string_view factor;
+    decltype(&Settings::max_task_run) run, distance;
+};
+template <class Settings>
+constexpr OwnLimit<Settings> own_limits[] = {
+    {"task", &Settings::max_task_run, &Settings::min_task_distance},
+    {"object", &Settings::max_object_run, &Settings::min_object_distance},
+    {"material", &Settings::max_material_run, &Settings::min_material_distance},
+    {"stimulus", &Settings::max_stimulus_run, &Settings::min_stimulus_distance},
+};
+
+std::string limit_key(std::string_view factor, OrderLimit::Kind kind) {
+    return kind == OrderLimit::Kind::longest_run ? fmt::format("max_{}_run", factor)
+                                                 : fmt::format("min_{}_distance", factor);
+}
+
+/// What a block, or the schedule, asks for: the amount and the key that says it; nothing if it says nothing.
+template <class Settings>
+std::optional<std::pair<int, std::string>> written_limit(const Settings& settings, const Factor& factor,
+                                                         OrderLimit::Kind kind) {
     const bool is_run = kind == OrderLimit::Kind::longest_run;
-    switch (factor) {
-    case TrialFactor::task:
-        return is_run ? settings.max_task_run : settings.min_task_distance;
-    case TrialFactor::object:
-        return is_run ? settings.max_object_run : settings.min_object_distance;
-    case TrialFactor::material:
-        return is_run ? settings.max_material_run : settings.min_material_distance;
-    case TrialFactor::stimulus:
-        break;
+    const NamedNumbers& named = is_run ? settings.max_run : settings.min_distance;
+    if (const auto found = std::ranges::find(named, factor.name, &NamedNumber::name); found != named.end())
+        return std::pair(found->number,
+                         fmt::format("{}.{}", is_run ? "max_run" : "min_distance", factor.name));
+    for (const OwnLimit<Settings>& own : own_limits<Settings>) {
+        if (own.factor != factor.name)
+            continue;
+        const std::optional<int> amount = settings.*(is_run ? own.run : own.distance);
+        return amount ? std::optional(std::pair(*amount, limit_key(factor.name, kind))) : std::nullopt;
     }
-    return is_run ? settings.max_stimulus_run : settings.min_stimulus_distance;
+    return std::nullopt;
 }
 
 /// Puts the items of one repetition of a block into parts, by the block's method.
 class PartMaker {
   public:
-    PartMaker(const Protocol& protocol, const BlockPlan& plan)
-        : protocol_(protocol), plan_(plan), block_(block_at(protocol, plan.block)) {}
+    PartMaker(const Protocol& protocol, const Factors& factors, const BlockPlan& plan)
+        : protocol_(protocol), factors_(factors), plan_(plan), block_(block_at(protocol, plan.block)),
+          by_(factors.at(block_.by)) {}
 
     /// `items` are the block's trials, as often as they come.
     OrderPart part_of(const std::vector<int>& items, const std::vector<Trial>& trials) const {
@@ -53,7 +72,7 @@ class PartMaker {
             for (const int level : ordered_levels()) {
                 OrderSegment segment;
                 for (const int item : items) {
-                    if (level_of(protocol_, trials[static_cast<std::size_t>(item)], block_.by) == level)
+                    if (factors_.level_of(by_, trials[static_cast<std::size_t>(item)]) == level)
                         segment.items.push_back(item);
                 }
                 if (!segment.items.empty())
@@ -73,7 +92,7 @@ class PartMaker {
     int copies(const Trial& trial) const {
         if (block_.draws)
             return 1;
-        return static_cast<int>(std::lround(weight_of(protocol_, trial)));
+        return static_cast<int>(std::lround(weight_of(protocol_, factors_, trial)));
     }
 
   private:
@@ -82,15 +101,15 @@ class PartMaker {
         for (const int item : segment.items) {
             const Trial& trial = trials[static_cast<std::size_t>(item)];
             const auto siblings = std::count_if(segment.items.begin(), segment.items.end(), [&](int other) {
-                return level_of(protocol_, trials[static_cast<std::size_t>(other)], block_.by) ==
-                       level_of(protocol_, trial, block_.by);
+                return factors_.level_of(by_, trials[static_cast<std::size_t>(other)]) ==
+                       factors_.level_of(by_, trial);
             });
-            segment.weights.push_back(weight_of(protocol_, trial) / static_cast<double>(siblings));
+            segment.weights.push_back(weight_of(protocol_, factors_, trial) / static_cast<double>(siblings));
         }
     }
 
     std::vector<int> ordered_levels() const {
-        std::vector<int> levels = levels_in(protocol_, plan_.scope, block_.by);
+        std::vector<int> levels = levels_in(factors_, plan_.scope, by_);
         if (block_.levels == LevelOrder::random || block_.levels == LevelOrder::fixed)
             return levels;
         std::vector<int> ordered;
@@ -103,12 +122,14 @@ class PartMaker {
     }
 
     const Protocol& protocol_;
+    const Factors& factors_;
     const BlockPlan& plan_;
     const BlockSettings& block_;
+    const Factor& by_;
 };
 
-void add_block(OrderChain& chain, const Protocol& protocol, const BlockPlan& plan) {
-    const PartMaker maker(protocol, plan);
+void add_block(OrderChain& chain, const Protocol& protocol, const Factors& factors, const BlockPlan& plan) {
+    const PartMaker maker(protocol, factors, plan);
     const BlockSettings& block = block_at(protocol, plan.block);
     const bool is_mixed = block.repetition_order == RepetitionOrder::mixed;
     const auto first_part = static_cast<int>(chain.problem.parts.size());
@@ -127,14 +148,16 @@ void add_block(OrderChain& chain, const Protocol& protocol, const BlockPlan& pla
             chain.problem.parts.push_back(maker.part_of(items, chain.trials));
     }
     for (int part = first_part; part < static_cast<int>(chain.problem.parts.size()); ++part) {
-        for (const TrialFactor factor : factors) {
+        for (const Factor& factor : factors.all()) {
+            if (!can_be_limited(factor))
+                continue;
             for (const OrderLimit::Kind kind : kinds) {
                 const LimitSetting limit = limit_in(protocol, plan.block, factor, kind);
                 // A distance of 1 is what any order has.
                 const int least = kind == OrderLimit::Kind::longest_run ? 1 : 2;
-                if (limit.amount >= least && levels_in(protocol, plan.scope, factor).size() > 1)
-                    chain.problem.limits.push_back({static_cast<int>(factor), kind, limit.amount, part,
-                                                    limit.key, std::string(name_of(factor))});
+                if (limit.amount >= least && levels_in(factors, plan.scope, factor).size() > 1)
+                    chain.problem.limits.push_back({static_cast<int>(&factor - factors.all().data()), kind,
+                                                    limit.amount, part, limit.key, factor.name});
             }
         }
     }
@@ -142,7 +165,7 @@ void add_block(OrderChain& chain, const Protocol& protocol, const BlockPlan& pla
 
 /// Only what limits look at, so that equal problems are seen to be equal: limited factors, and a limit of all
 /// parts once.
-void simplify(OrderProblem& problem, const Protocol& protocol, const std::vector<Trial>& trials) {
+void simplify(OrderProblem& problem, const Factors& factors, const std::vector<Trial>& trials) {
     std::vector<OrderLimit> limits;
     const int parts = static_cast<int>(problem.parts.size());
     for (OrderLimit limit : problem.limits) {
@@ -155,51 +178,58 @@ void simplify(OrderProblem& problem, const Protocol& protocol, const std::vector
         if (std::find(limits.begin(), limits.end(), limit) == limits.end())
             limits.push_back(limit);
     }
-    for (const TrialFactor factor : factors) {
-        const bool is_limited = std::any_of(limits.begin(), limits.end(), [&](const OrderLimit& limit) {
-            return limit.noun == name_of(factor);
-        });
+    for (const Factor& factor : factors.all()) {
+        const bool is_limited = std::any_of(
+            limits.begin(), limits.end(), [&](const OrderLimit& limit) { return limit.noun == factor.name; });
         if (!is_limited)
             continue;
         for (OrderLimit& limit : limits) {
-            if (limit.noun == name_of(factor))
+            if (limit.noun == factor.name)
                 limit.factor = static_cast<int>(problem.levels.size());
         }
         std::vector<int>& levels = problem.levels.emplace_back();
         for (const Trial& trial : trials)
-            levels.push_back(level_of(protocol, trial, factor));
+            levels.push_back(factors.level_of(factor, trial));
     }
     problem.limits = std::move(limits);
 }
 
 } // namespace
 
-LimitSetting limit_in(const Protocol& protocol, int block, TrialFactor factor, OrderLimit::Kind kind) {
+bool can_be_limited(const Factor& factor) { return factor.source != Factor::Source::block; }
+
+std::string own_limit_key(std::string_view factor, OrderLimit::Kind kind) {
+    return std::ranges::find(own_limits<BlockSettings>, factor, &OwnLimit<BlockSettings>::factor) ==
+                   std::end(own_limits<BlockSettings>)
+               ? std::string()
+               : limit_key(factor, kind);
+}
+
+LimitSetting limit_in(const Protocol& protocol, int block, const Factor& factor, OrderLimit::Kind kind) {
     const BlockSettings& settings = block_at(protocol, block);
-    const std::string name = kind == OrderLimit::Kind::longest_run
-                                 ? fmt::format("max_{}_run", name_of(factor))
-                                 : fmt::format("min_{}_distance", name_of(factor));
-    if (const std::optional<int> own = limit_in(settings, factor, kind))
-        return {*own, fmt::format("block[{}].{}", block, name)};
-    const bool is_given =
-        settings.order == OrderMethod::sequential ||
-        (settings.order == OrderMethod::blocked &&
-         (factor == settings.by || (settings.by == TrialFactor::stimulus && factor != TrialFactor::task)));
-    const int common = limit_in(protocol.schedule, factor, kind);
-    return {is_given ? 0 : common, "schedule." + name, is_given && common > 0};
+    if (const auto own = written_limit(settings, factor, kind))
+        return {own->first, fmt::format("block[{}].{}", block, own->second)};
+    // A block by stimulus gives all that a stimulus is made of.
+    const bool is_given = settings.order == OrderMethod::sequential ||
+                          (settings.order == OrderMethod::blocked &&
+                           (factor.name == settings.by ||
+                            (settings.by == "stimulus" && factor.source != Factor::Source::task)));
+    const auto common = written_limit(protocol.schedule, factor, kind).value_or(std::pair(0, std::string()));
+    return {is_given ? 0 : common.first, "schedule." + common.second, is_given && common.first > 0};
 }
 
 std::vector<OrderChain> order_chains(const Protocol& protocol, int observer_number, std::uint64_t seed,
                                      RotationRule rule) {
+    const Factors factors = factors_of(protocol);
     std::vector<OrderChain> chains;
     for (BlockPlan& plan : block_plans(protocol, observer_number, seed, rule)) {
         if (chains.empty() || !block_at(protocol, plan.block).continues)
             chains.emplace_back();
-        add_block(chains.back(), protocol, plan);
+        add_block(chains.back(), protocol, factors, plan);
         chains.back().blocks.push_back(std::move(plan));
     }
     for (OrderChain& chain : chains)
-        simplify(chain.problem, protocol, chain.trials);
+        simplify(chain.problem, factors, chain.trials);
     return chains;
 }
 

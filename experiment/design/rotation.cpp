@@ -11,14 +11,14 @@ namespace overt {
 
 namespace {
 
-/// Rows of the materials' square that all blocks of a group have in common.
-int material_rows(const Protocol& protocol, const std::vector<BlockScopeOf>& blocks) {
+/// Rows of the square of the rotated list that all blocks of a group have in common.
+int rotated_rows(const Protocol& protocol, const std::vector<BlockScopeOf>& blocks) {
     int rows = 1;
     for (const auto& [block, scope] : blocks) {
         for (const int task : scope.tasks)
-            if (rotates_materials(protocol, block, task) && scope.materials.size() > 1)
+            if (rotates(protocol, block, task) && rotated_entries(protocol, scope) > 1)
                 rows = std::lcm(rows, rows_of_square(protocol.schedule.material_rotation,
-                                                     static_cast<int>(scope.materials.size())));
+                                                     rotated_entries(protocol, scope)));
     }
     return rows;
 }
@@ -32,13 +32,15 @@ Rotations::Rotations(const Protocol& protocol, int group, RotationRule rule) : r
         if (rows > 1)
             factors_.push_back({kind, block, rows});
     };
-    add(Kind::materials, -1, material_rows(protocol, blocks));
+    add(Kind::entries, -1, rotated_rows(protocol, blocks));
     if (const LevelOrder by = protocol.schedule.block_order; by >= LevelOrder::cyclic && blocks.size() > 1)
         add(Kind::blocks, -1, rows_of_square(square_of(by), static_cast<int>(blocks.size())));
     for (const auto& [block, scope] : blocks) {
         const BlockSettings& settings = block_at(protocol, block);
-        const auto levels = levels_in(protocol, scope, settings.by).size();
-        if (settings.order == OrderMethod::blocked && settings.levels >= LevelOrder::cyclic && levels > 1)
+        if (settings.order != OrderMethod::blocked || settings.levels < LevelOrder::cyclic)
+            continue;
+        const Factors factors = factors_of(protocol);
+        if (const auto levels = levels_in(factors, scope, factors.at(settings.by)).size(); levels > 1)
             add(Kind::levels, block, rows_of_square(square_of(settings.levels), static_cast<int>(levels)));
     }
 }
@@ -67,8 +69,8 @@ int Rotations::row_of(RotatedFactor::Kind kind, int block, int row) const {
 
 std::string describe(const RotatedFactor& factor, const Protocol& protocol) {
     switch (factor.kind) {
-    case RotatedFactor::Kind::materials:
-        return "materials";
+    case RotatedFactor::Kind::entries:
+        return std::string(stimulus_lists.at(rotated_list(protocol)).plural);
     case RotatedFactor::Kind::blocks:
         return "order of blocks";
     case RotatedFactor::Kind::levels:

@@ -18,6 +18,17 @@ template <class Entry> int index_of(const std::vector<Entry>& entries, const std
     return static_cast<int>(found - entries.begin());
 }
 
+Stimulus practised(const Protocol& protocol, const PracticeSettings& practice) {
+    Stimulus stimulus;
+    for (std::size_t list = 0; list < stimulus_lists.size(); ++list) {
+        const std::vector<std::string_view> ids = ids_in_list(protocol, list);
+        if (!practice.entries[list].empty())
+            stimulus.*stimulus_lists[list].index =
+                static_cast<int>(std::ranges::find(ids, practice.entries[list]) - ids.begin());
+    }
+    return stimulus;
+}
+
 } // namespace
 
 TrialQueue::TrialQueue(const Protocol& protocol, const Schedule& schedule)
@@ -38,11 +49,9 @@ void TrialQueue::begin_block(int block) {
         const PracticeSettings& practice = protocol_.practice[i];
         if (practice.block.empty() ? !is_first : practice.block != settings.id)
             continue;
-        const Trial trial{
-            static_cast<int>(i),
-            index_of(protocol_.tasks, practice.task),
-            {index_of(protocol_.objects, practice.object), index_of(protocol_.materials, practice.material)},
-            block};
+        Trial trial{static_cast<int>(i), index_of(protocol_.tasks, practice.task),
+                    practised(protocol_, practice), block};
+        fill_slots(protocol_, trial);
         before_.push_back({SessionStep::Kind::practice, trial, 1, block});
     }
 }
@@ -233,12 +242,12 @@ void TrialQueue::restart_block() {
     attempts_since_pause_ = 0;
 }
 
-std::optional<Stimulus> TrialQueue::expected() const {
+std::optional<Trial> TrialQueue::expected() const {
     for (const SessionStep& step : before_) {
         if (step.kind == SessionStep::Kind::practice)
-            return step.trial.stimulus;
+            return step.trial;
     }
-    return waiting_.empty() ? std::nullopt : std::optional(waiting_.front().trial.stimulus);
+    return waiting_.empty() ? std::nullopt : std::optional(waiting_.front().trial);
 }
 
 } // namespace overt

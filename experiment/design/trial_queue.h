@@ -106,8 +106,8 @@ class TrialQueue {
     /// No trial is waiting, and none was interrupted.
     bool is_done() const { return waiting_.empty() && !interrupted_; }
 
-    /// The stimulus that will be shown next if nothing fails.
-    std::optional<Stimulus> expected() const;
+    /// The trial that will come next if nothing fails.
+    std::optional<Trial> expected() const;
 
   private:
     struct Attempt {

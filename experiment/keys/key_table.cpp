@@ -14,8 +14,10 @@ namespace {
 void expect_members_of(const void* its_struct, const Section& section) {
     for (const Key& key : section.keys)
         OVERT_EXPECTS(key.place.left_out_struct() == its_struct);
-    for (const Section& table : section.tables)
-        expect_members_of(its_struct, table);
+    for (const Section& table : section.tables) {
+        OVERT_EXPECTS(!table.home.has_struct() || table.home.left_out_root() == its_struct);
+        expect_members_of(table.home.has_struct() ? table.home.left_out_struct() : its_struct, table);
+    }
 }
 
 } // namespace
@@ -27,8 +29,10 @@ std::string Key::default_text() const {
 }
 
 std::string Section::heading() const {
-    return fmt::format(fmt::runtime(is_list() ? "[[{}]]" : "[{}]"), name);
+    return is_list() && alone.empty() ? list_heading() : fmt::format("[{}]", alone.empty() ? name : alone);
 }
+
+std::string Section::list_heading() const { return fmt::format("[[{}]]", name); }
 
 const Key* Section::find_key(std::string_view key) const {
     const auto found = std::ranges::find(keys, key, [](const Key& row) { return row.rule.name; });

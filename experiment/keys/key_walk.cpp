@@ -49,17 +49,37 @@ std::string hint_for_unknown_key(const KeyTable& table, std::string_view key, co
 void KeyWalk::read_root(const TomlFile& toml, void* root) {
     is_whole_ = toml.is_whole;
     for (const TomlEntry& entry : toml.root) {
-        if (std::ranges::find(table_, entry.key, &Section::name) == table_.end())
+        if (std::ranges::none_of(table_,
+                                 [&](const Section& section) { return section.is_called(entry.key); }))
             report_unknown_section(entry);
     }
     for (const Section& section : table_) {
-        const auto entry = std::ranges::find(toml.root, section.name, &TomlEntry::key);
-        const TomlValue* value = entry == toml.root.end() ? nullptr : &entry->value;
-        if (!section.is_list())
+        const TomlValue* value = value_of(section, toml.root);
+        if (section.is_list())
+            read_list(section, value, root);
+        else
             read_one(section, value, root);
-        else if (value)
-            read_entries(section, *value, root);
     }
+}
+
+const TomlValue* KeyWalk::value_of(const Section& section, const TomlTable& root) {
+    const TomlEntry* found = nullptr;
+    heading_ = section.name;
+    for (const TomlEntry& entry : root) {
+        if (!section.is_called(entry.key))
+            continue;
+        if (found)
+            error(std::max(found->key_place, entry.key_place),
+                  fmt::format("[{}] and [[{}]] are the same list, and both are written", section.alone,
+                              section.name),
+                  fmt::format("write [[{}]] for each entry", section.name));
+        else
+            found = &entry;
+    }
+    if (!found)
+        return nullptr;
+    heading_ = found->key;
+    return &found->value;
 }
 
 void KeyWalk::report_unknown_section(const TomlEntry& entry) {
@@ -69,8 +89,11 @@ void KeyWalk::report_unknown_section(const TomlEntry& entry) {
         return;
     }
     std::vector<std::string_view> names;
-    for (const Section& section : table_)
+    for (const Section& section : table_) {
         names.push_back(section.name);
+        if (!section.alone.empty() && section.alone != section.name)
+            names.push_back(section.alone);
+    }
     error(entry.key_place, fmt::format("unknown section [{}]", entry.key), suggest_name(entry.key, names));
 }
 
@@ -83,39 +106,56 @@ void KeyWalk::read_one(const Section& section, const TomlValue* value, void* roo
     }
     if (value)
         places_.note(std::string(section.name), value->place);
-    read_keys(section, value ? *value->table() : nothing, std::string(section.name), section.home.open(root));
+    read_keys(section, heading_, value ? *value->table() : nothing, std::string(section.name),
+              section.home.open(root));
 }
 
-void KeyWalk::read_entries(const Section& section, const TomlValue& value, void* root) {
-    if (!value.list()) {
-        error(value.place, fmt::format("{}: expected a list of sections", section.name),
+void KeyWalk::read_list(const Section& section, const TomlValue* value, void* root) {
+    if (!section.alone.empty() && !(value && value->list())) {
+        section.home.clear(root);
+        read_entry(section, value, fmt::format("{}[0]", section.name), root);
+        return;
+    }
+    if (!value)
+        return;
+    if (!value->list()) {
+        error(value->place, fmt::format("{}: expected a list of sections", section.name),
               fmt::format("write [[{}]], with two brackets", section.name));
         faulty_.insert(std::string(section.name));
         return;
     }
-    for (std::size_t i = 0; i < value.list()->size(); ++i) {
-        const TomlValue& item = (*value.list())[i];
-        const std::string path = fmt::format("{}[{}]", section.name, i);
-        places_.note(path, item.place);
-        void* const entry = section.home.open(root);
-        if (item.table())
-            read_keys(section, *item.table(), path, entry);
-        else
-            error(item.place, fmt::format("{}: expected a section, found {}", section.name, item.kind()));
-    }
+    if (!section.alone.empty())
+        section.home.clear(root);
+    for (std::size_t i = 0; i < value->list()->size(); ++i)
+        read_entry(section, &(*value->list())[i], fmt::format("{}[{}]", section.name, i), root);
 }
 
-void KeyWalk::read_keys(const Section& section, const TomlTable& table, const std::string& path, void* out) {
+void KeyWalk::read_entry(const Section& section, const TomlValue* value, const std::string& path,
+                         void* root) {
+    static const TomlTable nothing;
+    void* const entry = section.home.open(root);
+    if (value)
+        places_.note(path, value->place);
+    if (value && !value->table())
+        error(value->place, fmt::format("{}: expected a section, found {}", heading_, value->kind()));
+    else
+        read_keys(section, heading_, value ? *value->table() : nothing, path, entry);
+}
+
+void KeyWalk::read_keys(const Section& section, std::string_view heading, const TomlTable& table,
+                        const std::string& path, void* out) {
     for (const TomlEntry& entry : table) {
         const Key* const key = section.find_key(entry.key);
         const auto inner = std::ranges::find(section.tables, entry.key, &Section::name);
         const std::string entry_path = path + "." + entry.key;
-        if (key)
+        // A key may be written as a value, or as a table of its own.
+        const bool is_inner = inner != section.tables.end() && (!key || entry.value.table());
+        if (key && !is_inner)
             read_key(*key, entry.value, entry_path, out);
-        else if (inner != section.tables.end())
+        else if (is_inner)
             read_inner(*inner, entry, entry_path, out);
         else
-            error(entry.key_place, fmt::format("unknown key \"{}\" in [{}]", entry.key, section.name),
+            error(entry.key_place, fmt::format("unknown key \"{}\" in [{}]", entry.key, heading),
                   hint_for_unknown_key(table_, entry.key, section));
     }
     for (const Key& key : section.keys) {
@@ -127,18 +167,47 @@ void KeyWalk::read_keys(const Section& section, const TomlTable& table, const st
 
 void KeyWalk::read_inner(const Section& section, const TomlEntry& entry, const std::string& path, void* out) {
     places_.note(path, entry.value.place);
-    if (entry.value.table()) {
-        read_keys(section, *entry.value.table(), path, out);
+    const SectionHome& home = section.home;
+    if (!entry.value.table()) {
+        error(entry.value.place,
+              fmt::format("{}: expected a table, found {}", section.name, entry.value.kind()),
+              fmt::format(fmt::runtime(home.is_by_name() ? "write {} = {{ NAME = {{ {} = … }} }}"
+                                                         : "write {} = {{ {} = … }}"),
+                          section.name, section.keys.front().rule.name));
+    } else if (home.is_by_name()) {
+        for (const TomlEntry& named : *entry.value.table())
+            read_named(section, named, fmt::format("{}.{}", path, named.key), out);
+    } else {
+        void* const inner = home.is_one_by_name() ? home.open_named(out, entry.key)
+                            : home.has_struct()   ? home.open(out)
+                                                  : out;
+        read_keys(section, section.name, *entry.value.table(), path, inner);
+    }
+}
+
+void KeyWalk::read_named(const Section& section, const TomlEntry& entry, const std::string& path, void* out) {
+    places_.note(path, entry.key_place);
+    if (const ValueResult fault = check_name(entry.key, entry.key_place, section.name)) {
+        error(fault->place, fault->message, fault->hint);
+    } else if (!entry.value.table()) {
+        error(entry.value.place, fmt::format("{}: expected a table, found {}", entry.key, entry.value.kind()),
+              fmt::format("write {} = {{ {} = … }}", entry.key, section.keys.front().rule.name));
+    } else {
+        read_keys(section, entry.key, *entry.value.table(), path, section.home.open_named(out, entry.key));
         return;
     }
-    error(entry.value.place, fmt::format("{}: expected a table, found {}", section.name, entry.value.kind()),
-          fmt::format("write {} = {{ {} = … }}", section.name, section.keys.front().rule.name));
+    faulty_.insert(path);
 }
 
 void KeyWalk::read_key(const Key& key, const TomlValue& value, const std::string& path, void* out) {
     places_.note(path, value.place);
+    if (value.table())
+        for (const TomlEntry& entry : *value.table())
+            places_.note(path + "." + entry.key, entry.value.place);
     if (const ValueResult fault = key.type->read(value, key.rule, key.place.in(out))) {
         error(fault->place, fault->message, fault->hint);
+        for (const ValueFault& further : fault->more)
+            error(further.place, further.message, further.hint);
         faulty_.insert(path);
     }
 }

@@ -24,7 +24,8 @@ class KeyWalk {
         : table_(table), file_(std::move(file)), places_(places), faulty_(faulty), diagnostics_(diagnostics) {
     }
 
-    /// `out` is the struct that the table's sections lie in; its lists are empty.
+    /// `out` is the struct that the table's sections lie in; its lists are empty, but for those whose only
+    /// entry may be a section.
     template <class Root> void read(const TomlFile& toml, Root& out) {
         OVERT_EXPECTS(table_.left_out_root() == &as_left_out<Root>());
         read_root(toml, &out);
@@ -34,9 +35,13 @@ class KeyWalk {
     void read_root(const TomlFile& toml, void* root);
     void report_unknown_section(const TomlEntry& entry);
     void read_one(const Section& section, const TomlValue* value, void* root);
-    void read_entries(const Section& section, const TomlValue& value, void* root);
-    void read_keys(const Section& section, const TomlTable& table, const std::string& path, void* out);
+    const TomlValue* value_of(const Section& section, const TomlTable& root);
+    void read_list(const Section& section, const TomlValue* value, void* root);
+    void read_entry(const Section& section, const TomlValue* value, const std::string& path, void* root);
+    void read_keys(const Section& section, std::string_view heading, const TomlTable& table,
+                   const std::string& path, void* out);
     void read_inner(const Section& section, const TomlEntry& entry, const std::string& path, void* out);
+    void read_named(const Section& section, const TomlEntry& entry, const std::string& path, void* out);
     void read_key(const Key& key, const TomlValue& value, const std::string& path, void* out);
     void report_missing(const Section& section, const KeyRule& rule, const std::string& path);
     void error(Place place, std::string message, std::string hint = {}) {
@@ -48,7 +53,8 @@ class KeyWalk {
     KeyPlaces& places_;
     KeyPaths& faulty_;
     Diagnostics& diagnostics_;
-    bool is_whole_ = true; ///< what is lacking does not lie in lines that were passed over
+    std::string_view heading_; ///< as the section that is being read is called in the file
+    bool is_whole_ = true;     ///< what is lacking does not lie in lines that were passed over
 };
 
 } // namespace overt

@@ -16,7 +16,7 @@ namespace {
 constexpr const char* width_name = "overt:image_width_px";
 constexpr const char* height_name = "overt:image_height_px";
 constexpr const char* square_name = "overt:square_px";
-constexpr const char* poses_name = "overt:poses";
+constexpr const char* pictures_name = "overt:poses"; // as the first programs called them
 
 /// CIE 1976 L* of a luminance relative to white (ISO/CIE 11664-4).
 double lightness(double luminance) {
@@ -33,9 +33,9 @@ int light_square_px(glm::ivec2 image_px) {
 }
 
 void write_light_pictures(const std::filesystem::path& file, const LightPictures& light) {
-    OVERT_EXPECTS(light.luminance.size() == light.squares() * static_cast<std::size_t>(light.poses));
+    OVERT_EXPECTS(light.luminance.size() == light.squares() * static_cast<std::size_t>(light.pictures));
     OVERT_EXPECTS(light.coverage.size() == light.luminance.size());
-    const PictureHeader header{{light.size().x, light.size().y * light.poses},
+    const PictureHeader header{{light.size().x, light.size().y * light.pictures},
                                {"Y", "A"},
                                PixelType::float16,
                                1,
@@ -43,7 +43,7 @@ void write_light_pictures(const std::filesystem::path& file, const LightPictures
                                 {width_name, light.image_px.x},
                                 {height_name, light.image_px.y},
                                 {square_name, light.square_px},
-                                {poses_name, light.poses}}};
+                                {pictures_name, light.pictures}}};
     std::vector<float> values;
     values.reserve(2 * light.luminance.size());
     constexpr float largest_half = 65504.0f;
@@ -52,21 +52,21 @@ void write_light_pictures(const std::filesystem::path& file, const LightPictures
     write_picture(file, header, PixelType::float32, values.data());
 }
 
-LightPictures read_light_pictures(const std::filesystem::path& file, glm::ivec2 image_px, int poses) {
+LightPictures read_light_pictures(const std::filesystem::path& file, glm::ivec2 image_px, int pictures) {
     PictureFile picture(file, "picture of light");
     const PictureHeader& header = picture.header();
     const auto number = [&](const char* name) {
         const int* const found = header.attribute<int>(name);
         return found ? *found : 0;
     };
-    LightPictures light{image_px, number(square_name), poses, {}, {}};
+    LightPictures light{image_px, number(square_name), pictures, {}, {}};
     if (light.square_px < 1 || glm::ivec2(number(width_name), number(height_name)) != image_px ||
-        number(poses_name) != poses || header.channels.size() != 2 ||
-        header.size_px != glm::ivec2(light.size().x, light.size().y * poses))
-        throw InputError(fmt::format("{}: is not the light of {} poses of {} x {} pixels", file.string(),
-                                     poses, image_px.x, image_px.y));
+        number(pictures_name) != pictures || header.channels.size() != 2 ||
+        header.size_px != glm::ivec2(light.size().x, light.size().y * pictures))
+        throw InputError(fmt::format("{}: is not the light of {} pictures of {} x {} pixels", file.string(),
+                                     pictures, image_px.x, image_px.y));
     const auto y = static_cast<std::size_t>(std::max(header.channel("Y"), 0)), alpha = 1 - y;
-    std::vector<float> values(2 * light.squares() * static_cast<std::size_t>(poses));
+    std::vector<float> values(2 * light.squares() * static_cast<std::size_t>(pictures));
     picture.read(2, PixelType::float32, values.data());
     for (std::size_t i = 0; i < values.size(); i += 2) {
         light.luminance.push_back(values[i + y]);
@@ -102,13 +102,13 @@ LightScores::LightScores(const LightPictures& light)
     }
 }
 
-std::optional<double> LightScores::at(PoseIndex pose, glm::dvec2 image_point_px) const {
+std::optional<double> LightScores::at(int picture, glm::dvec2 image_point_px) const {
     if (!(image_point_px.x >= 0.0 && image_point_px.y >= 0.0 && image_point_px.x < image_px_.x &&
           image_point_px.y < image_px_.y))
         return std::nullopt;
     const glm::ivec2 square = glm::ivec2(image_point_px) / square_px_;
     const auto width = static_cast<std::size_t>(size_.x), height = static_cast<std::size_t>(size_.y);
-    const std::size_t index = static_cast<std::size_t>(pose.value) * width * height +
+    const std::size_t index = static_cast<std::size_t>(picture) * width * height +
                               static_cast<std::size_t>(square.y) * width + static_cast<std::size_t>(square.x);
     if (index >= scores_.size() || std::isnan(scores_[index]))
         return std::nullopt;

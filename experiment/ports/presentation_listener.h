@@ -15,6 +15,8 @@ class PresentationListener {
     /// A presentation of this trial begins with the next flip.
     virtual void presentation_begins(const Trial& trial) noexcept = 0;
     virtual void flipped(const FlipRecord& flip) noexcept = 0;
+    /// In a further slot, after the flip that it belongs to.
+    virtual void slot_flipped(const SlotFlip& /*flip*/) noexcept {}
     virtual void screen_shown(const Screen& screen, SessionTime onset) noexcept = 0;
 };
 

@@ -1,7 +1,9 @@
 /// The port through which a session shows pictures and texts.
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -35,7 +37,8 @@ struct Screen {
         form,
         target,     ///< to be looked at
         validation, ///< where gaze was measured beside the targets; `text` below
-        camera      ///< what a tracker's camera sees
+        camera,     ///< what a tracker's camera sees
+        noise       ///< squares of random light where the stimulus stands
     };
     Kind kind = Kind::blank;
     /// For text and form; paragraphs split by newlines, emphasis by <b>, <i>, <u>, <big> and <small>. A first
@@ -49,6 +52,8 @@ struct Screen {
     Degrees target_diameter{0.6};                 ///< of the disc of the fixation target (Thaler et al. 2013)
     std::vector<ValidatedTarget> validated = {};
     CameraImage camera = {};
+    std::uint64_t noise_seed = 0;
+    Degrees noise_cell{0.25}; ///< side of a square of noise, at the middle of the screen
 };
 
 /// How the display shows things: known once the presenter is open.
@@ -71,12 +76,17 @@ class Presenter {
 
     virtual DisplayTiming timing() const = 0;
 
-    /// Puts the frames of a stimulus into the frame store, replacing those loaded before. Throws
-    /// GraphicsError or InputError.
-    virtual void load_frames(const Stimulus& stimulus) = 0;
+    /// Puts the frames of these stimuli into the frame store, replacing those loaded before; each will be
+    /// shown in its slot. Throws GraphicsError or InputError.
+    virtual void load_slots(std::span<const PlacedStimulus> shown) = 0;
+    /// The same of one stimulus, in the first slot.
+    void load_frames(const Stimulus& stimulus) {
+        const PlacedStimulus only{stimulus};
+        load_slots({&only, 1});
+    }
 
-    /// The stimulus that will be loaded next: a presenter may begin with it now, in the background.
-    virtual void expect_frames(const Stimulus& /*stimulus*/) noexcept {}
+    /// What will be loaded next: a presenter may begin with it now, in the background.
+    virtual void expect_slots(std::span<const PlacedStimulus> /*shown*/) noexcept {}
     /// Called repeatedly while the screen stands still: a presenter may use a few milliseconds for work that
     /// it has put off.
     virtual void use_spare_time() noexcept {}
@@ -89,9 +99,12 @@ class Presenter {
     /// between a presentation's first and last flip.
     virtual void show_level(const LevelBar& /*bar*/) {}
 
-    /// Shows a frame of the loaded stimulus at the next refresh and returns when that refresh has begun.
-    /// Allocates, opens and throws nothing.
-    virtual FlipReport flip(AnimationFrameIndex frame) noexcept = 0;
+    /// Shows a frame of each loaded stimulus in its slot at the next refresh, of all at the same one, and
+    /// returns when that refresh has begun; no_frame leaves a slot empty. `frames` are as many as were
+    /// loaded, in their order. Allocates, opens and throws nothing.
+    virtual FlipReport flip_slots(std::span<const AnimationFrameIndex> frames) noexcept = 0;
+    /// The same of the only stimulus.
+    FlipReport flip(AnimationFrameIndex frame) noexcept { return flip_slots({&frame, 1}); }
 
     /// Raises these digital outputs of the display box, a bit each, with the refresh that the next flip()
     /// lights, for this long; in the modes that carry them, else nothing. Allocates and throws nothing.

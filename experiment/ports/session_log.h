@@ -29,12 +29,14 @@ struct SessionEvent {
     std::string detail;
 };
 
-/// Records a session. flip(), missed() and sample() allocate, open and throw nothing and may
+/// Records a session. flip(), slot_flip(), missed() and sample() allocate, open and throw nothing and may
 /// wait for the disk only where time is virtual; the others may throw RecordError.
 class SessionLog {
   public:
     virtual ~SessionLog() = default;
     virtual void flip(const FlipRecord& flip) noexcept = 0;
+    /// Comes after the flip that it belongs to.
+    virtual void slot_flip(const SlotFlip& /*flip*/) noexcept {}
     /// Comes before the flip that ended it.
     virtual void missed(const MissedRefresh& refresh) noexcept = 0;
     virtual void sample(int trial, const GazeSample& sample) noexcept = 0;

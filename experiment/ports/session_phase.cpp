@@ -38,15 +38,13 @@ bool may_follow(SessionPhase from, SessionPhase to) {
     case feedback:
         return is_one_of(to, between);
     case trial:
-        return to == task_screen;
+        return is_in_trial(to);
     case task_screen:
-        return to == drift_check || is_one_of(to, between);
     case drift_check:
-        return to == stimulus || is_one_of(to, between);
     case stimulus:
-        return to == response_screen || is_one_of(to, between);
+        return (to != from && is_in_trial(to)) || is_one_of(to, between);
     case response_screen:
-        return to == feedback || is_one_of(to, between);
+        return to == feedback || (to != from && is_in_trial(to)) || is_one_of(to, between);
     case calibration:
     case pause:
         return can_be_interrupted(to) || is_one_of(to, between);

@@ -4,8 +4,10 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "experiment/ports/gaze_yield.h"
+#include "experiment/ports/attempt_step.h"
 #include "experiment/session_time.h"
 #include "experiment/swap_modes.h"
 #include "experiment/units.h"
@@ -32,6 +34,9 @@ struct TrialOutcome {
     std::optional<GazeYield> gaze = {};
     std::optional<Degrees> drift;
     std::string answer;
+    /// Of the trial's plan, in its order; one that began anew has a row for each time. None of imported
+    /// trials, and of sessions of earlier programs.
+    std::vector<AttemptStep> steps = {};
 };
 
 } // namespace overt

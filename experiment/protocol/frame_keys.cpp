@@ -28,6 +28,9 @@ std::vector<Key> frames() {
     return {
         {"object", &F::object, required(), "Id of a `[[object]]`."},
         {"material", &F::material, required(), "Id of a `[[material]]`."},
+        {"light", &F::light, left_out("the only one"), "Id of a `[[light]]`, where there are several."},
+        {"motion", &F::motion, left_out("the only one"), "Id of a `[[motion]]`, likewise."},
+        {"view", &F::view, left_out("the only one"), "Id of a `[[view]]`, likewise."},
         {"files", &F::files, required(),
          "Path of the pictures from the protocol's folder, with # for the digits of the number: "
          "\"gold/frame_####.exr\"."},

@@ -11,11 +11,15 @@ namespace overt::key_rows {
 // What the experiment runs on (rig_keys.cpp).
 std::vector<Key> display(), tracker(), further_tracker(), calibration(), events(), screens();
 // What is shown (stimulus_keys.cpp).
-std::vector<Key> view(), light(), animation(), object(), head(), material();
+std::vector<Key> view(), light(), motion(), object(), area(), material();
+// Where on the screen (slot_keys.cpp).
+std::vector<Key> slot();
 // How it becomes pictures (frame_keys.cpp).
 std::vector<Key> bake(), frames();
 // What is asked, and in which order (design_keys.cpp).
 std::vector<Key> protocol(), schedule(), task();
+// Where trials come from (trials_keys.cpp).
+std::vector<Key> trials(), catch_trials(), draw();
 // The order of trials and of observers (order_keys.cpp).
 std::vector<Key> block(), group();
 // How a session goes besides its trials (practice_keys.cpp).
@@ -28,6 +32,20 @@ std::vector<Key> consent(), instructions(), observer_fields(), operators(), answ
 std::vector<Key> button_box(), marker_output();
 // What is said on the screen besides, and of the dataset (word_keys.cpp).
 std::vector<Key> words(), dataset();
+
+/// A key for each of the lists that stimuli are made of, which names one of its entries by its id.
+template <class Struct>
+void add_entry_keys(std::vector<Key>& keys, EntryOfEach Struct::*entries, std::string_view if_left_out) {
+    static const auto explanations = [] {
+        std::array<std::string, stimulus_lists.size()> all;
+        for (std::size_t list = 0; list < all.size(); ++list)
+            all[list] = fmt::format("Id of the {}.", stimulus_lists[list].name);
+        return all;
+    }();
+    for (std::size_t list = 0; list < stimulus_lists.size(); ++list)
+        keys.emplace_back(stimulus_lists[list].name, entries, list, identifier().left_out(if_left_out),
+                          explanations[list]);
+}
 
 /// "`one`: …. `other`: ….", after `words`.
 template <TableKind Kind> std::string_view explanation_of_kinds(std::string_view words = {}) {

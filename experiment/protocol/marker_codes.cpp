@@ -32,16 +32,6 @@ int number_in(std::string_view entry, std::string_view word, int low, int high, 
     return number;
 }
 
-template <class Entries>
-std::size_t index_of(std::string_view entry, std::string_view list, const Entries& entries,
-                     std::string_view id) {
-    const auto found =
-        std::ranges::find(entries, id, [](const auto& one) { return std::string_view(one.id); });
-    if (found == entries.end())
-        throw InputError(fmt::format("\"{}\": there is no {} \"{}\"", entry, list, id));
-    return static_cast<std::size_t>(found - entries.begin());
-}
-
 int largest_of(const std::vector<int>& codes) {
     return codes.empty() ? 0 : *std::max_element(codes.begin(), codes.end());
 }
@@ -49,8 +39,7 @@ int largest_of(const std::vector<int>& codes) {
 } // namespace
 
 MarkerCodes::MarkerCodes(const Protocol& protocol, const MarkerOutputSettings& output)
-    : tasks_(protocol.tasks.size()), objects_(protocol.objects.size()),
-      materials_(protocol.materials.size()) {
+    : factors_(factors_of(protocol)) {
     const int most = row_of(output.kind).largest_code;
     for (const std::string& entry : output.codes) {
         const auto words = words_of(entry);
@@ -69,22 +58,31 @@ MarkerCodes::MarkerCodes(const Protocol& protocol, const MarkerOutputSettings& o
         const auto words = words_of(entry);
         if (words.size() != 3)
             throw InputError(
-                fmt::format("\"{}\" is not task, object or material, its id, and what it adds, such "
-                            "as \"material gold 20\"",
+                fmt::format("\"{}\" is not a factor such as task, object or material, a level of "
+                            "it, and what it adds, such as \"material gold 20\"",
                             entry));
-        int* code = nullptr;
-        if (words[0] == "task")
-            code = &tasks_[index_of(entry, words[0], protocol.tasks, words[1])];
-        else if (words[0] == "object")
-            code = &objects_[index_of(entry, words[0], protocol.objects, words[1])];
-        else if (words[0] == "material")
-            code = &materials_[index_of(entry, words[0], protocol.materials, words[1])];
-        else
-            throw InputError(fmt::format("\"{}\": \"{}\" is not task, object or material", entry, words[0]));
-        *code = number_in(entry, words[2], 0, most, "what is added to a code");
+        std::vector<std::string_view> names;
+        for (const Factor& factor : factors_.all())
+            if (!factor.levels.empty())
+                names.push_back(factor.name);
+        if (std::ranges::find(names, words[0]) == names.end())
+            throw InputError(fmt::format("\"{}\": there is no factor \"{}\"; there are {}", entry, words[0],
+                                         fmt::join(names, ", ")));
+        const Factor& factor = factors_.at(words[0]);
+        const auto level = std::ranges::find(factor.levels, words[1], &FactorLevel::name);
+        if (level == factor.levels.end())
+            throw InputError(fmt::format("\"{}\": there is no {} \"{}\"", entry, words[0], words[1]));
+        auto known = std::ranges::find(levels_, factor.name,
+                                       [](const LevelCodes& codes) { return codes.factor.name; });
+        if (known == levels_.end())
+            known = levels_.insert(known, {factor, std::vector<int>(factor.levels.size())});
+        known->codes[static_cast<std::size_t>(level - factor.levels.begin())] =
+            number_in(entry, words[2], 0, most, "what is added to a code");
     }
     const int onset = events_[static_cast<std::size_t>(MarkedEvent::onset)];
-    const int highest = onset + largest_of(tasks_) + largest_of(objects_) + largest_of(materials_);
+    int highest = onset;
+    for (const LevelCodes& of_factor : levels_)
+        highest += largest_of(of_factor.codes);
     if (!output.condition_codes.empty() && highest > most)
         throw InputError(
             fmt::format("the onset of some trials would have the code {}: {} is the largest", highest, most));
@@ -92,8 +90,11 @@ MarkerCodes::MarkerCodes(const Protocol& protocol, const MarkerOutputSettings& o
         const auto words = words_of(entry);
         if (words.size() != 2)
             throw InputError(fmt::format("\"{}\" is not a refresh and its code, such as \"120 4\"", entry));
-        const int refreshes =
-            std::max(1, static_cast<int>(protocol.animation.duration_s * protocol.display.refresh_hz + 0.5));
+        const int refreshes = std::max(
+            1,
+            static_cast<int>(std::ranges::max(protocol.motions, {}, &MotionSettings::duration_s).duration_s *
+                                 protocol.display.refresh_hz +
+                             0.5));
         const int refresh = number_in(entry, words[0], 0, refreshes - 1, "a refresh of the animation");
         if (std::ranges::find(refreshes_, refresh, &RefreshCode::refresh) != refreshes_.end())
             throw InputError(fmt::format("\"{}\": the refresh {} has a code already", entry, refresh));
@@ -106,13 +107,8 @@ int MarkerCodes::code_of(MarkedEvent event, const Trial& trial) const noexcept {
     int code = events_[static_cast<std::size_t>(event)];
     if (event != MarkedEvent::onset)
         return code;
-    const auto add = [&](const std::vector<int>& codes, int index) {
-        if (index >= 0 && static_cast<std::size_t>(index) < codes.size())
-            code += codes[static_cast<std::size_t>(index)];
-    };
-    add(tasks_, trial.task);
-    add(objects_, trial.stimulus.object);
-    add(materials_, trial.stimulus.material);
+    for (const LevelCodes& of_factor : levels_)
+        code += of_factor.codes[static_cast<std::size_t>(factors_.level_of(of_factor.factor, trial))];
     return code;
 }
 

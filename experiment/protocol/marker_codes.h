@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "experiment/factors.h"
 #include "experiment/protocol/protocol.h"
 #include "experiment/trial.h"
 
@@ -37,7 +38,13 @@ class MarkerCodes {
 
   private:
     std::array<int, names_of<MarkedEvent>.size()> events_{};
-    std::vector<int> tasks_, objects_, materials_; ///< by index
+    /// What the levels of a factor add to an onset's code.
+    struct LevelCodes {
+        Factor factor;
+        std::vector<int> codes; ///< by level
+    };
+    Factors factors_;
+    std::vector<LevelCodes> levels_;
     std::vector<RefreshCode> refreshes_;
 };
 

@@ -2,16 +2,31 @@
 
 namespace overt::key_rows {
 
+namespace {
+
+/// A key for each list, that chooses of it. `words`: what it does, the list being {}.
+template <class Struct>
+void add_list_keys(std::vector<Key>& keys, ChosenEntries Struct::*chosen, std::string_view words) {
+    static const auto explanations = [&] {
+        std::array<std::string, stimulus_lists.size()> all;
+        for (std::size_t list = 0; list < all.size(); ++list)
+            all[list] = fmt::format(fmt::runtime(words), stimulus_lists[list].plural);
+        return all;
+    }();
+    for (std::size_t list = 0; list < stimulus_lists.size(); ++list)
+        keys.emplace_back(stimulus_lists[list].plural, chosen, list, identifier().left_out("all"),
+                          explanations[list]);
+}
+
+} // namespace
+
 std::vector<Key> block() {
     using B = BlockSettings;
     constexpr KeyLimits limit = range(0, 1000).left_out("as in `[schedule]`");
-    return {
+    std::vector<Key> keys{
         {"id", &B::id, identifier().required(), "Short name, used in tables."},
         {"tasks", &B::tasks, identifier().left_out("all"),
          "Which tasks are asked, by their ids. Their order is that of a sequential block."},
-        {"objects", &B::objects, identifier().left_out("all"), "Which objects are shown, by their ids."},
-        {"materials", &B::materials, identifier().left_out("all"),
-         "Which materials they have, by their ids."},
         {"stimuli", &B::stimuli, left_out("as each task says"),
          "Which stimuli the tasks are asked for in this block."},
         {"order", &B::order,
@@ -19,7 +34,9 @@ std::vector<Key> block() {
          "object by object, material by material, as listed. Blocked: all trials of one level of the "
          "factor `by`, then all of the next; random within a level. Weighted: the levels of `by` come more "
          "or less often, by `weights`."},
-        {"by", &B::by, "Factor by whose levels a blocked or weighted order goes."},
+        {"by", &B::by,
+         "Factor by whose levels a blocked or weighted order goes: `task`, a list (`object`, `material`, "
+         "`light`, `motion`, `view`), `stimulus`, or a column of entries."},
         {"levels", &B::levels,
          "Order of the levels of a blocked order: random for each session, fixed as listed, or by the rows "
          "of a Latin square over the observers."},
@@ -34,9 +51,18 @@ std::vector<Key> block() {
          "One repetition is over before the next begins, or all are mixed."},
         {"instructions", &B::instructions, left_out("none"),
          "What the observer reads before the block, until a key is pressed."},
+        {"practice", &B::practice,
+         "Its trials are practice: all is recorded of them as of others, and marked, and no result is of "
+         "them. Practice of which nothing is recorded is `[[practice]]`."},
         {"continues", &B::continues,
          "The limits count the trials of the block before, too, and both are drawn together; otherwise each "
          "block begins afresh, and its order does not depend on any other block."},
+        {"max_run", &B::max_run, limit,
+         "Longest run of trials with the same level of a factor in this block, for any factors: "
+         "{ gloss = 3 }; 0 for no limit."},
+        {"min_distance", &B::min_distance, limit,
+         "Least distance of trials with the same level of a factor in this block, for any factors: "
+         "{ gloss = 2 }; 0 for no limit."},
         {"max_task_run", &B::max_task_run, limit,
          "Longest run of trials with the same task in this block; 0 for no limit."},
         {"max_object_run", &B::max_object_run, limit,
@@ -54,11 +80,13 @@ std::vector<Key> block() {
         {"min_stimulus_distance", &B::min_stimulus_distance, limit,
          "Least distance of trials with the same stimulus in this block; 0 for no limit."},
     };
+    add_list_keys(keys, &B::chosen, "Which {} are shown, by their ids.");
+    return keys;
 }
 
 std::vector<Key> group() {
     using G = GroupSettings;
-    return {
+    std::vector<Key> keys{
         {"id", &G::id, identifier().required(), "Short name, used in tables."},
         {"cap", &G::cap, range(0, 10000),
          "Most observers in the group; 0 for no limit. An observer whose number is beyond all caps is "
@@ -66,9 +94,9 @@ std::vector<Key> group() {
         {"blocks", &G::blocks, identifier().left_out("all"),
          "Which blocks these observers do, by their ids."},
         {"tasks", &G::tasks, identifier().left_out("all"), "Which tasks they are asked."},
-        {"objects", &G::objects, identifier().left_out("all"), "Which objects they see."},
-        {"materials", &G::materials, identifier().left_out("all"), "Which materials they see."},
     };
+    add_list_keys(keys, &G::chosen, "Which {} they see, by their ids.");
+    return keys;
 }
 
 } // namespace overt::key_rows

@@ -4,15 +4,15 @@ namespace overt::key_rows {
 
 std::vector<Key> practice() {
     using P = PracticeSettings;
-    return {
+    std::vector<Key> keys{
         {"task", &P::task, identifier().required(), "Id of the task."},
-        {"object", &P::object, identifier().required(), "Id of the object."},
-        {"material", &P::material, identifier().required(), "Id of the material."},
         {"block", &P::block, identifier().left_out("the first of the session"),
          "Id of the block that it comes before."},
         {"feedback", &P::feedback, left_out("none"),
          "What the observer reads after the answer, until a key is pressed."},
     };
+    add_entry_keys(keys, &P::entries, "the first");
+    return keys;
 }
 
 std::vector<Key> breaks() {

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "experiment/protocol/entry_ids.h"
+
 namespace overt {
 
 Protocol protocol_of_further(const Protocol& protocol, std::size_t index) {
@@ -19,15 +21,83 @@ Protocol protocol_of_further(const Protocol& protocol, std::size_t index) {
     return further;
 }
 
+namespace {
+
+template <class Pointer, class OfProtocol>
+std::vector<Pointer> pointers_to_entries(OfProtocol& protocol, std::size_t list) {
+    std::vector<Pointer> entries;
+    std::size_t at = 0;
+    const auto take = [&](auto of_list) {
+        if (at++ == list)
+            for (auto& entry : protocol.*of_list)
+                entries.push_back(&entry);
+    };
+    std::apply([&](auto... of_list) { (take(of_list), ...); }, entries_of_lists);
+    return entries;
+}
+
+} // namespace
+
+std::vector<const ListEntry*> entries_of(const Protocol& protocol, std::size_t list) {
+    return pointers_to_entries<const ListEntry*>(protocol, list);
+}
+
+std::vector<ListEntry*> entries_of(Protocol& protocol, std::size_t list) {
+    return pointers_to_entries<ListEntry*>(protocol, list);
+}
+
+std::vector<std::string_view> ids_in_list(const Protocol& protocol, std::size_t list) {
+    std::vector<std::string_view> ids;
+    for (const ListEntry* entry : entries_of(protocol, list))
+        ids.push_back(entry->id);
+    return ids;
+}
+
+Factors factors_of(const Protocol& protocol) {
+    FactorSources sources;
+    sources.tasks = ids_of(protocol.tasks);
+    sources.blocks = ids_of(protocol.blocks);
+    for (std::size_t list = 0; list < stimulus_lists.size(); ++list)
+        for (const ListEntry* entry : entries_of(protocol, list))
+            sources.lists[list].push_back(*entry);
+    sources.own = own_levels_of(protocol);
+    return Factors(sources);
+}
+
+std::array<std::vector<bool>, stimulus_lists.size()> chosen_by(const Protocol& protocol,
+                                                               const SimulatedEffect& effect) {
+    std::array<std::vector<bool>, stimulus_lists.size()> chosen;
+    for (std::size_t list = 0; list < stimulus_lists.size(); ++list) {
+        for (const ListEntry* entry : entries_of(protocol, list)) {
+            // A column of another list says nothing here.
+            const auto has = [&](const NamedWord& wanted) {
+                const auto found = std::ranges::find(entry->columns, wanted.name, &NamedWord::name);
+                return found != entry->columns.end() && found->text == wanted.text;
+            };
+            const auto is_here = [&](const NamedWord& wanted) {
+                return std::ranges::any_of(entries_of(protocol, list), [&](const ListEntry* any) {
+                    return std::ranges::find(any->columns, wanted.name, &NamedWord::name) !=
+                           any->columns.end();
+                });
+            };
+            chosen[list].push_back((effect.entries[list].empty() || effect.entries[list] == entry->id) &&
+                                   std::ranges::all_of(effect.where, [&](const NamedWord& wanted) {
+                                       return !is_here(wanted) || has(wanted);
+                                   }));
+        }
+    }
+    return chosen;
+}
+
 ScreenGeometry screen_geometry_of(const Protocol& protocol) {
     const DisplaySettings& display = protocol.display;
     ScreenGeometry geometry;
     geometry.screen_px = {display.width_px, display.height_px};
     geometry.screen_mm = {display.width_mm, display.height_mm};
     geometry.viewing_distance_mm = display.viewing_distance_mm;
-    geometry.image_px = {protocol.view.width_px, protocol.view.height_px};
+    geometry.image_px = {protocol.views.front().width_px, protocol.views.front().height_px};
     geometry.image_origin_px = centred_origin_px(geometry.screen_px, geometry.image_px);
-    const ViewSettings& view = protocol.view;
+    const ViewSettings& view = protocol.views.front();
     // The pixel whose distance from the middle is seen under the angle: tan(angle) * distance.
     const auto px_of = [&](double deg, int axis) {
         return std::tan(to_radians({deg}).value) * geometry.viewing_distance_mm * geometry.screen_px[axis] /
@@ -70,13 +140,17 @@ std::filesystem::path lut_file(const ObjectSettings& object, AnimationFrameIndex
     return numbered(object.lut, object.lut_first_number + frame.value);
 }
 
-const FrameSequenceSettings* find_frames(const Protocol& protocol, int object, int material) {
-    const std::string& object_id = protocol.objects.at(static_cast<std::size_t>(object)).id;
-    const std::string& material_id = protocol.materials.at(static_cast<std::size_t>(material)).id;
-    const auto found = std::find_if(
-        protocol.frames.begin(), protocol.frames.end(), [&](const FrameSequenceSettings& sequence) {
-            return sequence.object == object_id && sequence.material == material_id;
-        });
+const FrameSequenceSettings* find_frames(const Protocol& protocol, const Stimulus& stimulus) {
+    const auto is_of = [](const std::string& id, const ListEntry& entry, std::size_t entries) {
+        return id.empty() ? entries == 1 : id == entry.id;
+    };
+    const auto found = std::ranges::find_if(protocol.frames, [&](const FrameSequenceSettings& sequence) {
+        return sequence.object == protocol.object_of(stimulus).id &&
+               sequence.material == protocol.material_of(stimulus).id &&
+               is_of(sequence.light, protocol.light_of(stimulus), protocol.lights.size()) &&
+               is_of(sequence.motion, protocol.motion_of(stimulus), protocol.motions.size()) &&
+               is_of(sequence.view, protocol.view_of(stimulus), protocol.views.size());
+    });
     return found == protocol.frames.end() ? nullptr : &*found;
 }
 

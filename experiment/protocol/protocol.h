@@ -8,6 +8,8 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <tuple>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -17,17 +19,23 @@
 #include "experiment/calibration/calibration_settings.h"
 #include "experiment/colour/display_characterisation.h"
 #include "experiment/events/event_settings.h"
+#include "experiment/factors.h"
 #include "experiment/gaze.h"
 #include "experiment/keys/key_places.h"
+#include "experiment/list_entry.h"
 #include "experiment/ports/observer_field.h"
 #include "experiment/ports/tracker_kinds.h"
+#include "experiment/protocol/area_settings.h"
 #include "experiment/protocol/design_settings.h"
 #include "experiment/protocol/device_settings.h"
 #include "experiment/protocol/material_kind.h"
 #include "experiment/protocol/output_mode.h"
 #include "experiment/protocol/protocol_sources.h"
 #include "experiment/protocol/sitting_settings.h"
+#include "experiment/protocol/slot.h"
+#include "experiment/protocol/trial_table.h"
 #include "experiment/screen_geometry.h"
+#include "experiment/stimulus_lists.h"
 #include "experiment/units.h"
 
 namespace overt {
@@ -190,8 +198,8 @@ struct EventDetectionSettings : EventSettings {
     EventMethod method = EventMethod::tracker;
 };
 
-/// [view]: image and camera, the same for all stimuli.
-struct ViewSettings {
+/// [[view]]: image and camera. [view] is the only one.
+struct ViewSettings : ListEntry {
     int width_px = 1024;
     int height_px = 1024;
     // Place on the screen: its top left pixel, or its middle's angle from the middle of the screen; left out:
@@ -205,8 +213,8 @@ struct ViewSettings {
     std::optional<glm::dvec3> camera_target;   ///< left out: the centre of the bounding box
 };
 
-/// [light]: what surrounds the object.
-struct LightSettings {
+/// [[light]]: what surrounds the object. [light] is the only one.
+struct LightSettings : ListEntry {
     /// "overcast" or "gallery", or a latitude-longitude EXR or HDR file, linear Rec.709, +y up, resolved
     /// against the protocol's folder.
     std::string probe = "overcast";
@@ -215,6 +223,9 @@ struct LightSettings {
     double exposure = 1.0;     ///< factor from the probe's radiance to the display's white
     double rotation_deg = 0.0; ///< turns the probe about the vertical
 };
+
+/// [[motion]]: how an object turns. [animation] is the only one.
+struct MotionSettings : ListEntry, Animation {};
 
 /// [screens]: what is shown between the animations.
 struct ScreenSettings {
@@ -234,9 +245,7 @@ struct ScreenSettings {
 };
 
 /// [[object]]
-struct ObjectSettings {
-    std::string id;
-    std::string title;
+struct ObjectSettings : ListEntry {
     std::string shipped;        ///< name of an object that overt makes itself, or empty
     std::filesystem::path mesh; ///< PLY, OBJ or STL, or empty; resolved against the protocol's folder
     std::string up = "z";       ///< axis of the file that points up: x, y, z, -x, -y, -z
@@ -251,15 +260,11 @@ struct ObjectSettings {
     int lut_first_number = 0;                   ///< number of animation frame 0
     std::optional<int> lut_scale;               ///< of 16-bit codes; left out: a file beside each map says it
     std::optional<glm::dvec3> lut_min, lut_max; ///< the box that they are coded by, likewise
-    // The part "head" in the file's coordinates: inside any sphere and on the positive side of all planes.
-    std::vector<std::array<double, 4>> head_spheres; ///< x, y, z, radius
-    std::vector<std::array<double, 6>> head_planes;  ///< point and normal
+    std::vector<AreaSettings> areas;            ///< beside those that the mesh file and `labels` name
 };
 
 /// [[material]]
-struct MaterialSettings {
-    std::string id;
-    std::string title;
+struct MaterialSettings : ListEntry {
     MaterialKind kind = MaterialKind::smooth_conductor;
     std::string metal =
         "Au"; ///< "Au", "Ag", or a file (metal_table.h), resolved against the protocol's folder
@@ -319,10 +324,11 @@ enum class FrameColours : std::uint8_t { display, rec709, xyz };
 template <>
 inline constexpr auto names_of<FrameColours> = enum_names<FrameColours>("display", "rec709", "xyz");
 
-/// [[frames]]: a ready-made animation for one object in one material, instead of rendering it.
+/// [[frames]]: a ready-made animation for one stimulus, instead of rendering it.
 struct FrameSequenceSettings {
     std::string object;
     std::string material;
+    std::string light, motion, view; ///< empty: the only one that there is
     std::string
         files; ///< path with # for the digits of the frame number; resolved against the protocol's folder
     int first_number = 0; ///< number of animation frame 0
@@ -342,10 +348,7 @@ struct Protocol {
     std::vector<FurtherTrackerSettings> further_trackers;
     CalibrationKeys calibration;
     EventDetectionSettings events;
-    ViewSettings view;
-    LightSettings light;
     BakingSettings bake;
-    Animation animation;
     ScheduleSettings schedule;
     ScreenSettings screens;
     ConsentSettings consent;
@@ -365,15 +368,61 @@ struct Protocol {
     std::vector<SimulatedEffect> simulated_effects;
     BreakSettings breaks;
     RepeatSettings repeat;
+    // A stimulus is an entry of each. There is always a light, a motion and a view.
     std::vector<ObjectSettings> objects;
     std::vector<MaterialSettings> materials;
+    std::vector<LightSettings> lights = std::vector<LightSettings>(1);
+    std::vector<MotionSettings> motions = std::vector<MotionSettings>(1);
+    std::vector<ViewSettings> views = std::vector<ViewSettings>(1);
     std::vector<FrameSequenceSettings> frames;
+    std::vector<TrialTable> trial_tables; ///< of the tasks that name one
+    std::vector<SlotSettings> slot_entries;    ///< as they are written
+    std::vector<Slot> slots = written_out({}); ///< the places that they are; never empty
+
+    const ObjectSettings& object_of(const Stimulus& of) const {
+        return objects.at(static_cast<std::size_t>(of.object));
+    }
+    const MaterialSettings& material_of(const Stimulus& of) const {
+        return materials.at(static_cast<std::size_t>(of.material));
+    }
+    const LightSettings& light_of(const Stimulus& of) const {
+        return lights.at(static_cast<std::size_t>(of.light));
+    }
+    const MotionSettings& motion_of(const Stimulus& of) const {
+        return motions.at(static_cast<std::size_t>(of.motion));
+    }
+    const ViewSettings& view_of(const Stimulus& of) const {
+        return views.at(static_cast<std::size_t>(of.view));
+    }
 
     std::filesystem::path file;         ///< where it was read
     std::string text;                   ///< the file, byte for byte
     std::vector<IncludedText> included; ///< the files that it includes
     KeyPlaces places;                   ///< where each key stands in it, for findings that come later
 };
+
+/// Where the entries of each of `stimulus_lists` are, in their order.
+inline constexpr std::tuple entries_of_lists{&Protocol::objects, &Protocol::materials, &Protocol::lights,
+                                             &Protocol::motions, &Protocol::views};
+static_assert(std::tuple_size_v<decltype(entries_of_lists)> == stimulus_lists.size());
+
+/// The entries of a list as what all lists' entries have in common; for as long as the protocol's lists stay
+/// as they are. `list`: index into `stimulus_lists`.
+std::vector<const ListEntry*> entries_of(const Protocol& protocol, std::size_t list);
+std::vector<ListEntry*> entries_of(Protocol& protocol, std::size_t list);
+
+/// Their ids.
+std::vector<std::string_view> ids_in_list(const Protocol& protocol, std::size_t list);
+
+/// All factors of a protocol's trials.
+Factors factors_of(const Protocol& protocol);
+
+/// The levels that its trials have of their own, by its tables and rules (own_factors.cpp).
+std::vector<NamedWord> own_levels_of(const Protocol& protocol);
+
+/// For each list: whether a simulated effect holds for each of its entries.
+std::array<std::vector<bool>, stimulus_lists.size()> chosen_by(const Protocol& protocol,
+                                                               const SimulatedEffect& effect);
 
 /// The screen and the stimulus's place on it, as the protocol has them.
 ScreenGeometry screen_geometry_of(const Protocol& protocol);
@@ -387,8 +436,7 @@ std::filesystem::path frame_file(const FrameSequenceSettings& sequence, Animatio
 /// The same for the map of one frame, of an object with ready-made maps.
 std::filesystem::path lut_file(const ObjectSettings& object, AnimationFrameIndex frame);
 
-/// The ready-made frames of an object in a material, or nullptr if they are to be rendered. Indices into
-/// the protocol's lists.
-const FrameSequenceSettings* find_frames(const Protocol& protocol, int object, int material);
+/// The ready-made frames of a stimulus, or nullptr if they are to be rendered.
+const FrameSequenceSettings* find_frames(const Protocol& protocol, const Stimulus& stimulus);
 
 } // namespace overt

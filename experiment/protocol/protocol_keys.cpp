@@ -26,15 +26,30 @@ const KeyTable& protocol_keys() {
             {"events", &Protocol::events, events(),
              "Fixations, saccades and blinks in the record, and by which thresholds the program tells them "
              "apart; see [events.md](events.md)."},
-            {"view", &Protocol::view, view(),
-             "The image and its camera, the same for all stimuli. +z is up; an object turns about the "
-             "vertical through the middle of its bounding box."},
-            {"light", &Protocol::light, light(), "What surrounds the objects and is reflected in them."},
+            {"view",
+             &Protocol::views,
+             view(),
+             "The image and its camera; one section `[view]`, or several, `[[view]]`. +z is up; an object "
+             "turns about the vertical through the middle of its bounding box.",
+             {},
+             "view"},
+            {"light",
+             &Protocol::lights,
+             light(),
+             "What surrounds the objects and is reflected in them; one section `[light]`, or several, "
+             "`[[light]]`.",
+             {},
+             "light"},
             {"bake", &Protocol::bake, bake(),
              "How stimuli are rendered that are not given as `[[frames]]`. `overt bake` does it, and keeps "
              "each frame; see [bake.md](bake.md)."},
-            {"animation", &Protocol::animation, animation(),
-             "How the objects turn: to and fro about the vertical, as a sine."},
+            {"motion",
+             &Protocol::motions,
+             motion(),
+             "How the objects turn: to and fro about the vertical, as a sine; one section `[animation]`, or "
+             "several, `[[motion]]`.",
+             {},
+             "animation"},
             {"schedule", &Protocol::schedule, schedule(),
              "How many observers there will be, and what the order of their trials has to keep to. The "
              "limits hold within each block."},
@@ -71,14 +86,28 @@ const KeyTable& protocol_keys() {
              "Spoken answers: a WAV file for each trial that counts, from the end of the animation to the "
              "key that ends the answer, with the sample at the response screen's onset, the onset of the "
              "voice, clipping and silence in the record."},
-            {"task", &Protocol::tasks, task(),
-             "A question that observers are asked about what they see. At least one."},
-            {"block", &Protocol::blocks, block(),
-             "A part of the session with an order of its own. Without any block, all trials are one, in "
+            {"task",
+             &Protocol::tasks,
+             task(),
+             "A question that observers are asked about what they see. At least one.",
+             {{"trials", &Task::trials, trials(),
+               "A rule that makes the task's trials of the levels of factors. `overt check` says how many it "
+               "gives."},
+              {"catch", &Task::catch_trials, catch_trials(),
+               "Trials that check whether the observer attends, mixed in by chance among the task's in each "
+               "block. The record and all tables mark them."}}},
+            {"block",
+             &Protocol::blocks,
+             block(),
+             "A part of the session with an order of its own, and, with `draw`, a list of its own: phases "
+             "such "
+             "as study and test are blocks. Without any block, all trials are one, in "
              "random order. The limits of `[schedule]` hold in each block that does not set them itself, but "
              "for two cases, in which they would contradict what the block says: a sequential order has only "
              "limits of its own, and one blocked by a factor has none from there on this factor (by "
-             "stimulus: none on stimulus, object and material)."},
+             "stimulus: none on stimulus, object and material).",
+             {{"draw", &BlockSettings::draw, draw(),
+               "A list of entries drawn for the block, such as the objects that an observer learns."}}},
             {"group", &Protocol::groups, group(),
              "A group of observers, for what differs between observers. Observers are assigned by their "
              "number: in turn, first to the first group, a group that is full being passed over. Squares and "
@@ -104,13 +133,24 @@ const KeyTable& protocol_keys() {
              object(),
              "A thing to look at: one of the objects that overt makes itself (`shipped`), or one of yours "
              "(`mesh`, or ready-made maps, `lut`). At least one.",
-             {{"head",
-               {},
-               head(),
-               "Which part of a mesh is the head: inside any of the spheres, and in front of all of the "
-               "planes. Coordinates are those of the mesh file; with `lut`, those of the maps."}}},
+             {{"areas", SectionHome::by_name(&ObjectSettings::areas, &AreaSettings::name), area(),
+               "Named areas of the object, any number of them: the measures of gaze are given for each. An "
+               "area "
+               "is what lies in any of its spheres, boxes and groups, and in front of all of its planes. "
+               "Areas "
+               "may lie in one another or overlap. Coordinates are those of the mesh file; with `lut`, those "
+               "of "
+               "the maps."},
+              {"head", SectionHome::one_by_name(&ObjectSettings::areas, &AreaSettings::name), area(),
+               "The same as `areas = { head = { … } }`."}}},
             {"material", &Protocol::materials, material(),
              "What every object is made of in turn. At least one."},
+            {"slot", &Protocol::slot_entries, slot(),
+             "A place on the screen in which a stimulus is shown, or several on a circle or a grid, for "
+             "tasks "
+             "that show several stimuli at once. Without any, stimuli stand where `[view]` says, in the slot "
+             "\"centre\". The object takes the same share of a slot as of the image of `[view]`. Columns are "
+             "even, since some outputs join pixels in pairs."},
             {"frames", &Protocol::frames, frames(),
              "A ready-made animation of one object in one material, shown instead of rendering it."},
             {"words", &Protocol::words, words(),

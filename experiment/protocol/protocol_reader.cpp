@@ -6,7 +6,8 @@
 #include "experiment/protocol/old_words.h"
 #include "experiment/protocol/protocol_keys.h"
 #include "experiment/protocol/protocol_sources.h"
-#include "experiment/scene/metal_table.h"
+#include "experiment/protocol/written_series.h"
+#include "experiment/spectra/metal_table.h"
 
 namespace overt {
 
@@ -31,11 +32,17 @@ void complete(Protocol& protocol) {
     for (std::size_t i = 0; i < protocol.observer_fields.size(); ++i)
         complete_field(protocol.observer_fields[i],
                        protocol.places.is_written(fmt::format("observer_field[{}].kind", i)));
+    for (std::size_t list = 0; list < stimulus_lists.size(); ++list) {
+        for (ListEntry* entry : entries_of(protocol, list)) {
+            if (entry->id.empty() && protocol_keys().section(stimulus_lists[list].name).is_never_empty())
+                entry->id = stimulus_lists[list].name;
+            if (entry->title.empty())
+                entry->title = entry->id;
+        }
+    }
     for (std::size_t i = 0; i < protocol.objects.size(); ++i) {
         ObjectSettings& object = protocol.objects[i];
         const auto folder = folder_of(protocol, fmt::format("object[{}]", i));
-        if (object.title.empty())
-            object.title = object.id;
         if (!object.mesh.empty())
             object.mesh = folder / object.mesh;
         if (!object.labels.empty())
@@ -45,8 +52,6 @@ void complete(Protocol& protocol) {
     }
     for (std::size_t i = 0; i < protocol.materials.size(); ++i) {
         MaterialSettings& material = protocol.materials[i];
-        if (material.title.empty())
-            material.title = material.id;
         if (is_metal_file(material.metal))
             material.metal = (folder_of(protocol, fmt::format("material[{}]", i)) / material.metal).string();
     }
@@ -55,11 +60,55 @@ void complete(Protocol& protocol) {
         if (!sequence.files.empty())
             sequence.files = (folder_of(protocol, fmt::format("frames[{}]", i)) / sequence.files).string();
     }
+    protocol.slots = written_out(protocol.slot_entries);
+    fit_view_to_slots(protocol);
     if (!protocol.display.characterisation_file.empty())
         protocol.display.characterisation_file =
             folder_of(protocol, "display.characterisation") / protocol.display.characterisation_file;
-    if (protocol.light.is_file())
-        protocol.light.probe = (folder_of(protocol, "light.probe") / protocol.light.probe).string();
+    for (std::size_t i = 0; i < protocol.motions.size(); ++i) {
+        // What does not move has one frame.
+        MotionSettings& motion = protocol.motions[i];
+        if (!motion.moves() && !protocol.places.is_written(fmt::format("motion[{}].frame_count", i)))
+            motion.frame_count = 1;
+    }
+    for (std::size_t i = 0; i < protocol.lights.size(); ++i) {
+        LightSettings& light = protocol.lights[i];
+        if (light.is_file())
+            light.probe = (folder_of(protocol, fmt::format("light[{}].probe", i)) / light.probe).string();
+    }
+}
+
+/// Reads the table that a key of a task names; its text stands beside those of included files. -1 where there
+/// is none.
+int read_trial_table(ProtocolExamination& examination, const IncludeReader& reader, int task,
+                     std::string_view key, const std::filesystem::path& file) {
+    Protocol& protocol = examination.protocol;
+    const std::string path = fmt::format("task[{}].{}", task, key);
+    UnreadFile why_not;
+    const IncludedText* const text =
+        file.empty() ? nullptr
+                     : text_beside(protocol.included, protocol.file, folder_of(protocol, path) / file, reader,
+                                   examination.diagnostics(), why_not);
+    if (!text) {
+        if (!file.empty())
+            examination.error({path}, fmt::format("trials \"{}\": {}", file.string(), why_not.message),
+                              why_not.hint);
+        return -1;
+    }
+    const std::string name = text->file.string();
+    const auto table = parse_delimited(text->text, name, text->number, examination.diagnostics());
+    protocol.trial_tables.push_back(
+        table ? trial_table_of(*table, protocol, task, name, examination.diagnostics()) : TrialTable{});
+    return static_cast<int>(protocol.trial_tables.size()) - 1;
+}
+
+void read_trial_tables(ProtocolExamination& examination, const IncludeReader& reader) {
+    for (int i = 0; i < static_cast<int>(examination.protocol.tasks.size()); ++i) {
+        Task& task = examination.protocol.tasks[static_cast<std::size_t>(i)];
+        task.trials.table = read_trial_table(examination, reader, i, "trials", task.trials_file);
+        task.catch_trials.table =
+            read_trial_table(examination, reader, i, "catch.trials", task.catch_trials.trials_file);
+    }
 }
 
 } // namespace
@@ -72,9 +121,12 @@ bool read_written_keys(ProtocolExamination& examination, std::string_view text, 
     JoinedToml joined = read_joined_toml(text, protocol.file, reader, diagnostics);
     protocol.included = std::move(joined.included);
     put_todays_words(joined.toml, protocol.file.string(), diagnostics);
+    write_out_series(joined.toml, protocol.file.string(), diagnostics);
     KeyWalk(protocol_keys(), protocol.file.string(), protocol.places, examination.faulty, diagnostics)
         .read(joined.toml, protocol);
     complete(protocol);
+    if (joined.toml.is_whole)
+        read_trial_tables(examination, reader);
     return joined.toml.is_whole;
 }
 

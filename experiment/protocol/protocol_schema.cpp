@@ -28,8 +28,15 @@ Json section_schema(const Section& section) {
         if (rule.is_required)
             required.push_back(rule.name);
     }
-    for (const Section& table : section.tables)
-        schema["properties"][std::string(table.name)] = section_schema(table);
+    for (const Section& table : section.tables) {
+        Json inner = section_schema(table);
+        if (table.home.is_by_name())
+            inner = {{"type", "object"},
+                     {"propertyNames", {{"pattern", "^[A-Za-z0-9_-]{1,40}$"}}},
+                     {"additionalProperties", std::move(inner)}};
+        Json& property = schema["properties"][std::string(table.name)];
+        property = property.is_null() ? std::move(inner) : Json{{"anyOf", {property, std::move(inner)}}};
+    }
     schema["description"] = without_links(section.explanation);
     if (!required.empty())
         schema["required"] = std::move(required);
@@ -78,9 +85,12 @@ Json protocol_schema() {
         Json schema = section_schema(section);
         if (section.is_list()) {
             const std::string description = schema["description"];
-            schema = list_of(std::move(schema));
+            Json list = list_of(schema);
+            schema = section.is_never_empty() ? Json{{"anyOf", {schema, std::move(list)}}} : std::move(list);
             schema["description"] = description;
         }
+        if (section.is_never_empty())
+            properties[std::string(section.alone)] = schema;
         properties[std::string(section.name)] = std::move(schema);
     }
     narrow(properties);

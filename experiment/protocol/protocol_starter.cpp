@@ -41,7 +41,7 @@ const std::map<std::string_view, std::vector<Values>>& starter_values() {
         {"answers", {{{"record", "\"optional\""}}}},
         {"observer_field",
          {{{"id", "\"age\""}}, {{"id", "\"sex\""}}, {{"id", "\"vision\""}}, {{"id", "\"handedness\""}}}},
-        {"animation", {{{"duration_s", "4"}}}},
+        {"motion", {{{"duration_s", "4"}}}},
         {"schedule", {{{"observers", "4"}, {"max_object_run", "2"}}}},
         {"task",
          {{{"id", "\"free\""}, {"question", "\"Look at the object as you like.\""}},
@@ -128,7 +128,9 @@ void add_keys(std::string& text, const Section& section, const Values& values, b
         std::string keys;
         for (const Key& key : table.keys)
             keys += fmt::format("{}{} = …", keys.empty() ? "" : ", ", key.rule.name);
-        text += fmt::format("# {} = {{ {} }}\n", table.name, keys);
+        text += fmt::format(
+            fmt::runtime(table.home.is_by_name() ? "# {} = {{ NAME = {{ {} }} }}\n" : "# {} = {{ {} }}\n"),
+            table.name, keys);
     }
 }
 
@@ -150,7 +152,7 @@ std::string_view short_remark(std::string_view key) {
 void add_starter_section(std::string& text, const Section& section, std::string_view name) {
     const auto known = starter_values().find(section.name);
     std::vector<Values> entries = known == starter_values().end() ? std::vector<Values>{{}} : known->second;
-    const bool is_idle = section.is_list() && known == starter_values().end();
+    const bool is_idle = section.is_list() && !section.is_never_empty() && known == starter_values().end();
     const std::string quoted = fmt::format("\"{}\"", name);
     if (section.name == "protocol")
         entries.front()["name"] = quoted;
@@ -185,7 +187,7 @@ std::string short_protocol_starter(std::string_view name) {
                                    name);
     const std::string quoted = fmt::format("\"{}\"", name);
     // What a session needs, and what has no default that fits most.
-    constexpr std::string_view kept[] = {"protocol", "display",  "animation", "schedule",
+    constexpr std::string_view kept[] = {"protocol", "display",  "motion", "schedule",
                                          "object",   "material", "task"};
     for (const Section& section : protocol_keys()) {
         if (std::find(std::begin(kept), std::end(kept), section.name) == std::end(kept))

@@ -9,85 +9,132 @@ namespace {
 constexpr std::string_view units[] = {"mm", "cm", "m", "in", "own"};
 constexpr std::string_view axes[] = {"x", "y", "z", "-x", "-y", "-z"};
 
+/// The keys that the entries of all lists have, and after them the list's own.
+template <class Entry> std::vector<Key> entry_keys(std::vector<Key> own, bool is_never_empty = false) {
+    std::vector<Key> keys{
+        {"id", member_of<Entry>(&ListEntry::id),
+         is_never_empty ? identifier().left_out("the list's name, for its only entry")
+                        : identifier().required(),
+         "Short name, used in file names and tables."},
+        {"title", member_of<Entry>(&ListEntry::title), left_out("the id"), "Name for figures and reports."},
+        {"columns", member_of<Entry>(&ListEntry::columns), left_out("none"),
+         "What tables are to say of it besides, words or numbers: { gloss = \"high\", size_cm = 12 }. Each "
+         "name is a factor, by which trials are ordered, limited and analysed as by the list itself."},
+        {"series", member_of<Entry>(&ListEntry::series), left_out("one entry"),
+         "Several entries in place of this one, which differ in the value of a key that takes a number, a "
+         "word or a file: { roughness = [0.02, 0.05, 0.1] } makes three, with the ids ID-0.02 and so on, and "
+         "a "
+         "column of the key's name. Of several keys the first values belong together, then the second."},
+    };
+    keys.insert(keys.end(), own.begin(), own.end());
+    return keys;
+}
+
 } // namespace
 
-std::vector<Key> head() {
-    using S = ObjectSettings;
+std::vector<Key> area() {
+    using A = AreaSettings;
     return {
-        {"spheres", &S::head_spheres, left_out("the mesh has no head"), "Middle and radius of each sphere."},
-        {"planes", &S::head_planes, left_out("nothing is cut off"),
-         "A point of each plane, and the direction in which the head lies."},
+        {"spheres", &A::spheres, left_out("none"), "Middle and radius of each sphere."},
+        {"boxes", &A::boxes, left_out("none"),
+         "Two corners of each box: the one with the smallest coordinates, and the one with the largest."},
+        {"groups", &A::groups, left_out("none"),
+         "Names of parts that the mesh file labels, such as the groups of an OBJ file, or that `labels` "
+         "names."},
+        {"planes", &A::planes, left_out("nothing is cut off"),
+         "A point of each plane, and the direction in which the area lies."},
     };
 }
 
 std::vector<Key> view() {
     using V = ViewSettings;
-    return {
-        {"width_px", &V::width_px, range(8, 16384, "px"), "Width of the stimulus, shown pixel for pixel."},
-        {"height_px", &V::height_px, range(8, 16384, "px"), "Height of the stimulus."},
-        {"left_px", &V::left_px, range(0, 16384, "px").left_out("in the middle of the screen"),
-         "Columns of the screen to the left of the stimulus."},
-        {"top_px", &V::top_px, range(0, 16384, "px").left_out("in the middle of the screen"),
-         "Rows of the screen above the stimulus."},
-        {"centre_right_deg", &V::centre_right_deg, range(-80, 80, "deg").left_out("see `left_px`"),
-         "Angle from the middle of the screen to the middle of the stimulus, positive to the right; to the "
-         "nearest pixel."},
-        {"centre_up_deg", &V::centre_up_deg, range(-80, 80, "deg").left_out("see `top_px`"),
-         "The same upwards."},
-        {"vertical_fov_deg", &V::vertical_fov_deg,
-         range(0.1, 170, "deg").left_out("the angle under which the observer sees the image"),
-         "The camera's full angle over the height of the image."},
-        {"margin", &V::margin, range(0, 0.45),
-         "Share of the image left free on each side where the camera is fitted to an object."},
-        {"camera_position", &V::camera_position, left_out("fitted to each object"),
-         "Where the camera stands, in the unit of the mesh."},
-        {"camera_target", &V::camera_target, left_out("the middle of the bounding box"),
-         "What the camera looks at."},
-    };
+    return entry_keys<V>(
+        {
+            {"width_px", &V::width_px, range(8, 16384, "px"),
+             "Width of the stimulus, shown pixel for pixel."},
+            {"height_px", &V::height_px, range(8, 16384, "px"), "Height of the stimulus."},
+            {"left_px", &V::left_px, range(0, 16384, "px").left_out("in the middle of the screen"),
+             "Columns of the screen to the left of the stimulus."},
+            {"top_px", &V::top_px, range(0, 16384, "px").left_out("in the middle of the screen"),
+             "Rows of the screen above the stimulus."},
+            {"centre_right_deg", &V::centre_right_deg, range(-80, 80, "deg").left_out("see `left_px`"),
+             "Angle from the middle of the screen to the middle of the stimulus, positive to the right; to "
+             "the "
+             "nearest pixel."},
+            {"centre_up_deg", &V::centre_up_deg, range(-80, 80, "deg").left_out("see `top_px`"),
+             "The same upwards."},
+            {"vertical_fov_deg", &V::vertical_fov_deg,
+             range(0.1, 170, "deg").left_out("the angle under which the observer sees the image"),
+             "The camera's full angle over the height of the image."},
+            {"margin", &V::margin, range(0, 0.45),
+             "Share of the image left free on each side where the camera is fitted to an object."},
+            {"camera_position", &V::camera_position, left_out("fitted to each object"),
+             "Where the camera stands, in the unit of the mesh."},
+            {"camera_target", &V::camera_target, left_out("the middle of the bounding box"),
+             "What the camera looks at."},
+        },
+        true);
 }
 
 std::vector<Key> light() {
     using L = LightSettings;
-    return {
-        {"probe", &L::probe,
-         "\"gallery\" for a hall with windows, lamps and a low sun, in which gloss is seen best, "
-         "\"overcast\" for a cloudy sky, or a latitude-longitude picture of the surroundings (EXR or HDR, "
-         "linear Rec. 709, +y up)."},
-        {"exposure", &L::exposure, range(1e-6, 1e6),
-         "Factor from the probe's radiance to the display's white."},
-        {"rotation_deg", &L::rotation_deg, range(-360, 360, "deg"),
-         "Turns the surroundings about the vertical."},
-    };
+    return entry_keys<L>(
+        {
+            {"probe", &L::probe,
+             "\"gallery\" for a hall with windows, lamps and a low sun, in which gloss is seen best, "
+             "\"overcast\" for a cloudy sky, or a latitude-longitude picture of the surroundings (EXR or "
+             "HDR, "
+             "linear Rec. 709, +y up)."},
+            {"exposure", &L::exposure, range(1e-6, 1e6),
+             "Factor from the probe's radiance to the display's white."},
+            {"rotation_deg", &L::rotation_deg, range(-360, 360, "deg"),
+             "Turns the surroundings about the vertical."},
+        },
+        true);
 }
 
-std::vector<Key> animation() {
+std::vector<Key> motion() {
+    using M = MotionSettings;
     using A = Animation;
-    return {
-        {"frame_count", &A::frame_count, range(1, 10000),
-         "Frames of the animation; with `cycle` the last closes the loop, being the first again."},
-        {"frame_rate_hz", &A::frame_rate_hz, range(0.1, 1000, "Hz"),
-         "Frames per second, if the refresh rate is a whole multiple of it; see `display.refresh_hz`."},
-        {"amplitude_deg", &A::amplitude, range(0, 180, "deg"),
-         "Largest turn to each side of the front view."},
-        {"playback", &A::playback,
-         "The frames hold a whole period of the sine, or one sweep from end to end that is played forth and "
-         "back."},
-        {"duration_s", &A::duration_s, range(0.01, 3600, "s"),
-         "Length of one presentation at `frame_rate_hz`, a whole number of frames."},
-        {"when_late", &A::when_late,
-         "What becomes of the animation when a picture comes late: it keeps time and drops the frames whose "
-         "time has passed, or it keeps all frames and ends later. Either way the record names each refresh "
-         "that was missed."},
-    };
+    return entry_keys<M>(
+        {
+            {"kind", member_of<M>(&A::kind),
+             "The object turns to and fro as a sine, or it stands still; the light may turn with either."},
+            {"frame_count", member_of<M>(&A::frame_count), range(1, 10000),
+             "Frames of the animation; with `cycle` the last closes the loop, being the first again."},
+            {"frame_rate_hz", member_of<M>(&A::frame_rate_hz), range(0.1, 1000, "Hz"),
+             "Frames per second, if the refresh rate is a whole multiple of it; see `display.refresh_hz`."},
+            {"amplitude_deg", member_of<M>(&A::amplitude), range(0, 180, "deg"),
+             "Largest turn to each side of `angle_deg`; with `still` it has no effect."},
+            {"angle_deg", member_of<M>(&A::angle), range(-360, 360, "deg"),
+             "Where a still object stands, or the middle of its turn: counter-clockwise from the front view, "
+             "seen "
+             "from above."},
+            {"light_amplitude_deg", member_of<M>(&A::light_amplitude), range(0, 180, "deg"),
+             "Largest turn of the surroundings to each side of where `[light]` has them, in step with the "
+             "object's."},
+            {"playback", member_of<M>(&A::playback),
+             "The frames hold a whole period of the sine, or one sweep from end to end that is played forth "
+             "and "
+             "back."},
+            {"duration_s", member_of<M>(&A::duration_s), range(0.01, 3600, "s"),
+             "Length of one presentation at `frame_rate_hz`, a whole number of frames."},
+            {"when_late", member_of<M>(&A::when_late),
+             "What becomes of the animation when a picture comes late: it keeps time and drops the frames "
+             "whose "
+             "time has passed, or it keeps all frames and ends later. Either way the record names each "
+             "refresh "
+             "that was missed."},
+        },
+        true);
 }
 
 std::vector<Key> object() {
     using S = ObjectSettings;
-    return {
-        {"id", &S::id, identifier().required(), "Short name, used in file names and tables."},
-        {"title", &S::title, left_out("the id"), "Name for figures and reports."},
+    return entry_keys<S>({
         {"shipped", &S::shipped, left_out("see `mesh` and `lut`"),
-         "An object that overt makes itself, its head being known: \"muse\", \"runner\" or \"scholar\"."},
+         "An object that overt makes itself, with the areas head, body and plinth: \"muse\", \"runner\" or "
+         "\"scholar\"."},
         {"mesh", &S::mesh, left_out("see `shipped` and `lut`"),
          "A PLY, OBJ or STL file of triangles, by its path from the protocol's folder."},
         {"up", &S::up, one_of(axes), "The axis of the mesh file that points up."},
@@ -98,10 +145,9 @@ std::vector<Key> object() {
          "every export says so."},
         {"labels", &S::labels, left_out("the labels of the mesh file, if it has any"),
          "A text file with a whole number for each triangle of the mesh, or for each vertex: which part it "
-         "belongs to. Lines `# part 1 head` name parts. Beside `head` both hold: a part that lies in the "
-         "head as "
-         "a whole stays a part, called head/NAME, and counts as head; of one that reaches beyond it the head "
-         "takes what it contains."},
+         "belongs to. Lines `# part 1 rim` name parts. Each part is an area, as are the groups of a mesh "
+         "file; "
+         "beside `areas` both hold, and a triangle may belong to several."},
         {"weld_tolerance", &S::weld_tolerance, range(0, 0.01),
          "Vertices of the mesh that are no farther apart than this share of the diagonal of its box are one: "
          "what some programs write for a corner differs by rounding. 0: only those at the very same place."},
@@ -117,7 +163,7 @@ std::vector<Key> object() {
          "Corner of the box that the maps are coded by, with the smallest coordinates."},
         {"lut_max", &S::lut_max, left_out("from the JSON file beside each map"),
          "Corner of the box with the largest coordinates."},
-    };
+    });
 }
 
 namespace {
@@ -137,9 +183,7 @@ std::string_view looks_of_kinds() {
 
 std::vector<Key> material() {
     using M = MaterialSettings;
-    return {
-        {"id", &M::id, identifier().required(), "Short name, used in file names and tables."},
-        {"title", &M::title, left_out("the id"), "Name for figures and reports."},
+    return entry_keys<M>({
         {"kind", &M::kind, one_of(names_in<material_kinds>).required(), looks_of_kinds()},
         {"metal", &M::metal,
          "\"Au\" for gold, \"Ag\" for silver, or a table of another conductor: a CSV file with the columns "
@@ -158,7 +202,7 @@ std::vector<Key> material() {
         {"coat_seed", &M::coat_seed, range(0, 2147483647), "Another number, other bumps."},
         {"reflectance", &M::reflectance, range(0, 1),
          "Share of red, green and blue light that a matt surface returns."},
-    };
+    });
 }
 
 } // namespace overt::key_rows

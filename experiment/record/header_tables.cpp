@@ -6,6 +6,7 @@ template <> inline constexpr std::array<const char*, 2> stored_words<ClockKind>{
 template <> inline constexpr std::array<const char*, 2> stored_words<Eye>{"left", "right"};
 template <> inline constexpr std::array<const char*, 2> stored_words<Playback>{"cycle", "ping-pong"};
 template <> inline constexpr std::array<const char*, 2> stored_words<WhenLate>{"drop", "stretch"};
+template <> inline constexpr std::array<const char*, 2> stored_words<MotionKind>{"turn", "still"};
 
 namespace {
 
@@ -75,15 +76,16 @@ constexpr RowColumn<SessionHeader> session_columns[] = {
         "of the flips: `proven` by real vertical blanks, `unproven`, `none` in virtual time or "
         "without a screen; empty if not recorded",
         "''"),
-    column<&Header::animation, &Animation::frame_count>("frame_count", "frames of the animation"),
-    column<&Header::animation, &Animation::frame_rate_hz>(
+    column<&Header::animations, 0, &Animation::frame_count>("frame_count", "frames of the animation"),
+    column<&Header::animations, 0, &Animation::frame_rate_hz>(
         "frame_rate_hz", "frames to a second, by the protocol; the display shows the nearest rate that its "
                          "own is a multiple of"),
-    column<&Header::animation, &Animation::amplitude>("amplitude_deg", "turn to each side of the front view"),
-    column<&Header::animation, &Animation::playback>("playback", "`cycle` or `ping-pong`"),
-    column<&Header::animation, &Animation::duration_s>("duration_s",
-                                                       "of one presentation, by the protocol, at that rate"),
-    column<&Header::animation, &Animation::when_late>(
+    column<&Header::animations, 0, &Animation::amplitude>("amplitude_deg",
+                                                          "turn to each side of the front view"),
+    column<&Header::animations, 0, &Animation::playback>("playback", "`cycle` or `ping-pong`"),
+    column<&Header::animations, 0, &Animation::duration_s>(
+        "duration_s", "of one presentation, by the protocol, at that rate"),
+    column<&Header::animations, 0, &Animation::when_late>(
         "when_late", "what becomes of the plan when a picture comes late: `drop` or `stretch`", "'drop'"),
 };
 
@@ -107,20 +109,33 @@ constexpr RowColumn<RecordedCharacterisation> light_columns[] = {
     column<&Light::primaries_xyz, 2, 2>("blue_z", "likewise"),
 };
 
-/// An object, its camera, and the box by which its maps are coded.
+/// A motion.
+constexpr RowColumn<Animation> animation_columns[] = {
+    column<&Animation::kind>("kind", "`turn` or `still`"),
+    column<&Animation::frame_count>("frame_count", "its frames"),
+    column<&Animation::frame_rate_hz>("frame_rate_hz", "frames to a second, by the protocol"),
+    column<&Animation::amplitude>("amplitude_deg", "turn of the object to each side of `angle_deg`"),
+    column<&Animation::angle>("angle_deg", "from the front view"),
+    column<&Animation::light_amplitude>("light_amplitude_deg", "turn of the light to each side"),
+    column<&Animation::playback>("playback", "`cycle` or `ping-pong`"),
+    column<&Animation::duration_s>("duration_s", "of one presentation, by the protocol"),
+    column<&Animation::when_late>("when_late", "`drop` or `stretch`"),
+};
+
+/// An object, its camera in the first view, and the box by which its maps are coded.
 constexpr RowColumn<RecordedObject> object_columns[] = {
     column<&Object::id>("id", "its id in the protocol"),
     column<&Object::title>("title", "its title"),
     column<&Object::mesh_sha256>("mesh_sha256", "SHA-256 of the mesh"),
     column<&Object::mesh_file>("mesh_file", "relative to the directory; empty if it has no mesh"),
-    column<&Object::camera, &Camera::position, 0>(
+    column<&Object::cameras, 0, &Camera::position, 0>(
         "camera_x", "where the camera stands; up is +z; without a mesh what ready-made maps say of it"),
-    column<&Object::camera, &Camera::position, 1>("camera_y", "likewise"),
-    column<&Object::camera, &Camera::position, 2>("camera_z", "likewise"),
-    column<&Object::camera, &Camera::target, 0>("target_x", "where it looks"),
-    column<&Object::camera, &Camera::target, 1>("target_y", "likewise"),
-    column<&Object::camera, &Camera::target, 2>("target_z", "likewise"),
-    column<&Object::camera, &Camera::vertical_fov>(
+    column<&Object::cameras, 0, &Camera::position, 1>("camera_y", "likewise"),
+    column<&Object::cameras, 0, &Camera::position, 2>("camera_z", "likewise"),
+    column<&Object::cameras, 0, &Camera::target, 0>("target_x", "where it looks"),
+    column<&Object::cameras, 0, &Camera::target, 1>("target_y", "likewise"),
+    column<&Object::cameras, 0, &Camera::target, 2>("target_z", "likewise"),
+    column<&Object::cameras, 0, &Camera::vertical_fov>(
         "vertical_fov_deg", "full angle over the image's height; 0 if ready-made maps say nothing of it"),
     column<&Object::axis_point, 0>("axis_x", "a point of the vertical axis of the turn"),
     column<&Object::axis_point, 1>("axis_y", "likewise"),
@@ -135,6 +150,14 @@ constexpr RowColumn<RecordedObject> object_columns[] = {
                           "of all lengths of the object: `mm`; `own` if that of its mesh is "
                           "unknown; empty if not recorded",
                           "''"),
+    column<&Object::origin, 0>(
+        "origin_x",
+        "of the object's coordinates in those of its mesh's file, turned and scaled as the "
+        "protocol says: what has to be added to a place; 0 unless the mesh lies far from its "
+        "file's origin",
+        "0"),
+    column<&Object::origin, 1>("origin_y", "likewise", "0"),
+    column<&Object::origin, 2>("origin_z", "likewise", "0"),
 };
 
 } // namespace
@@ -142,6 +165,9 @@ constexpr RowColumn<RecordedObject> object_columns[] = {
 RowTable<SessionHeader> session_table() { return {"session", only_row, session_columns}; }
 RowTable<RecordedCharacterisation> characterisation_table() {
     return {"characterisation", only_row, light_columns};
+}
+RowTable<Animation> animation_table() {
+    return {"animation", "motion INTEGER PRIMARY KEY", animation_columns};
 }
 RowTable<RecordedObject> object_table() { return {"object", "object INTEGER PRIMARY KEY", object_columns}; }
 

@@ -9,5 +9,7 @@ namespace overt {
 RowTable<SessionHeader> session_table();
 RowTable<RecordedCharacterisation> characterisation_table();
 RowTable<RecordedObject> object_table();
+/// By motion.
+RowTable<Animation> animation_table();
 
 } // namespace overt

@@ -6,6 +6,7 @@
 #include "experiment/record/seal_chain.h"
 #include "experiment/record/session_schema.h"
 #include "experiment/record/sql.h"
+#include "experiment/record/stimulus_columns.h"
 
 namespace overt {
 namespace {
@@ -19,9 +20,25 @@ void insert_characterisation(SQLite::Database& database, const RecordedCharacter
 
 void insert_design(SQLite::Database& database, const SessionHeader& header) {
     for (const Trial& trial : header.schedule.trials)
-        insert_values(database, "INTO schedule", trial.index, trial.task, trial.stimulus.object,
-                      trial.stimulus.material, trial.block);
+        insert_values(database, fmt::format("INTO schedule (trial, task, {}, block)", stimulus_columns()),
+                      trial.index, trial.task, trial.stimulus, trial.block);
     int index = 0;
+    for (const Trial& trial : header.schedule.trials) {
+        for (std::size_t i = 0; i < trial.shown_count() && (trial.slot != 0 || !trial.beside.empty()); ++i) {
+            const auto [stimulus, slot] = trial.shown(i);
+            insert_values(database,
+                          fmt::format("INTO schedule_slot (trial, place, slot, {})", stimulus_columns()),
+                          trial.index, static_cast<int>(i), slot, stimulus);
+        }
+    }
+    for (const Trial& trial : header.schedule.trials) {
+        int level = 0;
+        for (const TrialLevel& of : trial.levels)
+            insert_values(database, "INTO schedule_level", trial.index, level++, of.factor, of.level);
+        if (!trial.correct.empty() || trial.role != TrialRole::trial)
+            insert_values(database, "INTO schedule_answer", trial.index, trial.correct,
+                          std::string(name_of(trial.role)));
+    }
     for (const std::string& block : header.blocks)
         insert_values(database, "INTO block", index++, block);
     index = 0;
@@ -34,14 +51,40 @@ void insert_design(SQLite::Database& database, const SessionHeader& header) {
     for (const RecordedTask& task : header.tasks)
         insert_values(database, "INTO task", index++, task.id, task.question);
     index = 0;
-    for (const RecordedMaterial& material : header.materials)
-        insert_values(database, "INTO material", index++, material.id, material.title);
-    index = 0;
     for (const Degrees angle : header.poses.angles)
         insert_values(database, "INTO pose", index++, angle.value);
-    index = 0;
-    for (const PoseIndex pose : header.poses.of_frame)
-        insert_values(database, "INTO animation_frame", index++, pose.value);
+    int motion = 0;
+    for (const Animation& animation : header.animations) {
+        insert_row(database, animation_table(), motion, animation);
+        index = 0;
+        for (const PoseIndex pose : header.poses.frames_of(motion))
+            insert_values(database, "INTO animation_frame", motion, index++, pose.value);
+        ++motion;
+    }
+}
+
+/// Ids and titles of each list, but for the objects', and the columns of all.
+void insert_lists(SQLite::Database& database, const SessionHeader& header) {
+    for (std::size_t list = 0; list < stimulus_lists.size(); ++list) {
+        const std::string name(stimulus_lists[list].name);
+        int index = 0;
+        for (const ListEntry& entry : entries_of(header, list)) {
+            if (name != object_table().name)
+                insert_values(database, "INTO " + name, index, entry.id, entry.title);
+            int n = 0;
+            for (const NamedWord& column : entry.columns)
+                insert_values(database, "INTO entry_column", name, index, n++, column.name, column.text,
+                              column.number);
+            ++index;
+        }
+    }
+}
+
+void insert_slots(SQLite::Database& database, const SessionHeader& header) {
+    int index = 0;
+    for (const RecordedSlot& slot : header.slots)
+        insert_values(database, "INTO slot", index++, slot.id, slot.title, slot.origin_px.x, slot.origin_px.y,
+                      slot.size_px.x, slot.size_px.y);
 }
 
 void insert_objects(SQLite::Database& database, const SessionHeader& header) {
@@ -51,14 +94,18 @@ void insert_objects(SQLite::Database& database, const SessionHeader& header) {
         int part = 0;
         for (const std::string& name : object.part_names)
             insert_values(database, "INTO part", index, part++, name);
+        int view = 0;
+        for (const auto& [at, target, fov] : object.cameras)
+            insert_values(database, "INTO camera", index, view++, at.x, at.y, at.z, target.x, target.y,
+                          target.z, fov.value);
         ++index;
     }
     for (const RecordedStimulus& stimulus : header.stimuli)
-        insert_values(database, "INTO stimulus", stimulus.stimulus.object, stimulus.stimulus.material,
-                      stimulus.source, stimulus.frames_sha256);
+        insert_values(database, fmt::format("INTO stimulus ({}, source, frames_sha256)", stimulus_columns()),
+                      stimulus.stimulus, stimulus.source, stimulus.frames_sha256);
     for (const RecordedMap& map : header.maps)
-        insert_values(database, "INTO map", map.object, map.pose.value, map.file, map.sha256,
-                      map.made == RecordedMap::Made::prepared ? "prepared" : "live",
+        insert_values(database, "INTO map", map.viewed.object, map.viewed.view, map.pose.value, map.file,
+                      map.sha256, map.made == RecordedMap::Made::prepared ? "prepared" : "live",
                       map.kind == RecordedMap::Kind::triangles ? "triangles" : "coordinates");
 }
 
@@ -79,6 +126,8 @@ void create_session_file(const std::filesystem::path& file, const SessionHeader&
         if (header.characterisation)
             insert_characterisation(database, *header.characterisation);
         insert_design(database, header);
+        insert_lists(database, header);
+        insert_slots(database, header);
         insert_objects(database, header);
         SealWriter(database).begin(0);
         transaction.commit();

@@ -1,6 +1,7 @@
 #include "experiment/record/preview_file.h"
 
 #include <algorithm>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -9,8 +10,8 @@ namespace overt {
 namespace {
 
 std::string stimulus_file(const SessionHeader& header, const Stimulus& stimulus, std::string_view ending) {
-    return fmt::format("stimuli/{}_{}{}", header.objects[static_cast<std::size_t>(stimulus.object)].id,
-                       header.materials[static_cast<std::size_t>(stimulus.material)].id, ending);
+    std::string name = fmt::format("stimuli/{}", stimulus_name(header, stimulus, "_"));
+    return name += ending;
 }
 
 } // namespace

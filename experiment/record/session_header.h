@@ -6,17 +6,22 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <tuple>
 #include <vector>
 
 #include <glm/glm.hpp>
 
 #include "experiment/animation.h"
 #include "experiment/base/content_hash.h"
+#include "experiment/factors.h"
+#include "experiment/list_entry.h"
 #include "experiment/ports/eye_tracker.h"
 #include "experiment/scene/mesh.h"
 #include "experiment/scene/viewing.h"
 #include "experiment/screen_geometry.h"
 #include "experiment/session_time.h"
+#include "experiment/stimulus_lists.h"
 #include "experiment/trial.h"
 
 namespace overt {
@@ -102,17 +107,19 @@ struct RecordedObject {
     ContentHash mesh_sha256;
     std::string mesh_file;               ///< relative to the session's directory; empty without a mesh
     std::vector<std::string> part_names; ///< by PartIndex
-    Camera camera;              ///< a field of view of 0 if it is not known, as ready-made maps may leave it
+    /// By view; a field of view of 0 if it is not known, as ready-made maps may leave it.
+    std::vector<Camera> cameras = std::vector<Camera>(1);
     glm::dvec3 axis_point{0.0}; ///< through which the vertical axis of the turn goes
     Bounds bounds;              ///< by which the maps are coded
     /// Of all its lengths: "mm"; "own" if the protocol does not know it, or if maps came without a mesh and
     /// do not say it; empty in sessions of earlier programs, which did not write it down.
     std::string unit = "mm";
-};
+    NamedWords columns = {}; ///< said of it in the protocol
+    /// Added to a place on the object, it gives the place in the coordinates of the mesh's file, turned and
+    /// scaled as the protocol says. Not 0 for a mesh far from its file's origin only (import_mesh).
+    glm::dvec3 origin{0.0};
 
-struct RecordedMaterial {
-    std::string id;
-    std::string title;
+    const Camera& camera(int view) const { return cameras.at(static_cast<std::size_t>(view)); }
 };
 
 struct RecordedStimulus {
@@ -121,12 +128,21 @@ struct RecordedStimulus {
     ContentHash frames_sha256;
 };
 
-/// A coordinate-encoded map of an object in a pose.
+/// A place on the screen.
+struct RecordedSlot {
+    std::string id;
+    std::string title;
+    glm::ivec2 origin_px{0}; ///< top left pixel of its image
+    glm::ivec2 size_px{0};
+    bool operator==(const RecordedSlot&) const = default;
+};
+
+/// A coordinate-encoded map of an object in a view and a pose. It shows all materials and lights.
 struct RecordedMap {
     enum class Made : std::uint8_t { prepared, live };
     /// What its file holds: numbers of triangles (triangle_map.h), or coordinates (coordinate_image_file.h).
     enum class Kind : std::uint8_t { triangles, coordinates };
-    int object = 0;
+    ViewedObject viewed;
     PoseIndex pose;
     std::string file; ///< relative to the session's directory
     ContentHash sha256;
@@ -155,14 +171,60 @@ struct SessionHeader {
     std::string further_tracker = {};
     RecordedDisplay display;
     std::optional<RecordedCharacterisation> characterisation; ///< of the display, if the protocol names one
-    Animation animation;
+    std::vector<Animation> animations = std::vector<Animation>(1); ///< by motion
     PoseTable poses;
     std::vector<std::string> blocks; ///< ids; none: the protocol has no blocks
     std::vector<RecordedTask> tasks;
     std::vector<RecordedObject> objects;
-    std::vector<RecordedMaterial> materials;
+    std::vector<ListEntry> materials;
+    std::vector<ListEntry> lights = {}, motions = {},
+                           views = {}; ///< none: there is one, with the list's name
     std::vector<RecordedStimulus> stimuli;
     std::vector<RecordedMap> maps;
+    std::vector<RecordedSlot> slots = {}; ///< as read: one at least, that of the image where none is recorded
+
+    const Animation& animation_of(const Stimulus& stimulus) const {
+        return animations.at(static_cast<std::size_t>(stimulus.motion));
+    }
+    const Camera& camera_of(const Stimulus& stimulus) const {
+        return objects.at(static_cast<std::size_t>(stimulus.object)).camera(stimulus.view);
+    }
+    /// What the plan has for each refresh of a presentation of a stimulus.
+    PageCycle page_cycle_of(const Stimulus& stimulus) const {
+        return make_page_cycle(animation_of(stimulus), poses.frames_of(stimulus.motion), display.refresh_hz);
+    }
+
+    /// The screen with a slot's image on it.
+    ScreenGeometry screen_of_slot(int slot) const {
+        ScreenGeometry screen = display.screen;
+        if (slot >= 0 && static_cast<std::size_t>(slot) < slots.size()) {
+            screen.image_origin_px = slots[static_cast<std::size_t>(slot)].origin_px;
+            screen.image_px = slots[static_cast<std::size_t>(slot)].size_px;
+        }
+        return screen;
+    }
 };
+
+/// Where the entries of each of `stimulus_lists` are, in their order.
+inline constexpr std::tuple recorded_lists{&SessionHeader::objects, &SessionHeader::materials,
+                                           &SessionHeader::lights, &SessionHeader::motions,
+                                           &SessionHeader::views};
+static_assert(std::tuple_size_v<decltype(recorded_lists)> == stimulus_lists.size());
+
+/// The entries of a list, at least one; of objects what all lists have. `list`: index into `stimulus_lists`.
+std::vector<ListEntry> entries_of(const SessionHeader& header, std::size_t list);
+
+/// Puts the entries of a list into the header; of objects, which are described there already, the columns.
+void record_entries(SessionHeader& header, std::size_t list, const std::vector<const ListEntry*>& entries);
+
+/// How many entries each list has.
+std::array<std::size_t, stimulus_lists.size()> entry_counts(const SessionHeader& header);
+
+/// All factors of a session's trials.
+Factors factors_of(const SessionHeader& header);
+
+/// The ids of a stimulus' entries, of lists with several, and always of object and material: "muse/gold".
+std::string stimulus_name(const SessionHeader& header, const Stimulus& stimulus,
+                          std::string_view between = "/");
 
 } // namespace overt

@@ -14,8 +14,8 @@ namespace overt {
 inline constexpr std::int32_t session_application_id = 0x4f767274;
 
 /// PRAGMA user_version. Raised whenever a reader of an older version would misread the file: 2 has maps of
-/// coordinates, 3 attempts that are completed and do not count, 4 names of tables and columns that were others
-/// (old_names.h). See schema_migration.h.
+/// coordinates, 3 attempts that are completed and do not count, 4 names of tables and columns that were
+/// others (old_names.h). See schema_migration.h.
 inline constexpr int session_schema_version = 4;
 
 /// Sessions of earlier versions have no chain of seals (seal_chain.h).
@@ -37,6 +37,9 @@ extern const char* const observer_tables_sql;
 
 /// The same for the ledger's table of missed refreshes.
 extern const char* const ledger_tables_sql;
+
+/// The same for the tables of slots, and of what was shown in them.
+extern const char* const slot_tables_sql;
 
 /// The same for the tables of what a tracker said besides samples, or the program said of them.
 extern const char* const gaze_tables_sql;

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "experiment/report/packed_array.h"
+#include "experiment/report/report_areas.h"
 #include "experiment/report/report_json.h"
 #include "experiment/report/report_maps.h"
 #include "experiment/report/report_page.h"
@@ -173,6 +174,8 @@ nlohmann::ordered_json report_data(const StudyResults& results) {
         colours[std::string(name_of(map))] = packed(bytes);
     }
     const StudyGlance& glance = results.glance;
+    Json trials = json_of_trials(results);
+    Json area_sets = report_area_sets(results, trials);
     return {{"glance",
              {{"title", glance.title},
               {"observers", glance.observers},
@@ -185,9 +188,12 @@ nlohmann::ordered_json report_data(const StudyResults& results) {
               {"not_counted", not_counted},
               {"seconds", number(glance.counted_s)},
               {"simulated", glance.any_simulated}}},
+            {"knows_stimuli", knows_stimuli(results)},
             {"parameters", parameters},
             {"remarks", results.remarks},
             {"by", results.by},
+            {"areas", results.areas},
+            {"area", results.area},
             {"confidence", results.confidence},
             {"colours", colours},
             {"sessions", sessions},
@@ -199,7 +205,8 @@ nlohmann::ordered_json report_data(const StudyResults& results) {
             {"maps", std::move(maps.maps)},
             {"differences", std::move(maps.differences)},
             {"tables", report_tables(results)},
-            {"trials", json_of_trials(results)},
+            {"trials", std::move(trials)},
+            {"area_sets", std::move(area_sets)},
             {"traces", json_of_traces(results)},
             {"trace_hz", number(most_trace_hz / static_cast<double>(thinning_of(results.traces)))}};
 }

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "experiment/base/error.h"
-#include "experiment/scene/raw_mesh.h"
 
 namespace overt {
 namespace {

@@ -17,8 +17,9 @@ constexpr SessionDuration between_looks = std::chrono::milliseconds(4);
 
 } // namespace
 
-void AnswerTaking::take(const Trial& trial, const std::optional<Stimulus>& next, bool is_practice,
-                        TrialOutcome& outcome) {
+OperatorControl::How AnswerTaking::take(const Trial& trial, const std::optional<Trial>& next,
+                                        bool is_practice, std::optional<double> limit_s,
+                                        TrialOutcome& outcome) {
     const ScreenSettings& screens = state_.protocol.screens;
     SessionPorts& ports = state_.ports;
     state_.enter(SessionPhase::response_screen, state_.trial());
@@ -30,11 +31,11 @@ void AnswerTaking::take(const Trial& trial, const std::optional<Stimulus>& next,
     if (recording)
         recording->response_screen_lit(outcome.response_screen_onset);
     if (next)
-        ports.presenter.expect_frames(*next);
+        ports.presenter.expect_slots(next->all_shown());
     Waiting waiting{.screen = screen,
                     .onset = outcome.response_screen_onset,
                     .min_s = screens.response_min_s,
-                    .max_s = screens.response_max_s};
+                    .max_s = limit_s.value_or(screens.response_max_s)};
     waiting.await = [&](SessionTime since) { ports.panel.await_response(trial, since); };
     LevelWatch watch(state_.protocol.words, outcome.response_screen_onset);
     const bool shows_level = state_.protocol.answers.meter_on_screen;
@@ -62,6 +63,7 @@ void AnswerTaking::take(const Trial& trial, const std::optional<Stimulus>& next,
     }
     if (recording)
         keep(*recording);
+    return press.how;
 }
 
 void AnswerTaking::keep(AnswerRecording& recording) {

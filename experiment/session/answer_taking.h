@@ -10,10 +10,11 @@ class AnswerTaking {
     /// Both must outlive this.
     AnswerTaking(SessionState& state, OperatorControl& control) : state_(state), control_(control) {}
 
-    /// Shows the trial's response screen until it is answered or its time is up. `next`: whose frames are
-    /// loaded meanwhile. In practice no voice is recorded.
-    void take(const Trial& trial, const std::optional<Stimulus>& next, bool is_practice,
-              TrialOutcome& outcome);
+    /// Shows the trial's response screen until it is answered or its time is up, which is `limit_s`, or the
+    /// protocol's where that is nothing. `next`: whose frames are loaded meanwhile. In practice no voice is
+    /// recorded. Gives how it ended.
+    OperatorControl::How take(const Trial& trial, const std::optional<Trial>& next, bool is_practice,
+                              std::optional<double> limit_s, TrialOutcome& outcome);
 
   private:
     void keep(AnswerRecording& recording);

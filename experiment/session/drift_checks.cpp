@@ -1,5 +1,7 @@
 #include "experiment/session/drift_checks.h"
 
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "experiment/base/error.h"
@@ -9,6 +11,7 @@ namespace overt {
 
 void DriftChecks::check(TrialOutcome& outcome) {
     state_.enter(SessionPhase::drift_check, state_.trial());
+    has_begun_ = false;
     const TrackerSettings& settings = state_.protocol.tracker;
     if (const int trial = state_.trial(); checked_trial_ != trial) {
         checked_trial_ = trial;
@@ -34,10 +37,13 @@ void DriftChecks::check(TrialOutcome& outcome) {
 /// Shows the target and measures. Why the check failed; nothing if it did not, or was not made.
 std::optional<std::string> DriftChecks::failed_check(TrialOutcome& outcome) {
     const Screen target{.kind = Screen::Kind::target, .text = ""};
+    const SessionTime onset = state_.show(target);
+    if (!std::exchange(has_begun_, true))
+        began_ = onset;
     const OperatorControl::How how =
         control_
             .wait({.screen = target,
-                   .onset = state_.show(target),
+                   .onset = onset,
                    .max_s = state_.protocol.screens.drift_target_s,
                    .await = [](SessionTime) {}, // no answer is expected of the observer
                    .takes_keys = false,

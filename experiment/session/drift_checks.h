@@ -18,6 +18,8 @@ class DriftChecks {
     /// measured last is in the outcome. A trial that is begun anew after a calibration goes on counting its
     /// checks.
     void check(TrialOutcome& outcome);
+    /// When the first target of the last check() was lit.
+    SessionTime began() const { return began_; }
 
   private:
     std::optional<std::string> failed_check(TrialOutcome& outcome);
@@ -27,6 +29,8 @@ class DriftChecks {
     ScreenPoint screen_centre_;
     std::optional<int> checked_trial_; ///< whose checks are counted
     int failed_checks_ = 0;
+    bool has_begun_ = false; ///< in this check()
+    SessionTime began_;
 };
 
 } // namespace overt

@@ -5,8 +5,10 @@
 #include <fmt/format.h>
 
 #include "experiment/base/counted.h"
+#include "experiment/protocol/all_stimuli.h"
 #include "experiment/session/tracker_feed.h"
 #include "experiment/timing/refresh_ledger.h"
+#include "experiment/timing/slot_cycles.h"
 
 namespace overt {
 namespace {
@@ -31,9 +33,11 @@ std::string quantiles_of(std::vector<double> values) {
 PresentationCheck check_presentation(const Protocol& protocol, const Trial& trial,
                                      const PresentationCheckPorts& ports) {
     PresentationCheck check;
-    PageCycle cycle = make_page_cycle(protocol.animation, protocol.display.refresh_hz);
+    const Animation& motion = protocol.motion_of(trial.stimulus);
+    const std::vector<PageCycle> cycles = page_cycles(protocol);
+    PageCycle cycle = cycles[static_cast<std::size_t>(trial.stimulus.motion)];
     cycle.total_refreshes = std::min(cycle.total_refreshes, static_cast<int>(cycle.entry_of_refresh.size()));
-    RefreshLedger ledger(cycle, protocol.animation.when_late);
+    RefreshLedger ledger(cycle, motion.when_late);
     std::vector<TrackerFeed> feeds;
     for (const CheckedTracker& checked : ports.trackers)
         feeds.emplace_back(checked.tracker);
@@ -44,7 +48,12 @@ PresentationCheck check_presentation(const Protocol& protocol, const Trial& tria
     std::vector<FlipReport> flips;
     flips.reserve(static_cast<std::size_t>(cycle.total_refreshes));
 
-    ports.presenter.load_frames(trial.stimulus);
+    ports.presenter.load_slots(trial.all_shown());
+    SlotCycles slots;
+    std::vector<PageCycle> cycles_beside;
+    for (const PlacedStimulus& further : trial.beside)
+        cycles_beside.push_back(cycles[static_cast<std::size_t>(further.stimulus.motion)]);
+    slots.begin(trial.index, std::move(cycles_beside));
     ports.presenter.veil(true);
     ports.presenter.show({});
     ports.log.trial_started(trial, ports.clock.now());
@@ -56,10 +65,13 @@ PresentationCheck check_presentation(const Protocol& protocol, const Trial& tria
     ledger.begin(trial.index);
     while (!ledger.is_complete() && !ports.presenter.closed()) {
         take_items();
-        const FlipRecord& flip = ledger.enter(ports.presenter.flip(ledger.next().frame));
+        const FlipRecord& flip = ledger.enter(
+            ports.presenter.flip_slots(slots.frames(ledger.next().frame, ledger.next_refresh())));
         for (int i = 0; i < ledger.missed_count(); ++i)
             ports.log.missed(ledger.missed(i));
         ports.log.flip(flip);
+        for (const SlotFlip& of_slot : slots.enter(flip))
+            ports.log.slot_flip(of_slot);
         for (PresentationListener* listener : ports.listeners)
             listener->flipped(flip);
         flips.push_back(flip.report);

@@ -4,6 +4,7 @@
 
 #include "experiment/base/counted.h"
 #include "experiment/ports/event_kinds.h"
+#include "experiment/protocol/all_stimuli.h"
 #include "experiment/session/session_opening.h"
 #include "experiment/session/session_screens.h"
 
@@ -32,7 +33,7 @@ bool comes_again(const AttemptResult& practice, const RepeatSettings& repeats) {
 Session::Session(const Protocol& protocol, const Schedule& schedule, const ScreenPoint& screen_centre,
                  SessionPorts ports, FieldValues fields)
     : schedule_(schedule), ports_(std::move(ports)), state_(protocol, ports_), control_(state_),
-      trials_(state_, control_, screen_centre), fields_(std::move(fields)) {
+      trials_(state_, control_, screen_centre, schedule.seed), fields_(std::move(fields)) {
     fields_.resize(protocol.observer_fields.size());
 }
 
@@ -141,14 +142,14 @@ void Session::run_instructions(const SessionStep& step) {
     read_text(state_, control_, block.instructions, "instructions of block " + block.id);
 }
 
-void Session::run_practice(const SessionStep& step, const std::optional<Stimulus>& next) {
+void Session::run_practice(const SessionStep& step, const std::optional<Trial>& next) {
     const Trial& trial = step.trial;
     const PracticeSettings& practice = state_.protocol.practice[static_cast<std::size_t>(trial.index)];
     TrialRun::Attempt attempt;
     do {
         state_.record().event({state_.now(), -1, practice_event,
-                               fmt::format("{}: {}, {}, {}", trial.index + 1, practice.task, practice.object,
-                                           practice.material)});
+                               fmt::format("{}: {}, {}", trial.index + 1, practice.task,
+                                           stimulus_in_words(state_.protocol, trial.stimulus))});
         state_.set_practice(true);
         attempt = trials_.run(trial, next, true);
         state_.set_practice(false);

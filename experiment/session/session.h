@@ -45,7 +45,7 @@ class Session {
     void run_step(TrialQueue& queue, const SessionStep& step, SessionResult& result,
                   const TrialDone& trial_done);
     void run_instructions(const SessionStep& step);
-    void run_practice(const SessionStep& step, const std::optional<Stimulus>& next);
+    void run_practice(const SessionStep& step, const std::optional<Trial>& next);
     void run_break();
     void judge(TrialQueue& queue, const Trial& trial, TrialRun::Attempt& attempt);
     void farewell();

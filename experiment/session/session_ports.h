@@ -2,10 +2,12 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "experiment/ports/answer_recorder.h"
+#include "experiment/ports/area_view.h"
 #include "experiment/ports/clock.h"
 #include "experiment/ports/eye_tracker.h"
 #include "experiment/ports/marker_sink.h"
@@ -48,6 +50,10 @@ struct SessionPorts {
     std::function<void(SetupBeep)> on_beep = {};
     /// Told of each image of the tracker's camera that is shown; may be empty.
     std::function<void(const CameraImage&)> on_camera = {};
+    /// Gives an area of the object that a stimulus shows in its slot, that gaze is waited for; between
+    /// presentations. Empty, or null given: gaze is never there.
+    std::function<std::shared_ptr<const AreaView>(const PlacedStimulus&, const std::string& area)> area_of =
+        {};
     /// Told of each change of phase, with the trial or -1; not during a presentation. May be empty.
     std::function<void(SessionPhase, int)> on_phase = {};
 };

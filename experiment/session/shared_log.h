@@ -19,6 +19,9 @@ class SharedLog final : public SessionLog {
     void flip(const FlipRecord& flip) noexcept override {
         in_each([&](SessionLog& log) { log.flip(flip); });
     }
+    void slot_flip(const SlotFlip& flip) noexcept override {
+        in_each([&](SessionLog& log) { log.slot_flip(flip); });
+    }
     void missed(const MissedRefresh& refresh) noexcept override {
         in_each([&](SessionLog& log) { log.missed(refresh); });
     }

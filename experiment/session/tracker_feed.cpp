@@ -12,11 +12,13 @@ namespace {
 /// Readings of both clocks at each end of a presentation.
 constexpr int clock_readings = 8;
 
-constexpr std::size_t items_of_a_poll = 4096;
+constexpr std::size_t items_of_a_poll = 4096, most_readings = 4096;
 
 } // namespace
 
-TrackerFeed::TrackerFeed(EyeTracker& tracker) : tracker_(tracker), items_(items_of_a_poll) {}
+TrackerFeed::TrackerFeed(EyeTracker& tracker) : tracker_(tracker), items_(items_of_a_poll) {
+    readings_.reserve(most_readings);
+}
 
 bool TrackerFeed::start_recording(SessionTime now) {
     const TrackerDescription description = tracker_.description();
@@ -53,16 +55,16 @@ std::optional<SessionDuration> TrackerFeed::take_jump() noexcept {
     return std::exchange(jump_, std::nullopt);
 }
 
-void TrackerFeed::take_items(int trial, SessionLog& log) noexcept {
+void TrackerFeed::take_items(int trial, SessionLog& log, GazeWatch* gaze_watch) noexcept {
     std::size_t taken = 0;
     do {
         taken = tracker_.poll(items_);
         for (std::size_t i = 0; i < taken; ++i)
-            take(trial, items_[i], log);
+            take(trial, items_[i], log, gaze_watch);
     } while (taken == items_.size());
 }
 
-void TrackerFeed::take(int trial, const TrackerItem& item, SessionLog& log) noexcept {
+void TrackerFeed::take(int trial, const TrackerItem& item, SessionLog& log, GazeWatch* gaze_watch) noexcept {
     if (const auto* sample = std::get_if<GazeSample>(&item)) {
         std::optional<TrackerTime>& last_at = last_at_[sample->eye == Eye::left ? 0 : 1];
         if (last_at == sample->sampled_at) {
@@ -72,6 +74,8 @@ void TrackerFeed::take(int trial, const TrackerItem& item, SessionLog& log) noex
         last_at = sample->sampled_at;
         yield_.take(*sample);
         log.sample(trial, *sample);
+        if (gaze_watch)
+            gaze_watch->take(*sample);
     } else if (const auto* pair = std::get_if<ClockPair>(&item)) {
         watch(*pair);
         log.clock_pair(*pair);
@@ -99,9 +103,14 @@ void TrackerFeed::watch(const ClockPair& pair) noexcept {
             return;
         }
         jump_ = jump;
+        readings_.clear();
+        readings_.push_back(*suspect_);
     }
     steady_ = pair;
     suspect_.reset();
+    if (readings_.size() == most_readings)
+        readings_.erase(readings_.begin(), readings_.begin() + most_readings / 2);
+    readings_.push_back(pair);
 }
 
 } // namespace overt

@@ -3,11 +3,13 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "experiment/ports/eye_tracker.h"
 #include "experiment/ports/session_log.h"
+#include "experiment/session/gaze_watch.h"
 
 namespace overt {
 
@@ -22,10 +24,13 @@ class TrackerFeed {
     /// Ends it, if it was begun, now. Take what came at last after it.
     void stop_recording(SessionTime now);
 
-    /// Takes what has arrived. A sample that comes a second time is counted and left out.
-    void take_items(int trial, SessionLog& log) noexcept;
+    /// Takes what has arrived. A sample that comes a second time is counted and left out. `gaze_watch`: told
+    /// of each sample, if it is given.
+    void take_items(int trial, SessionLog& log, GazeWatch* gaze_watch = nullptr) noexcept;
     /// Reads both clocks some times over, where there is a tracker.
     void read_clocks(SessionLog& log) noexcept;
+    /// Of both clocks since the tracker's jumped last, the newest some thousand.
+    std::span<const ClockPair> readings() const noexcept { return readings_; }
     /// Asks for the recording's state; the first that is not `running` stays.
     void look_at_state() noexcept;
 
@@ -41,7 +46,7 @@ class TrackerFeed {
     std::optional<SessionDuration> take_jump() noexcept;
 
   private:
-    void take(int trial, const TrackerItem& item, SessionLog& log) noexcept;
+    void take(int trial, const TrackerItem& item, SessionLog& log, GazeWatch* gaze_watch) noexcept;
     void watch(const ClockPair& pair) noexcept;
 
     EyeTracker& tracker_;
@@ -54,6 +59,7 @@ class TrackerFeed {
     bool has_recorded_ = false;
     std::string why_lost_;
     // Over all recordings.
+    std::vector<ClockPair> readings_;           ///< with room for all that are kept
     std::optional<ClockPair> steady_, suspect_; ///< the last reading on the line, and one that is off it
     std::optional<SessionDuration> jump_;
 };

@@ -8,6 +8,7 @@
 #include "experiment/base/counted.h"
 #include "experiment/ports/event_kinds.h"
 #include "experiment/ports/trial_mark.h"
+#include "experiment/protocol/all_stimuli.h"
 #include "experiment/session/session_screens.h"
 
 namespace overt {
@@ -23,40 +24,40 @@ constexpr double shortest_sleep_s = 0.005;
 /// half is that, more is a step.
 constexpr double smallest_wall_step_s = 0.1;
 
+void tell_of_flip(PresentationListener& listener, const FlipRecord& flip,
+                  std::span<const SlotFlip> beside) noexcept {
+    listener.flipped(flip);
+    for (const SlotFlip& of_slot : beside)
+        listener.slot_flipped(of_slot);
+}
+
 } // namespace
 
-TrialRun::TrialRun(SessionState& state, OperatorControl& control, const ScreenPoint& screen_centre)
+TrialRun::TrialRun(SessionState& state, OperatorControl& control, const ScreenPoint& screen_centre,
+                   std::uint64_t seed)
     : state_(state), control_(control), drift_checks_(state, control, screen_centre),
-      answers_(state, control),
-      cycle_(make_page_cycle(state.protocol.animation, state.protocol.display.refresh_hz)),
-      ledger_(cycle_, state.protocol.animation.when_late) {
+      answers_(state, control), seed_(seed), cycles_(page_cycles(state.protocol)), shown_(cycles_.front()),
+      ledger_(shown_, WhenLate::drop), watch_(screen_geometry_of(state.protocol), state.protocol.display) {
     for (UsedTracker& used : state.trackers())
         feeds_.push_back({used, TrackerFeed(used.tracker)});
 }
 
-TrialRun::Attempt TrialRun::run(const Trial& trial, const std::optional<Stimulus>& next, bool is_practice) {
+TrialRun::Attempt TrialRun::run(const Trial& trial, const std::optional<Trial>& next, bool is_practice) {
     Attempt attempt;
     attempt.outcome.status = TrialOutcome::Status::aborted;
     control_.begin_trial();
     state_.write_down();
     state_.markers.begin_trial(trial, is_practice);
     state_.enter(SessionPhase::trial, is_practice ? -1 : trial.index);
-    state_.ports.presenter.load_frames(trial.stimulus);
+    state_.ports.presenter.load_slots(trial.all_shown());
     state_.log().trial_started(trial, state_.now());
     // Practice has numbers of its own.
     mark(MarkedEvent::trial, state_.now(),
          fmt::format("{}{}{}", trial_mark, is_practice ? "practice " : "", trial.index + 1));
     const Clock::Disturbance before = state_.ports.clock.disturbance();
-    ask(trial, attempt);
-    if (goes_on(attempt))
-        drift_checks_.check(attempt.outcome);
-    if (goes_on(attempt)) {
-        present(trial, attempt);
-        act_on_tracker(attempt);
-        act_on_pressed_keys(attempt);
-    }
-    if (goes_on(attempt))
-        answers_.take(trial, next, is_practice, attempt.outcome);
+    Running running{.trial = trial, .next = next, .is_practice = is_practice, .attempt = attempt};
+    running.plan = plan_trial(state_.protocol, seed_, trial, is_practice);
+    run_steps(running);
     note_disturbance(before);
     mark_result(trial, attempt);
     state_.write_down();
@@ -74,79 +75,71 @@ bool TrialRun::goes_on(const Attempt& attempt) const {
            control_.decision().kind == TrialDecision::Kind::none;
 }
 
-void TrialRun::ask(const Trial& trial, Attempt& attempt) {
-    const ScreenSettings& screens = state_.protocol.screens;
-    state_.enter(SessionPhase::task_screen, state_.trial());
-    const Screen screen = overt::screens::question(state_.protocol, trial.task);
-    attempt.outcome.task_screen_onset = state_.show(screen);
-    control_.wait({.screen = screen,
-                   .onset = attempt.outcome.task_screen_onset,
-                   .min_s = screens.task_min_s,
-                   .max_s = without_end_s});
-}
-
-void TrialRun::present(const Trial& trial, Attempt& attempt) {
-    TrialOutcome& outcome = attempt.outcome;
+/// Shows the stimulus for the step's refreshes, or until something else ends it.
+void TrialRun::present(Running& running, std::size_t number) {
+    const Trial& trial = running.trial;
+    const PlannedStep& step = running.plan.steps[number];
+    TrialOutcome& outcome = running.attempt.outcome;
     SessionLog& log = state_.log();
     const SessionPorts& ports = state_.ports;
-    const SessionDuration lead = from_seconds(state_.protocol.screens.recording_lead_s);
-    state_.enter(SessionPhase::stimulus, state_.trial());
     TrackerFeed& own = feeds_.front().items;
-    read_clocks();
-    for (Feed& feed : feeds_)
-        if (const std::optional<SessionDuration> jump = feed.items.take_jump())
-            state_.note_of(feed.used, tracker_clock_jumped_event,
-                           fmt::format("by {:+.3f} ms before the trial", 1e3 * to_seconds(*jump)));
-    start_recording();
-    if (!own.has_recorded())
-        return;
-    state_.show({});
-    wait_and_take_items(trial.index, state_.now() + lead);
+    shown_ = cut_to(cycles_[static_cast<std::size_t>(trial.stimulus.motion)], step.refreshes, step.still());
     for (PresentationListener* listener : ports.listeners)
         listener->presentation_begins(trial);
+    std::vector<PageCycle> cycles_beside;
+    for (const PlacedStimulus& further : trial.beside)
+        cycles_beside.push_back(
+            cut_to(cycles_[static_cast<std::size_t>(further.stimulus.motion)], step.refreshes, step.still()));
+    slots_.begin(trial.index, std::move(cycles_beside));
     ports.presenter.take_swap_modes(); // those before are not the presentation's
+    await_gaze(running, step, state_.now());
+    add_row(running, step);
+    const int patience = step.patience_refreshes.value_or(shown_.total_refreshes);
 
-    const auto is_broken_off = [&] { return pressed_ && pressed_->key == ResponsePress::Key::abort; };
     // From here to the last flip nothing allocates, opens, throws or formats.
+    ledger_ = RefreshLedger(shown_, state_.protocol.motion_of(trial.stimulus).when_late);
     ledger_.begin(trial.index);
     state_.markers.begin_presentation();
-    while (!ledger_.is_complete() && !state_.went_away() && !is_broken_off() &&
-           own.state() == RecordingState::running) {
+    while (!ledger_.is_complete() && ledger_.next_refresh() < patience && !is_cut_short() &&
+           !watch_.has_come() && !was_next_pressed_) {
         // Take what the trackers have seen so far.
         take_items(trial.index);
+        if (watch_.has_come())
+            break;
         // Show the frame that the plan has next, and learn when it was lit.
         state_.markers.before_flip(ledger_.next_refresh(), ledger_.next().frame, ports.presenter);
-        const FlipRecord& flip = ledger_.enter(ports.presenter.flip(ledger_.next().frame));
+        const FlipRecord& flip = ledger_.enter(
+            ports.presenter.flip_slots(slots_.frames(ledger_.next().frame, ledger_.next_refresh())));
         // Record what was shown at each refresh, and tell the listeners.
         for (int i = 0; i < ledger_.missed_count(); ++i)
             log.missed(ledger_.missed(i));
         log.flip(flip);
+        const std::span<const SlotFlip> beside = slots_.enter(flip);
+        for (const SlotFlip& of_slot : beside)
+            log.slot_flip(of_slot);
         mark_flip(flip);
         state_.markers.flipped(flip);
-        for (PresentationListener* listener : ports.listeners)
-            listener->flipped(flip);
+        watch_.flipped(flip);
+        for (PresentationListener* const listener : ports.listeners)
+            tell_of_flip(*listener, flip, beside);
         // Remember what the operator pressed, here or at the tracker's host.
         look_at_keys();
         own.look_at_state();
     }
+    has_shown_ = true;
     outcome.presentation_onset = ledger_.onset();
     outcome.shown_refreshes = ledger_.shown_refreshes();
     outcome.missed_refreshes = ledger_.missed_refreshes();
-    attempt.result.missed_refreshes = outcome.missed_refreshes;
-
-    outcome.presentation_end = state_.show({});
-    outcome.swaps = ports.presenter.take_swap_modes();
-    mark(MarkedEvent::end, outcome.presentation_end, "PRESENTATION_END");
-    state_.ends_by_itself();
-    wait_and_take_items(trial.index, state_.now() + lead);
-    for (Feed& feed : feeds_)
-        feed.items.stop_recording(state_.now());
-    take_items(trial.index);
-    read_clocks();
-    for (Feed& feed : feeds_)
-        feed.items.look_at_state();
-    note_what_came(attempt);
-    note_lost_trackers();
+    running.attempt.result.missed_refreshes = outcome.missed_refreshes;
+    if (ledger_.shown_refreshes() > 0)
+        begin_row(running, ledger_.onset());
+    AttemptStep& row = outcome.steps.back();
+    row.ended_by = ledger_.is_complete() ? StepEnd::time
+                   : watch_.has_come()   ? StepEnd::gaze
+                   : was_next_pressed_   ? StepEnd::key
+                   : is_cut_short()      ? StepEnd::stopped
+                                         : StepEnd::patience;
+    take_gaze(row, step);
 }
 
 /// Of all trackers; that of the session must begin, the others may be missing.
@@ -232,6 +225,11 @@ void TrialRun::mark_result(const Trial& trial, const Attempt& attempt) {
     variable("task", state_.protocol.tasks[static_cast<std::size_t>(trial.task)].id);
     variable("object", state_.protocol.objects[static_cast<std::size_t>(trial.stimulus.object)].id);
     variable("material", state_.protocol.materials[static_cast<std::size_t>(trial.stimulus.material)].id);
+    for (const auto& [stimulus, slot] : trial.beside) {
+        const std::string in = state_.protocol.slots[static_cast<std::size_t>(slot)].id + ".";
+        variable(in + "object", state_.protocol.objects[static_cast<std::size_t>(stimulus.object)].id);
+        variable(in + "material", state_.protocol.materials[static_cast<std::size_t>(stimulus.material)].id);
+    }
     variable("missed_refreshes", fmt::format("{}", attempt.outcome.missed_refreshes));
     mark(MarkedEvent::result, now, fmt::format("TRIAL_RESULT {}", goes_on(attempt) ? 0 : 1));
 }
@@ -239,6 +237,8 @@ void TrialRun::mark_result(const Trial& trial, const Attempt& attempt) {
 void TrialRun::look_at_keys() noexcept {
     while (const std::optional<ResponsePress> press = state_.ports.panel.poll()) {
         const bool ends_it = press->key == ResponsePress::Key::abort;
+        if (press->key == ResponsePress::Key::next)
+            was_next_pressed_ = awaits_key_;
         // The key that ends the session replaces one that was pressed before.
         if (is_operators(press->key) && (!pressed_ || ends_it))
             pressed_ = press;
@@ -250,7 +250,7 @@ void TrialRun::act_on_tracker(Attempt& attempt) {
     const TrackerFeed& own = feeds_.front().items;
     if (own.state() == RecordingState::running || state_.is_over())
         return;
-    if (own.has_recorded() && !ledger_.is_complete())
+    if (own.has_recorded() && !has_ended_in_order_)
         state_.note(presentation_broken_off_event,
                     fmt::format("by the eye tracker, after {}",
                                 counted(attempt.outcome.shown_refreshes, "refresh", "refreshes")));
@@ -279,7 +279,7 @@ void TrialRun::act_on_tracker(Attempt& attempt) {
 void TrialRun::act_on_pressed_keys(Attempt& attempt) {
     if (!pressed_ || state_.is_over())
         return;
-    const bool was_broken_off = !ledger_.is_complete();
+    const bool was_broken_off = !has_ended_in_order_;
     if (was_broken_off)
         state_.log().event({pressed_->pressed_at, state_.trial(), presentation_broken_off_event,
                             fmt::format("by a key, after {}",
@@ -306,7 +306,8 @@ void TrialRun::note_disturbance(const Clock::Disturbance& before) {
 void TrialRun::take_items(int trial) noexcept {
     for (Feed& feed : feeds_)
         if (!feed.used.is_left_out && feed.items.has_recorded())
-            feed.items.take_items(trial, state_.log_of(feed.used));
+            feed.items.take_items(trial, state_.log_of(feed.used),
+                                  feed.used.is_further() ? nullptr : &watch_);
 }
 
 void TrialRun::wait_and_take_items(int trial, SessionTime until) noexcept {

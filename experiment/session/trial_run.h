@@ -1,40 +1,72 @@
-/// One attempt at a trial: question, drift check, animation, answer.
+/// One attempt at a trial: the steps of its plan.
 #pragma once
 
 #include <memory>
 #include <optional>
 #include <vector>
 
+#include "experiment/design/trial_plan.h"
 #include "experiment/design/trial_queue.h"
 #include "experiment/session/answer_taking.h"
 #include "experiment/session/drift_checks.h"
+#include "experiment/session/gaze_watch.h"
 #include "experiment/session/tracker_feed.h"
 #include "experiment/timing/refresh_ledger.h"
+#include "experiment/timing/slot_cycles.h"
 
 namespace overt {
 
 class TrialRun {
   public:
-    /// `state` and `control` must outlive this.
-    TrialRun(SessionState& state, OperatorControl& control, const ScreenPoint& screen_centre);
+    /// `state` and `control` must outlive this. `seed`: of the session, from which steps are drawn.
+    TrialRun(SessionState& state, OperatorControl& control, const ScreenPoint& screen_centre,
+             std::uint64_t seed);
 
     /// What an attempt was like.
     struct Attempt {
         TrialOutcome outcome; ///< status is aborted until the session has judged the attempt
         AttemptResult result;
     };
-    /// `next`: the stimulus that probably comes after it. `is_practice`: its events are noted outside of
+    /// `next`: what probably comes after it. `is_practice`: its events are noted outside of
     /// trials, and no answer is recorded. Throws GraphicsError or RecordError for what breaks between its
     /// presentations; what happens in one, or to the tracker, is in the outcome.
-    Attempt run(const Trial& trial, const std::optional<Stimulus>& next, bool is_practice);
+    Attempt run(const Trial& trial, const std::optional<Trial>& next, bool is_practice);
 
   private:
-    void ask(const Trial& trial, Attempt& attempt);
+    /// Which attempt it is, and what comes after it.
+    struct Running {
+        const Trial& trial;
+        const std::optional<Trial>& next;
+        bool is_practice = false;
+        Attempt& attempt;
+        TrialPlan plan = {};
+        bool is_answered = false; ///< in time
+    };
+    // Steps (trial_steps.cpp).
+    void run_steps(Running& running);
+    void run_watched(Running& running, std::size_t begin, std::size_t end);
+    void run_step(Running& running, std::size_t number);
+    void ask(Running& running, std::size_t number);
+    void check_drift(Running& running, const PlannedStep& step);
+    void take_answer(Running& running, std::size_t number);
+    void stand(Running& running, std::size_t number);
+    void hold(Running& running, std::size_t number);
+    void await_gaze(Running& running, const PlannedStep& step, SessionTime since);
+    void take_gaze(AttemptStep& row, const PlannedStep& step) const;
+    bool is_gaze_missed(Running& running, std::size_t number);
+    void add_row(Running& running, const PlannedStep& step);
+    void begin_row(Running& running, SessionTime lit) noexcept;
+    void end_row(Running& running, SessionTime lit);
+    void mark_step(const PlannedStep& step, SessionTime lit);
+    bool begin_watching(Running& running);
+    void end_watching(Running& running);
+    bool is_cut_short() const noexcept;
+
     void start_recording();
     void note_what_came(Attempt& attempt);
     void act_on_tracker(Attempt& attempt);
     void note_lost_trackers();
-    void present(const Trial& trial, Attempt& attempt);
+    void present(Running& running, std::size_t number);
     void act_on_pressed_keys(Attempt& attempt);
     bool goes_on(const Attempt& attempt) const;
     void take_items(int trial) noexcept;
@@ -52,8 +84,17 @@ class TrialRun {
     OperatorControl& control_;
     DriftChecks drift_checks_;
     AnswerTaking answers_;
-    PageCycle cycle_;
+    std::uint64_t seed_;
+    std::vector<PageCycle> cycles_; ///< by motion
+    PageCycle shown_;               ///< what the step that shows the stimulus lights
     RefreshLedger ledger_;
+    GazeWatch watch_;
+    bool has_shown_ = false;          ///< flips were recorded in this attempt
+    bool has_ended_in_order_ = false; ///< what was watched in this attempt
+    bool awaits_key_ = false;         ///< of the observer, to end the step under way
+    bool was_next_pressed_ = false;   ///< it came
+    int gaze_checks_ = 0;             ///< drift checks in this attempt because gaze did not come
+    SlotCycles slots_;
     /// Of one tracker of the session.
     struct Feed {
         UsedTracker& used;

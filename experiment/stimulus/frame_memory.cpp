@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "experiment/animation.h"
+#include "experiment/protocol/all_stimuli.h"
 #include "experiment/screen_geometry.h"
 
 namespace overt {
@@ -33,13 +34,16 @@ double page_bytes(const Protocol& protocol) {
            (keeps_16_bits(protocol.display) ? 8.0 : 4.0);
 }
 
-int most_pages(const Protocol& protocol) {
+int pages_of(const Protocol& protocol, const Stimulus& stimulus) {
+    const Animation& motion = protocol.motion_of(stimulus);
+    return find_frames(protocol, stimulus) ? motion.frame_count : static_cast<int>(motion.pictures().size());
+}
+
+int most_pages(const Protocol& protocol, std::optional<int> motion) {
     int most = 0;
-    const int poses = static_cast<int>(distinct_poses(protocol.animation).angles.size());
-    for (int object = 0; object < static_cast<int>(protocol.objects.size()); ++object) {
-        for (int material = 0; material < static_cast<int>(protocol.materials.size()); ++material)
-            most = std::max(most,
-                            find_frames(protocol, object, material) ? protocol.animation.frame_count : poses);
+    for (const Stimulus& stimulus : all_stimuli(protocol)) {
+        if (stimulus.motion == motion.value_or(stimulus.motion))
+            most = std::max(most, pages_of(protocol, stimulus));
     }
     return most;
 }

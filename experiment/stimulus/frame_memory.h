@@ -1,6 +1,8 @@
 /// What a stimulus takes in the frame store on the graphics card, before any of it is drawn.
 #pragma once
 
+#include <optional>
+
 #include "experiment/protocol/protocol.h"
 
 namespace overt {
@@ -24,7 +26,10 @@ ScreenColumns changed_columns(const DisplaySettings& display, int left_px, int w
 /// Of one page: 4 bytes a pixel, or 8 with 16 bits a channel.
 double page_bytes(const Protocol& protocol);
 
-/// Pages of the stimulus that has most: one for each distinct pose, or for each frame that is ready-made.
-int most_pages(const Protocol& protocol);
+/// Pages of a stimulus: one for each picture of its motion, or for each frame that is ready-made.
+int pages_of(const Protocol& protocol, const Stimulus& stimulus);
+
+/// Pages of the stimulus that has most, of all or of those in a motion.
+int most_pages(const Protocol& protocol, std::optional<int> motion = {});
 
 } // namespace overt

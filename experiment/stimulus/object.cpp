@@ -5,8 +5,9 @@
 #include <fmt/format.h>
 
 #include "experiment/base/error.h"
-#include "experiment/scene/mesh_reader.h"
-#include "experiment/scene/ply_writer.h"
+#include "experiment/scene/areas.h"
+#include "experiment/scene/files/mesh_reader.h"
+#include "experiment/scene/files/ply_writer.h"
 #include "experiment/scene/ray_caster.h"
 #include "experiment/scene/sculptures/sculptures.h"
 #include "experiment/scene/triangle_order.h"
@@ -40,8 +41,7 @@ MeshImport import_of(const ObjectSettings& settings) {
     import.scale = settings.scale * mm_of_unit(settings.unit);
     import.labels = settings.labels;
     import.weld_tolerance = settings.weld_tolerance;
-    if (auto head = head_region(settings))
-        import.regions.push_back(*std::move(head));
+    import.regions = area_regions(settings);
     return import;
 }
 
@@ -66,23 +66,53 @@ Camera camera_of(const ViewSettings& settings, const Protocol& protocol, const M
     const Degrees natural =
         to_degrees({2.0 * std::atan(0.5 * image_px.y * mm_per_px / protocol.display.viewing_distance_mm)});
     const Degrees field = settings.vertical_fov_deg ? Degrees{*settings.vertical_fov_deg} : natural;
-    if (!settings.camera_position)
-        return fit_camera(mesh, field, image_px, protocol.animation.amplitude, settings.margin);
+    if (!settings.camera_position) {
+        // One camera for all motions, so that they share maps.
+        Degrees largest_turn{0.0};
+        for (const Animation& motion : protocol.motions)
+            largest_turn.value = std::max(largest_turn.value, motion.largest_turn().value);
+        return fit_camera(mesh, field, image_px, largest_turn, settings.margin);
+    }
     return {*settings.camera_position - origin,
             settings.camera_target ? *settings.camera_target - origin : mesh.bounds().centre(), field};
 }
 
 } // namespace
 
-std::optional<PartRegion> head_region(const ObjectSettings& settings) {
-    if (settings.head_spheres.empty() && settings.head_planes.empty())
-        return std::nullopt;
-    PartRegion head{"head", {}, {}};
-    for (const auto& [x, y, z, radius] : settings.head_spheres)
-        head.spheres.emplace_back(x, y, z, radius);
-    for (const auto& plane : settings.head_planes)
-        head.half_spaces.push_back({{plane[0], plane[1], plane[2]}, {plane[3], plane[4], plane[5]}});
-    return head;
+std::vector<PartRegion> area_regions(const ObjectSettings& settings) {
+    std::vector<PartRegion> regions;
+    for (const AreaSettings& area : settings.areas) {
+        PartRegion& region = regions.emplace_back(PartRegion{area.name, {}, {}, area.boxes, area.groups});
+        for (const auto& [x, y, z, radius] : area.spheres)
+            region.spheres.emplace_back(x, y, z, radius);
+        for (const auto& plane : area.planes)
+            region.half_spaces.push_back({{plane[0], plane[1], plane[2]}, {plane[3], plane[4], plane[5]}});
+    }
+    return regions;
+}
+
+std::vector<std::string> map_part_names(const ObjectSettings& settings) {
+    OVERT_EXPECTS(settings.areas.size() <= most_map_areas);
+    std::vector<std::string> names{std::string(rest_part)};
+    for (const AreaSettings& area : settings.areas) {
+        const std::size_t before = names.size();
+        for (std::size_t part = 0; part < before; ++part)
+            names.push_back(part == 0 ? area.name
+                                      : fmt::format("{}{}{}", names[part], between_areas, area.name));
+    }
+    return names;
+}
+
+std::vector<std::string> areas_of(std::span<const Object> objects) {
+    std::vector<std::string> areas;
+    for (const Object& object : objects) {
+        const Areas own(object.mesh.part_names);
+        for (const std::string& area : own.names()) {
+            if (std::ranges::find(areas, area) == areas.end())
+                areas.push_back(area);
+        }
+    }
+    return areas;
 }
 
 ContentHash hash_of_mesh(const Mesh& mesh) {
@@ -97,37 +127,50 @@ Object load_object(const ObjectSettings& settings, const Protocol& protocol,
                    const std::filesystem::path& cache) {
     Object object;
     object.id = settings.id;
+    object.scenes.resize(protocol.views.size());
     if (!settings.shipped.empty()) {
         object.mesh = shipped_sculpture(settings.shipped, cache);
     } else if (!settings.mesh.empty()) {
         MeshCleaningReport report;
         object.mesh = import_mesh(settings.mesh, import_of(settings), report);
         object.remarks = describe(report);
+        for (const AreaOverlap& overlap : overlapping_areas(object.mesh))
+            object.remarks.push_back(
+                fmt::format("Areas \"{}\" and \"{}\" overlap: they share {:.4g} {}, {:.1f} % of the one and "
+                            "{:.1f} % of the "
+                            "other, which count for both.",
+                            overlap.a, overlap.b, overlap.shared_area,
+                            unit_of_lengths(settings) == "mm" ? "mm^2" : "squares of the file's unit",
+                            100.0 * overlap.share_of_a, 100.0 * overlap.share_of_b));
         object.origin = report.origin;
         order_for_drawing(object.mesh);
     } else {
-        if (!settings.lut.empty()) {
-            object.mesh.part_names = {"body"};
-            if (head_region(settings))
-                object.mesh.part_names.emplace_back("head");
-        }
+        if (!settings.lut.empty())
+            object.mesh.part_names = map_part_names(settings);
         return object;
     }
     object.mesh_hash = hash_of_mesh(object.mesh);
-    object.scene.view.image_px = {protocol.view.width_px, protocol.view.height_px};
-    object.scene.bounds = object.mesh.bounds();
-    object.scene.view.camera = camera_of(protocol.view, protocol, object.mesh, object.origin);
-    try {
-        depth_range(object.scene.bounds, object.scene.view);
-    } catch (const InputError& error) {
-        throw InputError(fmt::format("object \"{}\": {}", settings.id, error.what()));
+    for (std::size_t i = 0; i < object.scenes.size(); ++i) {
+        const ViewSettings& view = protocol.views[i];
+        SceneView& scene = object.scenes[i];
+        scene.view.image_px = {view.width_px, view.height_px};
+        scene.bounds = object.mesh.bounds();
+        scene.view.camera = camera_of(view, protocol, object.mesh, object.origin);
+        try {
+            depth_range(scene.bounds, scene.view);
+        } catch (const InputError& error) {
+            throw InputError(fmt::format(
+                "object \"{}\"{}: {}", settings.id,
+                protocol.views.size() == 1 ? "" : fmt::format(", view \"{}\"", view.id), error.what()));
+        }
     }
     return object;
 }
 
-bool is_in_picture(const Object& object, Degrees angle) {
-    const View& view = object.scene.view;
-    const TurntablePose pose = object.scene.pose_at(angle);
+bool is_in_picture(const Object& object, int of_view, Degrees angle) {
+    const SceneView& scene = object.scene(of_view);
+    const View& view = scene.view;
+    const TurntablePose pose = scene.pose_at(angle);
     const glm::dmat4 world_from_object = pose.world_from_object();
     const glm::dvec2 size(view.image_px);
     const bool has_vertex =

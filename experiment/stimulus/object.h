@@ -1,14 +1,15 @@
-/// An object ready to be shown: its mesh as all parts of the program use it, and where the camera stands.
+/// An object ready to be shown: its mesh as all parts of the program use it, and where the cameras stand.
 #pragma once
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "experiment/base/content_hash.h"
 #include "experiment/protocol/protocol.h"
-#include "experiment/scene/mesh_parts.h"
+#include "experiment/scene/making/mesh_parts.h"
 #include "experiment/scene/viewing.h"
 #include "experiment/screen_geometry.h"
 
@@ -27,26 +28,38 @@ struct Object {
     Mesh mesh;
     ContentHash mesh_hash;  ///< see hash_of_mesh
     glm::dvec3 origin{0.0}; ///< of the mesh's coordinates in those of its file, turned and scaled alike
-    SceneView scene;
+    std::vector<SceneView> scenes;    ///< by view
     std::vector<std::string> remarks; ///< on the mesh, for the experimenter
 
     bool has_mesh() const { return !mesh.triangles.empty(); }
+    const SceneView& scene(int view = 0) const { return scenes.at(static_cast<std::size_t>(view)); }
 };
 
-/// The part "head" that the protocol describes, in the coordinates of the file; nothing if it describes none.
-std::optional<PartRegion> head_region(const ObjectSettings& settings);
+/// The areas that the protocol describes, in the coordinates of the file.
+std::vector<PartRegion> area_regions(const ObjectSettings& settings);
+
+/// Most areas of an object that is shown by ready-made maps.
+inline constexpr std::size_t most_map_areas = 7;
+
+/// The parts of such an object: one for each set of the areas that the protocol describes (areas.h), of which
+/// the first is in none; bit i of a part's index stands for area i.
+std::vector<std::string> map_part_names(const ObjectSettings& settings);
+
+/// The areas of all objects, each once.
+std::vector<std::string> areas_of(std::span<const Object> objects);
 
 /// Of positions, triangles and parts: what a mesh file of any format is to the program.
 ContentHash hash_of_mesh(const Mesh& mesh);
 
-/// Imports or makes the mesh of one object of the protocol and places the camera. An object that overt
-/// makes itself is kept as PLY in `cache` and taken from there the next time. Throws InputError naming the
-/// file or the key.
+/// Imports or makes the mesh of one object of the protocol and places the camera of each view. An object that
+/// overt makes itself is kept as PLY in `cache` and taken from there the next time. Throws InputError naming
+/// the file or the key.
 Object load_object(const ObjectSettings& settings, const Protocol& protocol,
                    const std::filesystem::path& cache);
 
-/// Whether any of the object can be in the picture when it is turned by `angle`. Only for one with a mesh.
-bool is_in_picture(const Object& object, Degrees angle);
+/// Whether any of the object can be in a view's picture when it is turned by `angle`. Only for one with a
+/// mesh.
+bool is_in_picture(const Object& object, int view, Degrees angle);
 
 /// All objects of the protocol, in its order.
 std::vector<Object> load_objects(const Protocol& protocol, const std::filesystem::path& cache);

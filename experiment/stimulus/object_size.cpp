@@ -21,10 +21,10 @@ std::string likely_unit(double height_mm) {
 
 ObjectSize size_of(const Object& object, const ObjectSettings& settings, const Protocol& protocol) {
     ObjectSize size;
-    size.object = object.scene.bounds.extent();
+    size.object = object.scene().bounds.extent();
     size.unit = unit_of_lengths(settings);
-    const View& view = object.scene.view;
-    const glm::dmat4 world_from_object = object.scene.pose_at({0.0}).world_from_object();
+    const View& view = object.scene().view;
+    const glm::dmat4 world_from_object = object.scene().pose_at({0.0}).world_from_object();
     glm::dvec2 low(view.image_px), high(0.0);
     for (const glm::vec3& position : object.mesh.positions) {
         const glm::dvec3 world(world_from_object * glm::dvec4(position, 1.0));

@@ -15,7 +15,7 @@ struct ObjectSize {
     glm::dvec2 shown_deg{0.0}; ///< the same as visual angles, by the directions from the eye
 };
 
-/// Only for an object with a mesh.
+/// In the first view. Only for an object with a mesh.
 ObjectSize size_of(const Object& object, const ObjectSettings& settings, const Protocol& protocol);
 
 /// What is hardly meant so, and what may be.

@@ -12,12 +12,14 @@
 
 #include "experiment/base/counted.h"
 #include "experiment/base/parallel.h"
+#include "experiment/study/area_pairs.h"
+#include "experiment/study/area_shares.h"
+#include "experiment/study/surface_transitions.h"
 #include "experiment/study/difference_maps.h"
 #include "experiment/study/error_budget.h"
 #include "experiment/study/factor_effects.h"
 #include "experiment/study/fixation_maps.h"
 #include "experiment/study/gaze_motion.h"
-#include "experiment/study/head_fractions.h"
 #include "experiment/study/light_at_gaze.h"
 #include "experiment/study/map_predictions.h"
 #include "experiment/study/map_reliability.h"
@@ -25,6 +27,7 @@
 #include "experiment/study/methods/reporting.h"
 #include "experiment/study/point_distributions.h"
 #include "experiment/study/results/study_observers.h"
+#include "experiment/study/screen_area_looks.h"
 #include "experiment/study/study_maps.h"
 #include "experiment/study/study_pairs.h"
 
@@ -85,7 +88,7 @@ void glance_at(StudyResults& results, const ExclusionRules& rules) {
             remarks.push_back(fmt::format("{} is not complete: {} of it count.", session.folder,
                                           counted(session.trials, "trial")));
     }
-    if (glance.counted == 0)
+    if (glance.counted == 0 && knows_stimuli(results))
         remarks.emplace_back("No fixation was counted: there are no maps and no fractions.");
     if (glance.only_by_reach > 0)
         remarks.push_back(fmt::format(
@@ -143,14 +146,15 @@ void add_maps(ReadStudy& study, const StudyOptions& options, const StudyProgress
     });
 }
 
-/// The share of the fixations on each part, beside its share of the exposure.
+/// The share of the fixations on each area, beside its share of the exposure.
 void add_fixations_to_exposures(StudyResults& results) {
     for (ExposureRow& row : results.exposures) {
         const StudyObject& shown = results.objects[static_cast<std::size_t>(row.object)];
+        const std::optional<std::size_t> area = shown.areas.find(row.area);
         int all = 0, own = 0;
         for_each_counted_on(results, row.object, [&](const StudyFixation& fixation) {
             all += fixation.part.has_value();
-            own += fixation.part && (row.part == "all" || shown.part_names[*fixation.part] == row.part);
+            own += fixation.part && (!area || shown.areas.holds(*area, fixation.part));
         });
         if (all > 0)
             row.share_of_fixations = static_cast<double>(own) / all;
@@ -179,28 +183,18 @@ void remark_on_differences(StudyResults& results, const StudyOptions& options) {
             counted(most, "observer"), least_p, 6));
 }
 
-} // namespace
-
-StudyResults analyze_study(std::span<const std::filesystem::path> sessions, const SurfaceFor& surface_for,
-                           const StudyOptions& options, const StudyProgress& progress) {
-    return analyze_study(read_study(sessions, surface_for, options, progress), options, progress);
-}
-
-StudyResults analyze_study(ReadStudy study, const StudyOptions& options, const StudyProgress& progress) {
+/// All that needs places on surfaces.
+void reckon_on_surfaces(ReadStudy& study, const StudyOptions& options, const StudyProgress& progress) {
     StudyResults& results = study.results;
-    results.parameters = parameters_of(options);
-    results.by = options.by;
-    results.confidence = options.confidence;
-    glance_at(results, options.exclude);
-    results.groups = make_groups(results, options.by, study.levels);
-
     add_maps(study, options, progress);
-    results.head_fractions = head_fractions(results, study.levels, options);
+    results.area_rows = area_rows(results, study.levels, options);
+    results.surface_transitions = surface_transitions(results, study.levels, options);
     results.distributions = point_distributions(results, study.surfaces, options);
-    results.time_course = head_time_course(results, study.levels, options);
+    results.time_course = area_time_course(results, study.levels, options);
     progress("comparisons", 0, 1);
     const ObjectFixationMaps maps = fixation_maps(results, study.surfaces);
     results.pairs = study_pairs(results, study.surfaces, maps, study.levels, options);
+    results.area_pairs = area_pairs(results, study.surfaces, study.levels, options);
     progress("comparisons", 1, 1);
     progress("differences", 0, 1);
     results.differences = difference_maps(results, maps, study.levels, options);
@@ -213,9 +207,30 @@ StudyResults analyze_study(ReadStudy study, const StudyOptions& options, const S
     results.effects = factor_effects(results, study.levels, options);
     results.motions = gaze_motions(results, study.levels, options);
     results.lights = lights_at_gaze(results, study.levels, options);
+    progress("metrics", 1, 1);
+}
+
+} // namespace
+
+StudyResults analyze_study(std::span<const std::filesystem::path> sessions, const SurfaceFor& surface_for,
+                           const StudyOptions& options, const StudyProgress& progress) {
+    return analyze_study(read_study(sessions, surface_for, options, progress), options, progress);
+}
+
+StudyResults analyze_study(ReadStudy study, const StudyOptions& options, const StudyProgress& progress) {
+    StudyResults& results = study.results;
+    results.parameters = parameters_of(options);
+    results.by = options.by;
+    results.confidence = options.confidence;
+    name_areas(results, options);
+    glance_at(results, options.exclude);
+    results.groups = make_groups(results, options.by, study.levels);
+
+    add_screen_area_looks(results, study.levels, options);
+    if (knows_stimuli(results))
+        reckon_on_surfaces(study, options, progress);
     results.reporting = reporting_items(results, options);
     results.methods = methods_text(results, options);
-    progress("metrics", 1, 1);
     return std::move(study.results);
 }
 

@@ -112,6 +112,9 @@ template <class Members, class View> void view_members(Members& members, View& v
     members.value("first_trial_s", view.first_trial_s);
     members.value("done_before", view.done_before);
     members.value("pose", view.pose);
+    members.value("seen_in", view.seen_in);
+    members.value("picture", view.picture);
+    members.value("pictures", view.pictures);
     members.value("refresh", view.refresh);
     members.value("missed", view.missed);
     members.value("missed_in_trial", view.missed_in_trial);

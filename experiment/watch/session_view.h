@@ -69,6 +69,9 @@ struct SessionView {
     std::optional<double> first_trial_s; ///< session time at which the first trial of this sitting began
     int done_before = 0;                 ///< completed when that began
     int pose = -1;                       ///< that is shown; -1: no animation is
+    int seen_in = 0;                     ///< index of the view that the stimulus is seen in
+    int picture = -1;                    ///< of those in `light_file`; -1: not known
+    int pictures = 0;                    ///< that it has
     int refresh = 0;                     ///< of the presentation under way
     std::int64_t missed = 0, missed_in_trial = 0; ///< refreshes
     std::int64_t samples = 0, lost = 0;           ///< of the session's trials; lost: without gaze

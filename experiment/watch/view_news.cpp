@@ -51,6 +51,8 @@ std::optional<ViewedEvent> ViewBuilder::apply(const ViewNews& news) {
             view_.object = trial.object;
             view_.material = trial.material;
             view_.light_file = trial.light_file;
+            view_.seen_in = trial.seen_in;
+            view_.pictures = trial.picture_of_frame.empty() ? 0 : 1 + std::ranges::max(trial.picture_of_frame);
         }
         return std::nullopt;
     case ViewNews::Kind::trial_ended:
@@ -62,6 +64,7 @@ std::optional<ViewedEvent> ViewBuilder::apply(const ViewNews& news) {
         break;
     case ViewNews::Kind::flip:
         lit(news.at, news.pose);
+        view_.picture = picture_of(news.frame);
         view_.refresh = news.refresh;
         view_.missed = news.missed;
         view_.missed_in_trial = news.missed_in_trial;
@@ -98,6 +101,13 @@ std::optional<ViewedEvent> ViewBuilder::apply(const ViewNews& news) {
         view_.missed_in_trial = news.missed_in_trial;
     }
     return std::nullopt;
+}
+
+int ViewBuilder::picture_of(int frame) const {
+    if (view_.trial < 0 || static_cast<std::size_t>(view_.trial) >= trials_.size() || frame < 0)
+        return -1;
+    const std::vector<int>& pictures = trials_[static_cast<std::size_t>(view_.trial)].picture_of_frame;
+    return static_cast<std::size_t>(frame) < pictures.size() ? pictures[static_cast<std::size_t>(frame)] : -1;
 }
 
 void ViewBuilder::lit(SessionTime since, int pose) {

@@ -23,7 +23,7 @@ struct ViewNews {
         phase,         ///< `phase`, `trial`
         trial_started, ///< `trial`, its place in the schedule
         trial_ended, ///< `counts`: it is completed; `text`: the answer; `value`: drift in deg, if `has_value`
-        flip,        ///< `pose`, `refresh`, missed
+        flip,        ///< `pose`, `frame`, `refresh`, missed
         samples,     ///< counts of samples
         event,       ///< `word`: its kind, `text`: its detail
         validation,  ///< `value` and `other`: mean and largest error in deg
@@ -34,7 +34,7 @@ struct ViewNews {
     SessionPhase phase = SessionPhase::set_up;
     bool counts = false, has_value = false;
     int trial = -1;
-    int pose = -1, refresh = 0;
+    int pose = -1, frame = -1, refresh = 0;
     SessionTime at;
     double value = 0.0, other = 0.0;
     std::int64_t samples = 0, lost = 0, samples_in_trial = 0, lost_in_trial = 0;
@@ -58,6 +58,8 @@ struct GazeNews {
 /// What is told of a trial that begins, by its place in the schedule.
 struct ViewedTrial {
     std::string task, question, object, material, light_file;
+    int seen_in = 0;                       ///< index of the view
+    std::vector<int> picture_of_frame = {}; ///< of its motion (Animation::pictures), by animation frame
 };
 
 /// Makes of the news what is to be shown. For one thread.
@@ -84,6 +86,8 @@ class ViewBuilder {
     };
     void apply_event(const ViewedEvent& event);
     void lit(SessionTime since, int pose);
+    /// That a frame of the trial under way shows; -1: not known.
+    int picture_of(int frame) const;
 
     std::vector<ViewedTrial> trials_;
     SessionView view_;

@@ -6,7 +6,7 @@
 
 #include "experiment/base/error.h"
 #include "experiment/scene/mesh_topology.h"
-#include "experiment/scene/metal_table.h"
+#include "experiment/spectra/metal_table.h"
 #include "render/bake/coat_surface.h"
 #include "render/bake/light_colour.h"
 #include "render/bake/material_model.h"

@@ -8,7 +8,7 @@
 
 #include <glm/glm.hpp>
 
-#include "experiment/scene/spectra.h"
+#include "experiment/spectra/spectra.h"
 
 namespace overt {
 

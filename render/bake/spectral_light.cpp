@@ -48,7 +48,7 @@ SpectralLight::SpectralLight(const LightProbe& probe, double exposure, double ro
 }
 
 float SpectralLight::share_of_turn(Degrees angle) const {
-    const double turn = (rotation_deg_ - angle.value) / 360.0 + 0.5;
+    const double turn = (rotation_deg_ + turn_deg_ - angle.value) / 360.0 + 0.5;
     return static_cast<float>(turn - std::floor(turn));
 }
 

@@ -13,7 +13,7 @@
 
 namespace overt {
 
-/// Made once for a protocol; looked up from any number of threads.
+/// Made once for a light; looked up from any number of threads.
 class SpectralLight {
   public:
     /// The protocol's probe (see load_light_probe, which throws InputError). The exposure does not change the
@@ -22,6 +22,10 @@ class SpectralLight {
 
     /// A probe that is there already. It must be as high as it is wide, or half.
     SpectralLight(const LightProbe& probe, double exposure, double rotation_deg = 0.0);
+
+    /// Turns the probe by this from where its settings have it, counter-clockwise seen from above. Not while
+    /// others look it up.
+    void turn_to(Degrees turn) { turn_deg_ = turn.value; }
 
     /// Linear Rec.709 light that comes from `direction` (unit length), as an object sees it that is turned by
     /// `turn` of share_of_turn(). Bilinear between texels, round the horizon and across the poles.
@@ -51,7 +55,7 @@ class SpectralLight {
     std::optional<LightAim> aim_;
     RgbBasis basis_;
     double exposure_ = 1.0;
-    double rotation_deg_ = 0.0;
+    double rotation_deg_ = 0.0, turn_deg_ = 0.0;
     std::vector<std::string> notes_;
 };
 

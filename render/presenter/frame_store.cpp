@@ -28,27 +28,47 @@ FrameStore::~FrameStore() = default;
 
 std::size_t FrameStore::page_bytes() const { return bytes_in(patch_.size_px, encoder_->format()); }
 
-int FrameStore::pages_of(const Stimulus& stimulus) const {
-    const std::vector<int> page_of_frame = source_->page_of_frame(stimulus);
-    return 1 + *std::max_element(page_of_frame.begin(), page_of_frame.end());
+int FrameStore::pages_of(std::span<const Stimulus> stimuli) const {
+    int pages = 0;
+    for (const Stimulus& stimulus : stimuli)
+        pages += 1 + std::ranges::max(source_->page_of_frame(stimulus));
+    return pages;
 }
 
 bool FrameStore::fits_beside_current(int pages) const {
-    const StoredStimulus& shown = stimuli_[current_];
+    const StoredStimuli& shown = stored_[current_];
     const int layers = pages + (shown.textures ? shown.textures->layers() : 0);
     return page_bytes() * static_cast<std::size_t>(layers) <= budget_bytes_;
 }
 
-void FrameStore::begin(const Stimulus& stimulus, int threads) {
-    StoredStimulus& stored = spare();
-    stored.stimulus = stimulus;
-    stored.page_of_frame = source_->page_of_frame(stimulus);
-    stored.pages = pages_of(stimulus);
+bool FrameStore::is_current(std::span<const Stimulus> stimuli) const noexcept {
+    return is_loaded_ && std::ranges::equal(stored_[current_].stimuli, stimuli);
+}
+
+bool FrameStore::is_expected(std::span<const Stimulus> stimuli) const noexcept {
+    return expected_ && std::ranges::equal(*expected_, stimuli);
+}
+
+void FrameStore::begin(std::span<const Stimulus> stimuli, int threads) {
+    StoredStimuli& stored = spare();
+    stored.stimuli.assign(stimuli.begin(), stimuli.end());
+    stored.page_of_frame.clear();
+    stored.first_page.clear();
+    stored.pages = 0;
+    for (const Stimulus& stimulus : stimuli) {
+        std::vector<int>& page_of_frame = stored.page_of_frame.emplace_back(source_->page_of_frame(stimulus));
+        const int pages = 1 + std::ranges::max(page_of_frame);
+        for (int& page : page_of_frame)
+            page += stored.pages;
+        stored.first_page.push_back(stored.pages);
+        stored.pages += pages;
+    }
     const std::size_t bytes = page_bytes() * static_cast<std::size_t>(stored.pages);
     if (bytes > budget_bytes_) {
         throw InputError(
-            fmt::format("a stimulus takes {:.0f} MB in the frame store, which may take {:.0f}: "
+            fmt::format("{} {:.0f} MB in the frame store, which may take {:.0f}: "
                         "allow more with display.frame_store_mb, or show fewer or smaller frames",
+                        stimuli.size() == 1 ? "a stimulus takes" : "the stimuli of a trial take",
                         1e-6 * static_cast<double>(bytes), 1e-6 * static_cast<double>(budget_bytes_)));
     }
     if (!stored.textures || stored.textures->layers() < stored.pages ||
@@ -58,11 +78,14 @@ void FrameStore::begin(const Stimulus& stimulus, int threads) {
     }
     if (!staging_)
         staging_.emplace(*context_, staged_pages(), page_bytes());
-    expected_ = stimulus;
+    expected_ = stored.stimuli;
     loader_.emplace(
         *staging_, stored.pages,
-        [this, stimulus](int page, LinearImage& room, std::span<std::byte> into) {
-            const LinearImage& picture = source_->read_page(stimulus, page, room);
+        [this, of = stored.stimuli, first_page = stored.first_page](int page, LinearImage& room,
+                                                                    std::span<std::byte> into) {
+            const auto after = std::ranges::upper_bound(first_page, page) - first_page.begin();
+            const auto index = static_cast<std::size_t>(after - 1);
+            const LinearImage& picture = source_->read_page(of[index], page - first_page[index], room);
             OVERT_EXPECTS(picture.size_px == image_px_);
             encoder_->encode(picture, origin_px_, into);
         },
@@ -75,23 +98,23 @@ void FrameStore::forget_expected() {
     failure_ = nullptr;
 }
 
-const StoredStimulus& FrameStore::load(const Stimulus& stimulus) {
-    if (is_loaded_ && stimuli_[current_].stimulus == stimulus)
-        return stimuli_[current_];
-    if (failure_ && expected_ == stimulus) {
+const StoredStimuli& FrameStore::load(std::span<const Stimulus> stimuli) {
+    if (is_current(stimuli))
+        return stored_[current_];
+    if (failure_ && is_expected(stimuli)) {
         const std::exception_ptr failure = failure_;
         forget_expected();
         std::rethrow_exception(failure);
     }
-    if (expected_ != stimulus) {
+    if (!is_expected(stimuli)) {
         forget_expected();
-        if (!fits_beside_current(pages_of(stimulus))) {
-            // It takes the place of the one that was shown.
+        if (!fits_beside_current(pages_of(stimuli))) {
+            // They take the place of those that were shown.
             spare().textures.reset();
             current_ = 1 - current_;
             is_loaded_ = false;
         }
-        begin(stimulus, processors());
+        begin(stimuli, processors());
     }
     if (loader_) {
         try {
@@ -107,21 +130,21 @@ const StoredStimulus& FrameStore::load(const Stimulus& stimulus) {
     expected_.reset();
     current_ = 1 - current_;
     is_loaded_ = true;
-    return stimuli_[current_];
+    return stored_[current_];
 }
 
-void FrameStore::expect(const Stimulus& stimulus) noexcept {
-    if ((is_loaded_ && stimuli_[current_].stimulus == stimulus) || expected_ == stimulus)
+void FrameStore::expect(std::span<const Stimulus> stimuli) noexcept {
+    if (is_current(stimuli) || is_expected(stimuli))
         return;
     forget_expected();
     try {
         // Somebody answers meanwhile, and time stamps are taken: one processor stays free where there are
         // more.
-        if (fits_beside_current(pages_of(stimulus)))
-            begin(stimulus, std::max(1, processors() - 1));
+        if (fits_beside_current(pages_of(stimuli)))
+            begin(stimuli, std::max(1, processors() - 1));
     } catch (...) {
-        expected_ = stimulus;
         failure_ = std::current_exception();
+        expected_.emplace(stimuli.begin(), stimuli.end());
     }
 }
 

@@ -16,14 +16,14 @@ namespace {
 /// Long enough for a recorder that samples at 1 kHz.
 constexpr double onset_pulse_ms = 5.0;
 
-/// Copies the first rows and columns, so many, to `to_px`, pixel by pixel.
-void blit(const GladGLContext& gl, const Framebuffer& from, const Framebuffer& to, glm::ivec2 to_px,
-          glm::ivec2 size_px) noexcept {
+/// Copies pixel by pixel.
+void blit(const GladGLContext& gl, const Framebuffer& from, const Framebuffer& to, glm::ivec2 from_px,
+          glm::ivec2 to_px, glm::ivec2 size_px) noexcept {
     gl.BindFramebuffer(GL_READ_FRAMEBUFFER, from.name());
     gl.ReadBuffer(GL_COLOR_ATTACHMENT0);
     gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, to.name());
-    gl.BlitFramebuffer(0, 0, size_px.x, size_px.y, to_px.x, to_px.y, to_px.x + size_px.x, to_px.y + size_px.y,
-                       GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    gl.BlitFramebuffer(from_px.x, from_px.y, from_px.x + size_px.x, from_px.y + size_px.y, to_px.x, to_px.y,
+                       to_px.x + size_px.x, to_px.y + size_px.y, GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
 DisplaySettings of_size(DisplaySettings display, glm::ivec2 screen_px) {
@@ -38,14 +38,16 @@ bool has_colour_table(OutputMode mode) { return row_of(mode).shows == ShownLight
 
 PagePresenter::PagePresenter(const GlContext& context, DisplaySurface& surface, const FrameSource& frames,
                              const ScreenGeometry& geometry, const DisplaySettings& display,
-                             ScreenSettings screens)
+                             ScreenSettings screens, std::vector<glm::ivec2> slots_px)
     : context_(&context), surface_(&surface), geometry_(geometry),
       display_(of_size(display, geometry.screen_px)), screens_(std::move(screens)), encoder_(display_),
       background_(context, geometry.screen_px, encoder_.format()),
       picture_(context, geometry.screen_px, encoder_.format()),
-      store_(context, frames, encoder_, geometry.image_origin_px, geometry.image_px,
-             static_cast<std::size_t>(display.frame_store_mb * 1e6)),
-      page_target_(context) {
+      store_(context, frames, encoder_, slots_px.empty() ? geometry.image_origin_px : slots_px.front(),
+             geometry.image_px, static_cast<std::size_t>(display.frame_store_mb * 1e6)),
+      page_target_(context), slots_px_(std::move(slots_px)) {
+    if (slots_px_.empty())
+        slots_px_.push_back(geometry.image_origin_px);
     check_depth();
     // Where a driver dithers at all, it must not when bytes are to arrive as they are.
     context.gl().Disable(GL_DITHER);
@@ -93,7 +95,18 @@ void PagePresenter::check_depth() const {
         throw GraphicsError(fmt::format("{} sends messages in rows of {} pixels, the screen has only {}",
                                         name_of(display_.output), colour_table_row_.size(), screen.x));
     }
-    const glm::ivec2 first = geometry_.image_origin_px, end = first + geometry_.image_px;
+    for (const glm::ivec2 slot_px : slots_px_)
+        check_place(slot_px);
+}
+
+void PagePresenter::check_place(glm::ivec2 slot_px) const {
+    const glm::ivec2 screen = geometry_.screen_px, first = slot_px, end = first + geometry_.image_px;
+    // A page is encoded once for all slots: pixels must be joined in pairs alike in each, and filters reach
+    // alike beside it.
+    const ScreenPatch patch = encoder_.patch_of(slot_px, geometry_.image_px);
+    const ScreenPatch& pages = store_.patch();
+    OVERT_EXPECTS(patch.size_px == pages.size_px &&
+                  patch.origin_px - slot_px == pages.origin_px - slots_px_.front());
     if (first.x < 0 || first.y < reserved_rows(display_.output) || end.x > screen.x || end.y > screen.y) {
         throw GraphicsError(
             fmt::format("a stimulus in columns {} to {} and rows {} to {} leaves the screen of {} x {}, or "
@@ -103,28 +116,67 @@ void PagePresenter::check_depth() const {
     }
 }
 
-void PagePresenter::load_frames(const Stimulus& stimulus) {
-    if (loaded_ && loaded_->stimulus == stimulus)
+namespace {
+
+/// Each stimulus once, in the order of slots.
+std::vector<Stimulus> distinct(std::span<const PlacedStimulus> shown) {
+    std::vector<Stimulus> stimuli;
+    for (const PlacedStimulus& placed : shown)
+        if (std::ranges::find(stimuli, placed.stimulus) == stimuli.end())
+            stimuli.push_back(placed.stimulus);
+    return stimuli;
+}
+
+} // namespace
+
+void PagePresenter::load_slots(std::span<const PlacedStimulus> shown) {
+    if (loaded_ && std::ranges::equal(shown_, shown))
         return;
     loaded_ = nullptr;
-    loaded_ = &store_.load(stimulus);
+    const std::vector<Stimulus> stimuli = distinct(shown);
+    const StoredStimuli& stored = store_.load(stimuli);
+    in_slots_.clear();
+    for (const PlacedStimulus& placed : shown) {
+        const glm::ivec2 slot_px = slots_px_.at(static_cast<std::size_t>(placed.slot));
+        in_slots_.push_back(
+            {static_cast<std::size_t>(std::ranges::find(stimuli, placed.stimulus) - stimuli.begin()),
+             encoder_.patch_of(slot_px, geometry_.image_px).origin_px});
+    }
+    shown_.assign(shown.begin(), shown.end());
+    loaded_ = &stored;
     clear_picture();
 }
 
-void PagePresenter::clear_picture() noexcept {
-    blit(context_->gl(), background_, picture_, {0, 0}, geometry_.screen_px);
-    page_on_canvas_ = -1;
+void PagePresenter::expect_slots(std::span<const PlacedStimulus> shown) noexcept {
+    try {
+        store_.expect(distinct(shown));
+    } catch (const std::bad_alloc&) {
+        // It is loaded when its time comes.
+    }
 }
 
-void PagePresenter::put_page(int page) noexcept {
-    // A frame is held for several refreshes: what is there need not be drawn again.
-    if (page == page_on_canvas_)
-        return;
-    if (page_on_canvas_ < 0)
+void PagePresenter::clear_picture() noexcept {
+    blit(context_->gl(), background_, picture_, {0, 0}, {0, 0}, geometry_.screen_px);
+    is_stimulus_on_canvas_ = false;
+    for (InSlot& slot : in_slots_)
+        slot.page_on_canvas = -1;
+}
+
+void PagePresenter::put_page(InSlot& slot, int page) noexcept {
+    if (!is_stimulus_on_canvas_)
         clear_picture();
-    page_target_.attach_layer(*loaded_->textures, page);
-    blit(context_->gl(), page_target_, picture_, store_.patch().origin_px, store_.patch().size_px);
-    page_on_canvas_ = page;
+    is_stimulus_on_canvas_ = true;
+    // A frame is held for several refreshes: what is there need not be drawn again.
+    if (page == slot.page_on_canvas)
+        return;
+    const glm::ivec2 size = store_.patch().size_px;
+    if (page < 0) {
+        blit(context_->gl(), background_, picture_, slot.patch_px, slot.patch_px, size);
+    } else {
+        page_target_.attach_layer(*loaded_->textures, page);
+        blit(context_->gl(), page_target_, picture_, {0, 0}, slot.patch_px, size);
+    }
+    slot.page_on_canvas = page;
 }
 
 void PagePresenter::make_patch() {
@@ -142,13 +194,13 @@ void PagePresenter::make_patch() {
 
 void PagePresenter::put_patch(bool white) noexcept {
     if (patch_)
-        blit(context_->gl(), white ? patch_->white : patch_->black, picture_, patch_->place.origin_px,
+        blit(context_->gl(), white ? patch_->white : patch_->black, picture_, {0, 0}, patch_->place.origin_px,
              patch_->place.size_px);
 }
 
 /// They stand on the background, and so on every screen and beside every frame.
 void PagePresenter::put_tags() {
-    for (const TagPlace& tag : gaze_tags_of(geometry_, display_)) {
+    for (const TagPlace& tag : gaze_tags_of(geometry_, display_, slots_px_)) {
         LinearImage picture(tag.size_px);
         const int module_px = tag.size_px.x / tag_modules;
         for (int y = 0; y < tag.size_px.y; ++y) {
@@ -173,7 +225,7 @@ Framebuffer PagePresenter::encoded(const LinearImage& picture, glm::ivec2 origin
 
 void PagePresenter::put_on(const Framebuffer& target, const LinearImage& picture, glm::ivec2 origin) {
     const ScreenPatch patch = encoder_.patch_of(origin, picture.size_px);
-    blit(context_->gl(), encoded(picture, origin), target, patch.origin_px, patch.size_px);
+    blit(context_->gl(), encoded(picture, origin), target, {0, 0}, patch.origin_px, patch.size_px);
 }
 
 FlipReport PagePresenter::show(const Screen& screen) {
@@ -200,21 +252,27 @@ void PagePresenter::show_level(const LevelBar& bar) {
     present();
 }
 
-FlipReport PagePresenter::flip(AnimationFrameIndex frame) noexcept {
-    OVERT_EXPECTS(loaded_ && frame.value >= 0 &&
-                  static_cast<std::size_t>(frame.value) < loaded_->page_of_frame.size());
-    const bool is_onset = page_on_canvas_ < 0;
+FlipReport PagePresenter::flip_slots(std::span<const AnimationFrameIndex> frames) noexcept {
+    OVERT_EXPECTS(loaded_ && frames.size() == in_slots_.size());
+    const bool is_onset = !is_stimulus_on_canvas_;
     if (is_onset && display_.onset_trigger != 0) {
         if (has_t_lock(display_.output))
             send_with_next_flip(t_lock::outputs_row, onset_packet_);
         else
             outputs_ = display_.onset_trigger;
     }
-    put_page(loaded_->page_of_frame[static_cast<std::size_t>(frame.value)]);
-    if (is_onset || frame.value != frame_on_canvas_) {
+    bool is_new_frame = is_onset;
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        InSlot& slot = in_slots_[i];
+        const int frame = frames[i].value;
+        OVERT_EXPECTS(frame < static_cast<int>(loaded_->page_of_frame[slot.stimulus].size()));
+        put_page(slot, frame < 0 ? -1 : loaded_->page_of(slot.stimulus, frame));
+        is_new_frame = is_new_frame || frame != slot.frame_on_canvas;
+        slot.frame_on_canvas = frame;
+    }
+    if (is_new_frame) {
         patch_is_white_ = is_onset || !patch_is_white_;
         put_patch(patch_is_white_);
-        frame_on_canvas_ = frame.value;
     }
     return present();
 }
@@ -262,7 +320,7 @@ void PagePresenter::put_row(int row, int first_px, std::span<const SignalPixel> 
 void PagePresenter::put_messages() noexcept {
     const int rows = reserved_rows(display_.output);
     if (rows_are_dirty_) {
-        blit(context_->gl(), background_, picture_, {0, 0}, {geometry_.screen_px.x, rows});
+        blit(context_->gl(), background_, picture_, {0, 0}, {0, 0}, {geometry_.screen_px.x, rows});
         rows_are_dirty_ = false;
     }
     if (has_colour_table(display_.output))
@@ -292,9 +350,9 @@ std::vector<std::byte> PagePresenter::read_canvas() const {
 std::vector<std::byte> PagePresenter::read_page(int page) {
     OVERT_EXPECTS(loaded_ && page >= 0 && page < loaded_->pages);
     // Alone on the background, without the square for a photodiode.
-    if (patch_)
-        page_on_canvas_ = -1;
-    put_page(page);
+    if (patch_ || in_slots_.size() > 1)
+        is_stimulus_on_canvas_ = false;
+    put_page(in_slots_.front(), page);
     compose();
     put_messages();
     return read_canvas();

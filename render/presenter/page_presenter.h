@@ -23,18 +23,20 @@ inline constexpr std::string_view interrupted_reason = "interrupted by a signal"
 
 class PagePresenter final : public Presenter {
   public:
-    /// All references must outlive the presenter. Throws GraphicsError, also if the display's framebuffer has
-    /// other bits per channel than the output mode sends.
+    /// All references must outlive the presenter. `slots_px`: the top left pixel of each slot's image, all in
+    /// even or all in odd columns; none: there is one, where `geometry` has the image. Throws GraphicsError,
+    /// also if the display's framebuffer has other bits per channel than the output mode sends.
     PagePresenter(const GlContext& context, DisplaySurface& surface, const FrameSource& frames,
-                  const ScreenGeometry& geometry, const DisplaySettings& display, ScreenSettings screens);
+                  const ScreenGeometry& geometry, const DisplaySettings& display, ScreenSettings screens,
+                  std::vector<glm::ivec2> slots_px = {});
 
     DisplayTiming timing() const override { return surface_->timing(); }
-    void load_frames(const Stimulus& stimulus) override;
-    void expect_frames(const Stimulus& stimulus) noexcept override { store_.expect(stimulus); }
+    void load_slots(std::span<const PlacedStimulus> shown) override;
+    void expect_slots(std::span<const PlacedStimulus> shown) noexcept override;
     void use_spare_time() noexcept override { store_.use_spare_time(); }
     FlipReport show(const Screen& screen) override;
     void show_level(const LevelBar& bar) override;
-    FlipReport flip(AnimationFrameIndex frame) noexcept override;
+    FlipReport flip_slots(std::span<const AnimationFrameIndex> frames) noexcept override;
     void raise_with_next_flip(std::uint16_t outputs, double pulse_ms) noexcept override {
         if (has_t_lock(display_.output))
             send_with_next_flip(t_lock::outputs_row, t_lock::pulse(outputs, 0.0, pulse_ms));
@@ -57,10 +59,11 @@ class PagePresenter final : public Presenter {
     /// four to a pixel, red first, or words of ten bits per channel in native_10bit.
     std::vector<std::byte> read_canvas() const;
 
-    /// Draws a page of the loaded stimulus as flip() does, without showing it, and reads it.
+    /// Draws a page of what is loaded, in the place of the first, as flip() does, without showing it, and
+    /// reads it.
     std::vector<std::byte> read_page(int page);
 
-    /// Pages of the loaded stimulus.
+    /// Pages of all that is loaded.
     int pages() const { return loaded_ ? loaded_->pages : 0; }
 
   private:
@@ -68,7 +71,15 @@ class PagePresenter final : public Presenter {
     const Framebuffer& canvas() const { return signal_ ? *signal_ : picture_; }
     void check_depth() const;
     void clear_picture() noexcept;
-    void put_page(int page) noexcept;
+    /// A loaded stimulus in its slot.
+    struct InSlot {
+        std::size_t stimulus = 0; ///< of the stored ones
+        glm::ivec2 patch_px{0};   ///< top left pixel of what its pages cover
+        int page_on_canvas = -1;  ///< -1: the background, or another screen
+        int frame_on_canvas = -1;
+    };
+    void put_page(InSlot& slot, int page) noexcept;
+    void check_place(glm::ivec2 slot_px) const;
     void put_tags();
     /// A picture at a place of the screen, and what its encoding changes around it.
     Framebuffer encoded(const LinearImage& picture, glm::ivec2 origin) const;
@@ -95,8 +106,11 @@ class PagePresenter final : public Presenter {
     std::optional<Framebuffer> veil_;
     FrameStore store_;
     Framebuffer page_target_;
-    const StoredStimulus* loaded_ = nullptr; ///< null: nothing
-    int page_on_canvas_ = -1;                ///< -1: another screen
+    std::vector<glm::ivec2> slots_px_;
+    const StoredStimuli* loaded_ = nullptr; ///< null: nothing
+    std::vector<PlacedStimulus> shown_;     ///< what is loaded
+    std::vector<InSlot> in_slots_;          ///< the same
+    bool is_stimulus_on_canvas_ = false;    ///< else another screen
     // Messages to the display.
     struct Message {
         int row;
@@ -114,7 +128,6 @@ class PagePresenter final : public Presenter {
     };
     std::optional<Patch> patch_;
     bool patch_is_white_ = false;
-    int frame_on_canvas_ = -1;
     std::int64_t refreshes_ = 0; ///< presented so far
     const std::atomic<bool>* interrupted_ = nullptr;
 };

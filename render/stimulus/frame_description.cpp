@@ -41,20 +41,23 @@ std::string text_of(const MaterialSettings& material) {
 
 } // namespace
 
-ImageAttributes describe_stimulus(const Protocol& protocol, const Object& object,
-                                  const MaterialSettings& material, Degrees angle) {
-    const Camera& camera = object.scene.view.camera;
+ImageAttributes describe_stimulus(const Protocol& protocol, std::span<const Object> objects,
+                                  const Stimulus& stimulus, const Pose& pose) {
+    const Object& object = objects[static_cast<std::size_t>(stimulus.object)];
+    const MaterialSettings& material = protocol.material_of(stimulus);
+    const LightSettings& light = protocol.light_of(stimulus);
+    const Camera& camera = object.scene(stimulus.view).view.camera;
     return {{"overt:protocol", protocol.name},
             {"overt:object", object.id},
             {"overt:mesh_sha256", object.mesh_hash},
             {"overt:material", material.id},
             {"overt:material_settings", text_of(material)},
-            {"overt:angle_deg", fmt::format("{}", angle.value)},
+            {"overt:angle_deg", fmt::format("{}", pose.object.value)},
             {"overt:camera_position", text_of(camera.position)},
             {"overt:camera_target", text_of(camera.target)},
             {"overt:camera_vertical_fov_deg", fmt::format("{}", camera.vertical_fov.value)},
-            {"overt:light", protocol.light.probe},
-            {"overt:light_rotation_deg", fmt::format("{}", protocol.light.rotation_deg)}};
+            {"overt:light", light.probe},
+            {"overt:light_rotation_deg", fmt::format("{}", light.rotation_deg + pose.light.value)}};
 }
 
 ImageAttributes describe_tracing(const FrameQuality& quality, const Protocol& protocol,

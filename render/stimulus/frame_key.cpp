@@ -1,11 +1,27 @@
 #include "render/stimulus/frame_key.h"
 
-#include "experiment/scene/metal_table.h"
+#include "experiment/spectra/metal_table.h"
 #include "render/bake/frame_baker.h"
 #include "render/image/gallery_probe.h"
 #include "render/stimulus/stimulus_renderer.h"
 
 namespace overt {
+
+namespace {
+
+struct ConvertsToAll {
+    template <class T> operator T() const;
+};
+
+/// How many values a struct is made of; its base counts as one. Structs with a base cannot be taken apart.
+template <class Whole, class... Values> constexpr int value_count() {
+    if constexpr (requires { Whole{Values{}..., ConvertsToAll{}}; })
+        return value_count<Whole, Values..., ConvertsToAll>();
+    else
+        return static_cast<int>(sizeof...(Values));
+}
+
+} // namespace
 
 void add_to(ContentHasher& hasher, const SceneView& scene) {
     // The bounds are the mesh's.
@@ -17,16 +33,16 @@ void add_to(ContentHasher& hasher, const SceneView& scene) {
 }
 
 void add_to(ContentHasher& hasher, const MaterialSettings& material) {
-    const auto& [id, title, kind, metal, roughness, coat_ior, coat_absorbance, coat_thickness, coat_bump,
-                 coat_bump_width, coat_seed, reflectance] = material;
-    hasher.add(static_cast<int>(kind))
-        .add(std::string_view(is_metal_file(metal) ? hash_of_file(metal) : metal));
-    for (const double number : {roughness, coat_ior, coat_thickness, coat_bump, coat_bump_width})
+    static_assert(value_count<MaterialSettings>() == 11, "what was added counts here, or is of no light");
+    const MaterialSettings& m = material;
+    hasher.add(static_cast<int>(m.kind))
+        .add(std::string_view(is_metal_file(m.metal) ? hash_of_file(m.metal) : m.metal));
+    for (const double number : {m.roughness, m.coat_ior, m.coat_thickness, m.coat_bump, m.coat_bump_width})
         hasher.add(number);
-    for (const double number : coat_absorbance)
+    for (const double number : m.coat_absorbance)
         hasher.add(number);
-    hasher.add(coat_seed);
-    for (const double number : reflectance)
+    hasher.add(m.coat_seed);
+    for (const double number : m.reflectance)
         hasher.add(number);
 }
 
@@ -36,48 +52,55 @@ void add_to(ContentHasher& hasher, const BakeSettings& settings) {
     hasher.add(pixel_step).add(seed);
 }
 
-ContentHash hash_of_surroundings(const LightSettings& light) {
-    const auto& [probe, exposure, rotation_deg] = light;
+Surroundings::Surroundings(const LightSettings& settings)
+    : light(settings), content(settings.is_file() ? hash_of_file(settings.probe) : settings.probe) {}
+
+ContentHash hash_of_surroundings(const Surroundings& surroundings, Degrees turn) {
+    const LightSettings& light = surroundings.light;
+    static_assert(value_count<LightSettings>() == 4, "what was added counts here, or is the exposure");
     ContentHasher hasher;
-    hasher.add(std::string_view(light.is_file() ? hash_of_file(probe) : probe)).add(rotation_deg);
+    hasher.add(std::string_view(surroundings.content)).add(light.rotation_deg + turn.value);
     // The overcast sky is as it always was, and no path is aimed in it.
-    if (probe == "gallery")
+    if (light.probe == "gallery")
         hasher.add(gallery_probe_version);
-    if (probe != "overcast")
+    if (light.probe != "overcast")
         hasher.add(aimed_paths_version);
     if (light.is_file())
         hasher.add(probe_file_version);
     return hasher.finish();
 }
 
-ContentHash traced_key(const Object& object, const MaterialSettings& material,
+ContentHash traced_key(const Object& object, int view, const MaterialSettings& material,
                        const ContentHash& surroundings, double exposure, const BakeSettings& settings,
                        StandardObserver observer) {
     ContentHasher hasher;
     // The silhouette follows the maps.
     hasher.add(std::string_view("traced")).add(frame_baker_version).add(coordinate_pass_version);
     hasher.add(std::string_view(object.mesh_hash)).add(std::string_view(surroundings));
-    add_to(hasher, object.scene);
+    add_to(hasher, object.scene(view));
     add_to(hasher, material);
     add_to(hasher, settings);
     hasher.add(settings.target_error_de > 0.0 ? exposure : 0.0).add(static_cast<int>(observer));
     return hasher.finish();
 }
 
-ContentHash live_key(const Object& object, const MaterialSettings& material, const ContentHash& surroundings,
-                     double exposure) {
+ContentHash live_key(const Object& object, int view, const MaterialSettings& material,
+                     const ContentHash& surroundings, Degrees turn, double exposure) {
     ContentHasher hasher;
     hasher.add(std::string_view("live")).add(stimulus_renderer_version);
     hasher.add(std::string_view(object.mesh_hash)).add(std::string_view(surroundings)).add(exposure);
-    add_to(hasher, object.scene);
+    add_to(hasher, object.scene(view));
     add_to(hasher, material);
+    // The same pictures as ever where the light does not move.
+    if (turn.value != 0.0)
+        hasher.add(turn.value);
     return hasher.finish();
 }
 
-ContentHash map_key(const Object& object) {
+ContentHash map_key(const Object& object, int view) {
     ContentHasher hasher;
     hasher.add(std::string_view(object.mesh_hash)).add(coordinate_pass_version);
-    add_to(hasher, object.scene);
+    add_to(hasher, object.scene(view));
     return hasher.finish();
 }
 

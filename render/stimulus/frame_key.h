@@ -16,21 +16,31 @@ void add_to(ContentHasher& hasher, const SceneView& scene);
 void add_to(ContentHasher& hasher, const MaterialSettings& material);
 void add_to(ContentHasher& hasher, const BakeSettings& settings);
 
-/// Of the surroundings themselves, without the exposure. Throws InputError if the probe's file cannot be
-/// read.
-ContentHash hash_of_surroundings(const LightSettings& light);
+/// What a light's pictures are told apart by; its file is read once.
+struct Surroundings {
+    explicit Surroundings(const LightSettings& light);
 
-/// Of a path-traced stimulus, but for the angle. The exposure is not in it, and frames have none: they are
-/// the same for all exposures and displays; unless errors are judged, for which it counts.
-ContentHash traced_key(const Object& object, const MaterialSettings& material,
+    LightSettings light;
+    ContentHash content; ///< of the probe's file; its name if the program makes it
+};
+
+/// Of the surroundings themselves, turned by so much from where their settings have them, without the
+/// exposure. Throws InputError if the probe's file cannot be read.
+ContentHash hash_of_surroundings(const Surroundings& surroundings, Degrees turn);
+
+/// Of a path-traced stimulus in a view, but for the object's angle. The exposure is not in it, and frames
+/// have none: they are the same for all exposures and displays; unless errors are judged, for which it
+/// counts.
+ContentHash traced_key(const Object& object, int view, const MaterialSettings& material,
                        const ContentHash& surroundings, double exposure, const BakeSettings& settings,
                        StandardObserver observer);
 
-/// Of a stimulus that OpenGL draws, likewise. The exposure is in its frames.
-ContentHash live_key(const Object& object, const MaterialSettings& material, const ContentHash& surroundings,
-                     double exposure);
+/// Of a stimulus that OpenGL draws under unturned surroundings, which it turns itself, likewise. The exposure
+/// is in its frames.
+ContentHash live_key(const Object& object, int view, const MaterialSettings& material,
+                     const ContentHash& surroundings, Degrees turn, double exposure);
 
-/// Of the maps of an object.
-ContentHash map_key(const Object& object);
+/// Of the maps of an object in a view, but for the angle. No light is in it.
+ContentHash map_key(const Object& object, int view);
 
 } // namespace overt

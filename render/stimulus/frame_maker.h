@@ -16,32 +16,33 @@ class FrameMaker {
     FrameMaker(const GlContext& context, const StimulusCache& cache, MapMaker& maps)
         : context_(&context), cache_(&cache), maps_(&maps) {}
 
-    /// Makes the frames of these stimuli that the cache lacks, of all poses or of one, and puts them there.
-    /// Throws InputError, GraphicsError, RecordError.
+    /// Makes the frames of these stimuli that the cache lacks, of all pictures or of one, and puts them
+    /// there. Throws InputError, GraphicsError, RecordError.
     void make_frames(std::span<const Stimulus> stimuli, const FrameQuality& quality, const Progress& progress,
-                     std::optional<PoseIndex> only = {});
+                     std::optional<Pose> only = {});
 
     /// Traces one frame on all processors (see bake_frame()), drawing its map before if the cache lacks it;
     /// the cache does not get it. Not complete if `progress` stopped it. What a stimulus needs is built when
     /// it comes up and kept until another does. Throws InputError, GraphicsError.
-    SpectralFrame trace(const Stimulus& stimulus, PoseIndex pose, const FrameQuality& quality,
+    SpectralFrame trace(const Stimulus& stimulus, const Pose& pose, const FrameQuality& quality,
                         const BakeProgress& progress);
 
   private:
-    std::vector<PoseIndex> missing_frames(const Stimulus& stimulus, const FrameQuality& quality,
-                                          std::optional<PoseIndex> only) const;
-    void draw_live_frame(const Stimulus& stimulus, PoseIndex pose, const FrameQuality& quality,
+    std::vector<Pose> missing_frames(const Stimulus& stimulus, const FrameQuality& quality,
+                                     const std::optional<Pose>& only) const;
+    void draw_live_frame(const Stimulus& stimulus, const Pose& pose, const FrameQuality& quality,
                          std::future<void>& writing);
 
     const GlContext* context_;
     const StimulusCache* cache_;
     MapMaker* maps_;
-    // What is traced, and its light.
+    // What is traced, and its light: the memory of one at a time.
     std::optional<SpectralLight> light_;
+    int light_of_ = -1;
     std::optional<BakeScene> scene_;
-    Stimulus scene_of_;
+    int scene_object_ = -1, scene_material_ = -1;
     std::optional<StimulusRenderer> renderer_;
-    int live_material_ = -1; ///< that the renderer is prepared for
+    int live_light_ = -1, live_material_ = -1; ///< that the renderer is prepared for
 };
 
 } // namespace overt

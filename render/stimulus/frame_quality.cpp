@@ -41,7 +41,8 @@ BakeSettings bake_settings(const FrameQuality& quality, const BakingSettings& ba
 
 double expected_cost(const FrameQuality& quality, const Protocol& protocol, MaterialKind material) {
     const BakeSettings settings = bake_settings(quality, protocol.bake, material);
-    const double pixels = static_cast<double>(protocol.view.width_px) * protocol.view.height_px;
+    const double pixels =
+        static_cast<double>(protocol.views.front().width_px) * protocol.views.front().height_px;
     const double paths = settings.samples / static_cast<double>(settings.pixel_step * settings.pixel_step);
     return pixels * (paths * model_of(material).path_cost + writing_cost);
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <numeric>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -30,7 +32,7 @@ MapDescription known_of(const ObjectSettings& settings) {
 
 /// Where the protocol says that the camera stands; nothing if it leaves that open.
 std::optional<Camera> camera_of(const Protocol& protocol, const std::optional<Bounds>& bounds) {
-    const ViewSettings& view = protocol.view;
+    const ViewSettings& view = protocol.views.front();
     if (!view.camera_position || !view.vertical_fov_deg || !(view.camera_target || bounds))
         return std::nullopt;
     return Camera{*view.camera_position,
@@ -38,34 +40,40 @@ std::optional<Camera> camera_of(const Protocol& protocol, const std::optional<Bo
                   {*view.vertical_fov_deg}};
 }
 
-void label_head(CoordinateImage& image, const PartRegion& head) {
+/// Parts as map_part_names() has them.
+void label_areas(CoordinateImage& image, std::span<const PartRegion> areas) {
     image.parts.assign(image.pixels.size(), PartIndex{0});
     for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-        if (image.pixels[i].w != 0.0f && head.contains(glm::dvec3(image.pixels[i])))
-            image.parts[i] = PartIndex{1};
+        if (image.pixels[i].w == 0.0f)
+            continue;
+        unsigned part = 0;
+        for (std::size_t area = 0; area < areas.size(); ++area)
+            part |= areas[area].contains(glm::dvec3(image.pixels[i])) ? 1u << area : 0u;
+        image.parts[i] = static_cast<PartIndex>(part);
     }
 }
 
 } // namespace
 
 AnimationFrameIndex first_frame_of(const PoseTable& poses, PoseIndex pose) {
-    const auto found = std::find(poses.of_frame.begin(), poses.of_frame.end(), pose);
-    OVERT_EXPECTS(found != poses.of_frame.end());
-    return {static_cast<int>(found - poses.of_frame.begin())};
+    const std::span<const PoseIndex> frames = poses.frames_of(0);
+    const auto found = std::ranges::find(frames, pose);
+    OVERT_EXPECTS(found != frames.end());
+    return {static_cast<int>(found - frames.begin())};
 }
 
 CoordinateImageFile read_given_map(const Protocol& protocol, int object, AnimationFrameIndex frame) {
     const ObjectSettings& settings = protocol.objects[static_cast<std::size_t>(object)];
     const std::filesystem::path file = lut_file(settings, frame);
     CoordinateImageFile map = read_coordinate_image(file, known_of(settings));
-    const glm::ivec2 wanted(protocol.view.width_px, protocol.view.height_px);
+    const glm::ivec2 wanted(protocol.views.front().width_px, protocol.views.front().height_px);
     if (map.image.size_px != wanted) {
         throw InputError(
             fmt::format("{}: is a map of {} x {} pixels, but [view] asks for {} x {}: a map has the size of "
                         "its frame, and is never resized",
                         file.string(), map.image.size_px.x, map.image.size_px.y, wanted.x, wanted.y));
     }
-    const Degrees angle = protocol.animation.angle_of(frame);
+    const Degrees angle = protocol.motions.front().angle_of(frame);
     MapDescription& description = map.description;
     if (description.angle && std::abs(description.angle->value - angle.value) > same_angle_deg) {
         throw InputError(fmt::format("{}: was made of the object turned by {} degrees, but frame {} shows it "
@@ -77,8 +85,8 @@ CoordinateImageFile read_given_map(const Protocol& protocol, int object, Animati
     description.frame = frame.value;
     if (!description.camera)
         description.camera = camera_of(protocol, description.bounds);
-    if (const auto head = head_region(settings))
-        label_head(map.image, *head);
+    if (!settings.areas.empty())
+        label_areas(map.image, area_regions(settings));
     return map;
 }
 
@@ -97,30 +105,35 @@ ContentHash hash_of_given_map(const Protocol& protocol, int object, AnimationFra
     };
     add(settings.lut_min);
     add(settings.lut_max);
-    add(protocol.view.camera_position);
-    add(protocol.view.camera_target);
-    hasher.add(protocol.view.vertical_fov_deg.value_or(0.0)).add(protocol.animation.angle_of(frame).value);
-    hasher.add(settings.head_spheres).add(settings.head_planes).add(std::string_view(settings.id));
+    add(protocol.views.front().camera_position);
+    add(protocol.views.front().camera_target);
+    hasher.add(protocol.views.front().vertical_fov_deg.value_or(0.0))
+        .add(protocol.motions.front().angle_of(frame).value);
+    for (const AreaSettings& area : settings.areas)
+        hasher.add(std::string_view(area.name)).add(area.spheres).add(area.boxes).add(area.planes);
+    hasher.add(std::string_view(settings.id));
     return hasher.finish();
 }
 
 std::vector<std::string> check_given_maps(const Protocol& protocol, int object) {
-    const PoseTable poses = distinct_poses(protocol.animation);
+    const PoseTable poses = distinct_poses(protocol.motions.front());
     std::atomic<int> mixed_maps{0}, unknown_cameras{0};
-    std::atomic<bool> head_seen{false};
+    std::atomic<unsigned> seen{0}; ///< areas, a bit each
     parallel_for(static_cast<int>(poses.angles.size()), [&](int pose) {
         const CoordinateImageFile map =
             read_given_map(protocol, object, first_frame_of(poses, PoseIndex{pose}));
         mixed_maps += map.mixed_px > 0;
         unknown_cameras += !map.description.camera || !map.description.bounds;
-        if (std::find(map.image.parts.begin(), map.image.parts.end(), PartIndex{1}) != map.image.parts.end())
-            head_seen = true;
+        seen |= std::accumulate(map.image.parts.begin(), map.image.parts.end(), 0u,
+                                [](unsigned areas, PartIndex part) { return areas | part; });
     });
     const ObjectSettings& settings = protocol.objects[static_cast<std::size_t>(object)];
-    if (head_region(settings) && !head_seen) {
-        throw InputError(fmt::format("object \"{}\": no pixel of its maps lies in the head that is "
-                                     "described; its coordinates must be those of the maps",
-                                     settings.id));
+    for (std::size_t area = 0; area < settings.areas.size(); ++area) {
+        if (!(seen >> area & 1u))
+            throw InputError(
+                fmt::format("object \"{}\": no pixel of its maps lies in its area \"{}\"; the area's "
+                            "coordinates must be those of the maps",
+                            settings.id, settings.areas[area].name));
     }
     std::vector<std::string> remarks;
     if (mixed_maps > 0) {

@@ -14,23 +14,29 @@ constexpr int reads_at_once = 4;
 LiveMaps::LiveMaps(const GlContext& context, std::span<const Object> objects, const PoseTable& poses,
                    glm::ivec2 image_px)
     : image_px_(image_px), pass_(context, image_px) {
-    for (const Object& object : objects) {
-        Figure& figure = figures_.emplace_back();
-        if (!object.has_mesh())
-            continue;
-        figure.buffers = std::make_unique<MeshBuffers>(context, object.mesh);
-        for (const Degrees angle : poses.angles)
-            figure.clip_from_object.push_back(clip_from_centred_object(object.scene, angle));
-        figure.states.assign(poses.angles.size(), State::missing);
-        figure.maps.resize(poses.angles.size());
+    for (std::size_t index = 0; index < objects.size(); ++index) {
+        const Object& object = objects[index];
+        views_ = object.scenes.size();
+        buffers_.push_back(object.has_mesh() ? std::make_unique<MeshBuffers>(context, object.mesh) : nullptr);
+        for (std::size_t view = 0; view < views_; ++view) {
+            Figure& figure = figures_.emplace_back();
+            figure.viewed = {static_cast<int>(index), static_cast<int>(view)};
+            if (!object.has_mesh())
+                continue;
+            figure.buffers = buffers_.back().get();
+            for (const Degrees angle : poses.angles)
+                figure.clip_from_object.push_back(clip_from_centred_object(object.scenes[view], angle));
+            figure.states.assign(poses.angles.size(), State::missing);
+            figure.maps.resize(poses.angles.size());
+        }
     }
     for (int i = 0; i < reads_at_once; ++i)
         reads_.push_back({std::make_unique<PixelReadback>(context, image_px, PixelFormat::r32ui)});
 }
 
 void LiveMaps::presentation_begins(const Trial& trial) noexcept {
-    current_ = trial.stimulus.object;
-    Figure& figure = figures_[static_cast<std::size_t>(current_)];
+    current_ = &figure_of(viewed(trial.stimulus));
+    Figure& figure = *current_;
     for (std::size_t pose = 0; pose < figure.states.size(); ++pose) {
         if (figure.states[pose] != State::missing)
             continue;
@@ -42,7 +48,7 @@ void LiveMaps::presentation_begins(const Trial& trial) noexcept {
 
 void LiveMaps::flipped(const FlipRecord& flip) noexcept {
     collect(false);
-    Figure& figure = figures_[static_cast<std::size_t>(current_)];
+    Figure& figure = *current_;
     const auto pose = static_cast<std::size_t>(flip.pose.value);
     if (!figure.buffers || figure.states[pose] != State::missing)
         return;
@@ -59,9 +65,9 @@ void LiveMaps::flipped(const FlipRecord& flip) noexcept {
 }
 
 void LiveMaps::collect(bool wait) noexcept {
-    if (current_ < 0)
+    if (!current_)
         return;
-    Figure& figure = figures_[static_cast<std::size_t>(current_)];
+    Figure& figure = *current_;
     for (Read& read : reads_) {
         if (!read.pixels->under_way())
             continue;
@@ -75,13 +81,11 @@ void LiveMaps::screen_shown(const Screen&, SessionTime) noexcept { collect(true)
 
 std::vector<LiveMap> LiveMaps::take_finished() {
     std::vector<LiveMap> finished;
-    for (std::size_t object = 0; object < figures_.size(); ++object) {
-        Figure& figure = figures_[object];
+    for (Figure& figure : figures_) {
         for (std::size_t pose = 0; pose < figure.states.size(); ++pose) {
             if (figure.states[pose] != State::done || figure.maps[pose].codes.empty())
                 continue;
-            finished.push_back(
-                {static_cast<int>(object), {static_cast<int>(pose)}, std::move(figure.maps[pose])});
+            finished.push_back({figure.viewed, {static_cast<int>(pose)}, std::move(figure.maps[pose])});
             figure.maps[pose] = {};
         }
     }

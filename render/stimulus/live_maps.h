@@ -16,7 +16,7 @@ namespace overt {
 
 /// A map that was made while its frame was shown.
 struct LiveMap {
-    int object = 0;
+    ViewedObject viewed;
     PoseIndex pose;
     TriangleMap map;
 };
@@ -35,13 +35,16 @@ class LiveMaps final : public PresentationListener {
     /// Ends a presentation: waits for what is still under way.
     void screen_shown(const Screen& screen, SessionTime onset) noexcept override;
 
-    /// The maps finished since the last call, to be written down. Each pose of an object comes once.
+    /// The maps finished since the last call, to be written down. Each pose of an object in a view comes
+    /// once.
     std::vector<LiveMap> take_finished();
 
   private:
     enum class State : std::uint8_t { missing, under_way, done };
+    /// An object in a view.
     struct Figure {
-        std::unique_ptr<MeshBuffers> buffers;    ///< null without a mesh
+        ViewedObject viewed;
+        const MeshBuffers* buffers = nullptr;    ///< null without a mesh
         std::vector<glm::mat4> clip_from_object; ///< by pose
         std::vector<State> states;               ///< by pose
         std::vector<TriangleMap> maps;           ///< by pose; memory only while the object is being mapped
@@ -51,12 +54,18 @@ class LiveMaps final : public PresentationListener {
         int pose = 0;
     };
     void collect(bool wait) noexcept;
+    Figure& figure_of(const ViewedObject& viewed) noexcept {
+        return figures_[static_cast<std::size_t>(viewed.object) * views_ +
+                        static_cast<std::size_t>(viewed.view)];
+    }
 
     glm::ivec2 image_px_;
     CoordinatePass pass_;
-    std::vector<Figure> figures_;
+    std::size_t views_ = 1;
+    std::vector<std::unique_ptr<MeshBuffers>> buffers_; ///< by object
+    std::vector<Figure> figures_;                       ///< by object, then by view
     std::vector<Read> reads_;
-    int current_ = -1; ///< object on the screen
+    Figure* current_ = nullptr; ///< on the screen
 };
 
 } // namespace overt

@@ -7,6 +7,7 @@
 
 #include "experiment/base/error.h"
 #include "experiment/colour/display_colour.h"
+#include "experiment/protocol/all_stimuli.h"
 #include "render/image/text_layout.h"
 
 namespace overt {
@@ -29,20 +30,21 @@ void put_over(LinearImage& picture, const LinearImage& text, float grey, glm::iv
 LiveView::LiveView(const GlContext& context, const Protocol& protocol, std::span<const Object> objects,
                    glm::ivec2 image_px)
     : context_(&context), protocol_(&protocol), objects_(objects), image_px_(image_px),
-      renderer_(context, protocol.light, image_px),
       label_grey_(protocol.display.background > 0.3 ? 0.0f : 0.6f) {}
 
 void LiveView::choose(const Stimulus& stimulus) {
     const Object& object = objects_[static_cast<std::size_t>(stimulus.object)];
-    const MaterialSettings& material = protocol_->materials[static_cast<std::size_t>(stimulus.material)];
     if (!object.has_mesh())
         throw InputError(fmt::format("object \"{}\" has no mesh to be turned", object.id));
     if (stimulus.object != stimulus_.object) {
         buffers_.reset();
         buffers_.emplace(*context_, object.mesh, openness_of_vertices(object.mesh));
     }
-    if (stimulus.material != stimulus_.material)
-        renderer_.set_material(material);
+    const bool is_lit_otherwise = stimulus.light != stimulus_.light;
+    if (is_lit_otherwise)
+        renderer_.emplace(*context_, protocol_->light_of(stimulus), image_px_);
+    if (is_lit_otherwise || stimulus.material != stimulus_.material)
+        renderer_->set_material(protocol_->material_of(stimulus));
     stimulus_ = stimulus;
     TextStyle style;
     style.line_height_px = std::max(12, image_px_.y / 36);
@@ -50,14 +52,15 @@ void LiveView::choose(const Stimulus& stimulus) {
     style.background = static_cast<float>(protocol_->display.background);
     style.grey = label_grey_;
     style.centred = false;
-    label_ = draw_text(fmt::format("Live preview, approximate: {}/{}", object.id, material.id), style);
+    label_ = draw_text("Live preview, approximate: " + stimulus_name(*protocol_, stimulus), style);
 }
 
-LinearImage LiveView::draw(const Orbit& orbit) {
+LinearImage LiveView::draw(const Orbit& orbit, Degrees light_turn) {
     OVERT_EXPECTS(buffers_.has_value());
-    SceneView scene = objects_[static_cast<std::size_t>(stimulus_.object)].scene;
+    SceneView scene = objects_[static_cast<std::size_t>(stimulus_.object)].scene(stimulus_.view);
     scene.view.image_px = image_px_;
-    LinearImage picture = renderer_.draw(*buffers_, seen_from(scene, orbit), Degrees{orbit.turn_deg});
+    LinearImage picture =
+        renderer_->draw(*buffers_, seen_from(scene, orbit), {Degrees{orbit.turn_deg}, light_turn});
     const glm::mat3 to_display = protocol_->display.characterisation
                                      ? glm::mat3(display_from_rec709(*protocol_->display.characterisation))
                                      : glm::mat3(1.0f);

@@ -1,6 +1,7 @@
 /// An object to be turned by hand: drawn by OpenGL as an approximation, and labelled as one.
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "experiment/scene/orbit.h"
@@ -13,24 +14,24 @@ namespace overt {
 class LiveView {
   public:
     /// `protocol` and `objects` must outlive the view; all objects that are looked at have a mesh.
-    /// Throws as StimulusRenderer does.
     LiveView(const GlContext& context, const Protocol& protocol, std::span<const Object> objects,
              glm::ivec2 image_px);
 
-    /// Throws InputError for an object without a mesh.
+    /// Throws InputError for an object without a mesh, and as StimulusRenderer does.
     void choose(const Stimulus& stimulus);
     const Stimulus& chosen() const { return stimulus_; }
 
-    /// Display light over the protocol's background, opaque, with a line of text that says what it is.
-    LinearImage draw(const Orbit& orbit);
+    /// Display light over the protocol's background, opaque, with a line of text that says what it is. The
+    /// light is turned by `light_turn` from where its settings have it.
+    LinearImage draw(const Orbit& orbit, Degrees light_turn = {});
 
   private:
     const GlContext* context_;
     const Protocol* protocol_;
     std::span<const Object> objects_;
     glm::ivec2 image_px_;
-    StimulusRenderer renderer_;
-    Stimulus stimulus_{-1, -1};
+    std::optional<StimulusRenderer> renderer_; ///< for the light
+    Stimulus stimulus_{-1, -1, -1, -1, -1};
     std::optional<MeshBuffers> buffers_;
     float label_grey_;
     LinearImage label_;

@@ -11,19 +11,18 @@ namespace overt {
 
 void MapMaker::prepare_given_maps(const Progress& progress) {
     const int count = static_cast<int>(cache_->poses().angles.size());
-    for (int object = 0; object < static_cast<int>(cache_->objects().size()); ++object) {
-        if (!cache_->has_given_maps(object))
+    for (const ViewedObject& viewed : all_viewed_objects(cache_->protocol())) {
+        if (!cache_->has_given_maps(viewed.object))
             continue;
-        const std::string what =
-            "reading the maps of " + cache_->objects()[static_cast<std::size_t>(object)].id;
+        const std::string what = "reading the maps of " + viewed_name(cache_->protocol(), viewed);
         if (progress)
             progress(what, 0, count, 0.0);
         parallel_for(count, [&](int pose) {
-            const std::filesystem::path file = cache_->map_file(object, {pose});
+            const std::filesystem::path file = cache_->map_file(viewed, {pose});
             if (std::filesystem::exists(file))
                 return;
-            const CoordinateImageFile map =
-                read_given_map(cache_->protocol(), object, first_frame_of(cache_->poses(), PoseIndex{pose}));
+            const CoordinateImageFile map = read_given_map(cache_->protocol(), viewed.object,
+                                                           first_frame_of(cache_->poses(), PoseIndex{pose}));
             std::filesystem::create_directories(file.parent_path());
             write_coordinate_exr(file, map.image, map.description);
         });
@@ -33,39 +32,39 @@ void MapMaker::prepare_given_maps(const Progress& progress) {
 }
 
 void MapMaker::prepare_maps(const Progress& progress) {
-    for (int object = 0; object < static_cast<int>(cache_->objects().size()); ++object) {
-        if (cache_->objects()[static_cast<std::size_t>(object)].has_mesh())
-            prepare_maps(object, progress);
+    for (const ViewedObject& viewed : all_viewed_objects(cache_->protocol())) {
+        if (cache_->objects()[static_cast<std::size_t>(viewed.object)].has_mesh())
+            prepare_maps(viewed, progress);
     }
 }
 
-void MapMaker::prepare_maps(int object, const Progress& progress) {
-    const std::string what = "mapping " + cache_->objects()[static_cast<std::size_t>(object)].id;
-    const int count = static_cast<int>(cache_->poses().angles.size());
+void MapMaker::prepare_maps(const ViewedObject& viewed, const Progress& progress) {
+    const std::string what = "mapping " + viewed_name(cache_->protocol(), viewed);
+    const int count = cache_->poses().count();
     bool drew = false;
     for (int pose = 0; pose < count; ++pose) {
-        if (progress && !std::filesystem::exists(cache_->map_file(object, {pose})))
+        if (progress && !std::filesystem::exists(cache_->map_file(viewed, {pose})))
             progress(what, pose, count, static_cast<double>(pose) / count);
-        drew = draw_missing_map(object, {pose}) || drew;
+        drew = draw_missing_map(viewed, {pose}) || drew;
     }
     if (drew && progress)
         progress(what, count, count, 1.0);
 }
 
-bool MapMaker::draw_missing_map(int object, PoseIndex pose) {
-    const std::filesystem::path file = cache_->map_file(object, pose);
+bool MapMaker::draw_missing_map(const ViewedObject& viewed, PoseIndex pose) {
+    const std::filesystem::path file = cache_->map_file(viewed, pose);
     if (std::filesystem::exists(file))
         return false;
-    const Object& figure = cache_->objects()[static_cast<std::size_t>(object)];
-    const Degrees angle = cache_->angle_of(pose);
+    const Object& figure = cache_->objects()[static_cast<std::size_t>(viewed.object)];
+    const Degrees angle = cache_->poses().angle_of(pose);
     std::filesystem::create_directories(file.parent_path());
-    const TriangleMap map = draw_map(object, pose);
+    const TriangleMap map = draw_map(viewed, pose);
     if (map.covered_pixels() == 0) {
         throw InputError(fmt::format(
-            "object \"{}\" is nowhere in the picture at {:.3g} degrees: correct the camera under [view]",
-            figure.id, angle.value));
+            "object \"{}\" is nowhere in the picture at {:.3g} degrees: correct the camera under {}",
+            figure.id, angle.value, section_of_view(cache_->protocol(), viewed.view)));
     }
-    const Camera& camera = figure.scene.view.camera;
+    const Camera& camera = figure.scene(viewed.view).view.camera;
     write_triangle_map(
         file, map,
         {{"mesh_sha256", figure.mesh_hash},
@@ -77,12 +76,12 @@ bool MapMaker::draw_missing_map(int object, PoseIndex pose) {
     return true;
 }
 
-TriangleMap MapMaker::draw_map(int object, PoseIndex pose) {
-    const SceneView& scene = cache_->objects()[static_cast<std::size_t>(object)].scene;
+TriangleMap MapMaker::draw_map(const ViewedObject& viewed, PoseIndex pose) {
+    const SceneView& scene = cache_->objects()[static_cast<std::size_t>(viewed.object)].scene(viewed.view);
     if (!coordinate_pass_)
         coordinate_pass_.emplace(*context_, scene.view.image_px);
     return {scene.view.image_px,
-            coordinate_pass_->draw(buffers_of(object, false), scene, cache_->angle_of(pose))};
+            coordinate_pass_->draw(buffers_of(viewed.object, false), scene, cache_->poses().angle_of(pose))};
 }
 
 const MeshBuffers& MapMaker::buffers_of(int object, bool for_light) {

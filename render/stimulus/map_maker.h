@@ -24,16 +24,16 @@ class MapMaker {
     /// read_given_map does.
     void prepare_given_maps(const Progress& progress);
 
-    /// Draws whatever maps the cache lacks, of all objects with a mesh, or of one. Throws InputError for
-    /// an object that is nowhere in the picture, GraphicsError, RecordError.
+    /// Draws whatever maps the cache lacks, of all objects with a mesh in all views, or of one. Throws
+    /// InputError for an object that is nowhere in the picture, GraphicsError, RecordError.
     void prepare_maps(const Progress& progress);
-    void prepare_maps(int object, const Progress& progress);
+    void prepare_maps(const ViewedObject& viewed, const Progress& progress);
 
     /// Draws a map that the cache lacks. Gives false if there was nothing to do. Throws likewise.
-    bool draw_missing_map(int object, PoseIndex pose);
+    bool draw_missing_map(const ViewedObject& viewed, PoseIndex pose);
 
     /// Draws one pose anew, past the cache: for a look and for measurements.
-    TriangleMap draw_map(int object, PoseIndex pose);
+    TriangleMap draw_map(const ViewedObject& viewed, PoseIndex pose);
 
     /// An object on the card, which holds one at a time; `for_light`: with what StimulusRenderer needs.
     const MeshBuffers& buffers_of(int object, bool for_light);

@@ -15,6 +15,7 @@ uniform sampler2D soft;          // irradiance / pi, for what the figure itself 
 uniform vec3 reflectance;        // at normal incidence (metals), or albedo
 uniform float lobe_radius;       // half-angle in radians over which the material gathers light
 uniform float exposure;
+uniform float light_turn;        // of the probe about the vertical, in whole turns
 uniform int is_diffuse;
 uniform int is_coated;
 uniform float coat_ior;
@@ -25,7 +26,7 @@ uniform float bump_scale;        // bumps per unit of length
 const float pi = 3.14159265358979;
 
 vec3 probe(sampler2D picture, vec3 direction) {
-    vec2 place = vec2(atan(direction.x, direction.y) / (2.0 * pi) + 0.5, acos(clamp(direction.z, -1.0, 1.0)) / pi);
+    vec2 place = vec2(atan(direction.x, direction.y) / (2.0 * pi) + 0.5 + light_turn, acos(clamp(direction.z, -1.0, 1.0)) / pi);
     return textureLod(picture, place, 0.0).rgb;
 }
 

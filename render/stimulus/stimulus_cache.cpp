@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -9,7 +10,6 @@
 #include "experiment/maps/coordinate_image_file.h"
 #include "render/signal/display_light.h"
 #include "render/stimulus/frame_description.h"
-#include "render/stimulus/frame_key.h"
 #include "render/stimulus/given_maps.h"
 #include "render/stimulus/observed_colours.h"
 
@@ -17,49 +17,71 @@ namespace overt {
 
 StimulusCache::StimulusCache(const Protocol& protocol, std::span<const Object> objects,
                              std::filesystem::path folder)
-    : protocol_(&protocol), objects_(objects), folder_(std::move(folder)),
-      poses_(distinct_poses(protocol.animation)), surroundings_(hash_of_surroundings(protocol.light)) {}
+    : protocol_(&protocol), objects_(objects), folder_(std::move(folder)), poses_(poses_of(protocol)) {
+    for (const Animation& motion : protocol.motions)
+        motions_.push_back(pictures_of_motion(motion));
+    for (const LightSettings& light : protocol.lights)
+        lights_.emplace_back(light);
+}
+
+StimulusCache::Pictures StimulusCache::pictures_of_motion(const Animation& motion) {
+    Pictures of{motion.pictures(), {}};
+    for (int frame = 0; frame < motion.frame_count; ++frame) {
+        const auto found = std::ranges::find_if(
+            of.pictures, [&](const Pose& pose) { return is_same_pose(pose, motion.pose_of({frame})); });
+        of.picture_of_frame.push_back(static_cast<int>(found - of.pictures.begin()));
+    }
+    return of;
+}
 
 std::vector<Stimulus> StimulusCache::rendered_stimuli() const {
-    std::vector<Stimulus> stimuli;
-    for (int object = 0; object < static_cast<int>(objects_.size()); ++object) {
-        for (int material = 0; material < static_cast<int>(protocol_->materials.size()); ++material) {
-            if (!is_ready_made({object, material}))
-                stimuli.push_back({object, material});
-        }
-    }
+    std::vector<Stimulus> stimuli = all_stimuli(*protocol_);
+    std::erase_if(stimuli, [&](const Stimulus& stimulus) { return is_ready_made(stimulus); });
     return stimuli;
 }
 
 std::vector<Stimulus> StimulusCache::stimuli_with_surface() const {
-    std::vector<Stimulus> stimuli;
-    for (int object = 0; object < static_cast<int>(objects_.size()); ++object) {
-        for (int material = 0; material < static_cast<int>(protocol_->materials.size()); ++material) {
-            if (objects_[static_cast<std::size_t>(object)].has_mesh() || has_given_maps(object))
-                stimuli.push_back({object, material});
-        }
-    }
+    std::vector<Stimulus> stimuli = all_stimuli(*protocol_);
+    std::erase_if(stimuli, [&](const Stimulus& stimulus) {
+        return !object_of(stimulus).has_mesh() && !has_given_maps(stimulus.object);
+    });
     return stimuli;
 }
 
 void StimulusCache::require_mesh(const Stimulus& stimulus) const {
     const Object& object = object_of(stimulus);
     if (!object.has_mesh()) {
-        throw InputError(fmt::format("{}, {}: there is neither a mesh to render nor [[frames]] to show",
-                                     protocol_->objects[static_cast<std::size_t>(stimulus.object)].id,
-                                     material_of(stimulus).id));
+        throw InputError(fmt::format("{}: there is neither a mesh to render nor [[frames]] to show",
+                                     stimulus_name(*protocol_, stimulus)));
     }
 }
 
-std::vector<PoseIndex> StimulusCache::missing_frames(const Stimulus& stimulus,
-                                                     const FrameQuality& quality) const {
-    std::vector<PoseIndex> missing;
-    const ContentHash key = frame_key(stimulus, quality);
-    for (int pose = 0; pose < static_cast<int>(poses_.angles.size()); ++pose) {
-        if (!std::filesystem::exists(file_of("frames", key, {pose})))
-            missing.push_back({pose});
+std::vector<Pose> StimulusCache::missing_frames(const Stimulus& stimulus, const FrameQuality& quality) const {
+    std::vector<Pose> missing;
+    ContentHash key;
+    std::optional<Degrees> key_of; // neighbours often share a turn of the light
+    for (const Pose& pose : pictures_of(stimulus)) {
+        if (key_of != pose.light) {
+            key = picture_key(stimulus, quality, pose.light);
+            key_of = pose.light;
+        }
+        if (!std::filesystem::exists(file_of("frames", key, pose.object)))
+            missing.push_back(pose);
     }
     return missing;
+}
+
+FrameCount StimulusCache::count_frames(std::span<const Stimulus> stimuli, const FrameQuality& quality) const {
+    std::set<std::filesystem::path> files;
+    FrameCount count;
+    for (const Stimulus& stimulus : stimuli) {
+        for (const Pose& pose : pictures_of(stimulus)) {
+            const auto [file, is_new] = files.insert(frame_file_of(stimulus, quality, pose));
+            count.all += is_new;
+            count.missing += is_new && !std::filesystem::exists(*file);
+        }
+    }
+    return count;
 }
 
 std::optional<FrameQuality> StimulusCache::best_quality(std::span<const Stimulus> stimuli,
@@ -82,37 +104,54 @@ std::optional<FrameQuality> StimulusCache::best_quality(std::span<const Stimulus
 }
 
 std::filesystem::path StimulusCache::frame_file_of(const Stimulus& stimulus, const FrameQuality& quality,
-                                                   PoseIndex pose) const {
-    return file_of("frames", frame_key(stimulus, quality), pose);
+                                                   const Pose& pose) const {
+    return file_of("frames", picture_key(stimulus, quality, pose.light), pose.object);
+}
+
+ContentHash StimulusCache::picture_key(const Stimulus& stimulus, const FrameQuality& quality,
+                                       Degrees light_turn) const {
+    const Object& object = object_of(stimulus);
+    const MaterialSettings& material = material_of(stimulus);
+    const Surroundings& surroundings = lights_[static_cast<std::size_t>(stimulus.light)];
+    const double exposure = surroundings.light.exposure;
+    if (quality.is_live())
+        return live_key(object, stimulus.view, material, hash_of_surroundings(surroundings, {}), light_turn,
+                        exposure);
+    return traced_key(object, stimulus.view, material, hash_of_surroundings(surroundings, light_turn),
+                      exposure, bake_settings(quality, protocol_->bake, material.kind),
+                      protocol_->bake.observer);
 }
 
 ContentHash StimulusCache::frame_key(const Stimulus& stimulus, const FrameQuality& quality) const {
-    const Object& object = object_of(stimulus);
-    const MaterialSettings& material = material_of(stimulus);
-    if (quality.is_live())
-        return live_key(object, material, surroundings_, protocol_->light.exposure);
-    return traced_key(object, material, surroundings_, protocol_->light.exposure,
-                      bake_settings(quality, protocol_->bake, material.kind), protocol_->bake.observer);
+    std::vector<Degrees> turns;
+    for (const Pose& pose : pictures_of(stimulus)) {
+        if (turns.empty() || turns.back() != pose.light)
+            turns.push_back(pose.light);
+    }
+    if (turns.size() == 1)
+        return picture_key(stimulus, quality, turns.front());
+    ContentHasher hasher;
+    for (const Degrees turn : turns)
+        hasher.add(std::string_view(picture_key(stimulus, quality, turn)));
+    return hasher.finish();
 }
 
-glm::dmat3 StimulusCache::display_from_frame(const FrameQuality& quality) const {
+glm::dmat3 StimulusCache::display_from_frame(const Stimulus& stimulus, const FrameQuality& quality) const {
     if (quality.is_live())
         return display_from(PictureColours::rec709, protocol_->display);
-    return protocol_->light.exposure *
+    return protocol_->light_of(stimulus).exposure *
            display_from(rendered_colours(protocol_->bake.observer), protocol_->display);
 }
 
-void StimulusCache::store(const Stimulus& stimulus, PoseIndex pose, const FrameQuality& quality,
+void StimulusCache::store(const Stimulus& stimulus, const Pose& pose, const FrameQuality& quality,
                           const SpectralFrame& frame) const {
     OVERT_EXPECTS(frame.is_complete);
     const std::filesystem::path file = frame_file_of(stimulus, quality, pose);
     std::filesystem::create_directories(file.parent_path());
-    const Degrees angle = angle_of(pose);
-    const MaterialSettings& material = material_of(stimulus);
-    ImageAttributes attributes = describe_stimulus(*protocol_, object_of(stimulus), material, angle);
-    for (auto& attribute : describe_tracing(quality, *protocol_, material.kind))
+    ImageAttributes attributes = describe_stimulus(*protocol_, objects_, stimulus, pose);
+    for (auto& attribute : describe_tracing(quality, *protocol_, material_of(stimulus).kind))
         attributes.push_back(std::move(attribute));
-    attributes.emplace_back("overt:key", frame_key(stimulus, quality));
+    attributes.emplace_back("overt:key", picture_key(stimulus, quality, pose.light));
     write_linear_exr(file, seen_by(protocol_->bake.observer, frame), attributes);
 }
 
@@ -120,19 +159,20 @@ bool StimulusCache::has_given_maps(int object) const {
     return !protocol_->objects[static_cast<std::size_t>(object)].lut.empty();
 }
 
-std::filesystem::path StimulusCache::map_file(int object, PoseIndex pose) const {
-    if (has_given_maps(object)) {
-        return file_of("given_maps", hash_of_given_map(*protocol_, object, first_frame_of(poses_, pose)),
-                       pose);
-    }
-    return file_of("maps", map_key(objects_[static_cast<std::size_t>(object)]), pose);
+std::filesystem::path StimulusCache::map_file(const ViewedObject& viewed, PoseIndex pose) const {
+    const Degrees turn = poses_.angle_of(pose);
+    if (has_given_maps(viewed.object))
+        return file_of("given_maps",
+                       hash_of_given_map(*protocol_, viewed.object, first_frame_of(poses_, pose)), turn);
+    return file_of("maps", map_key(objects_[static_cast<std::size_t>(viewed.object)], viewed.view), turn);
 }
 
-SceneView StimulusCache::scene_of_given_maps(int object) const {
+SceneView StimulusCache::scene_of_given_maps(const ViewedObject& viewed) const {
+    const ViewSettings& view = protocol_->views[static_cast<std::size_t>(viewed.view)];
     SceneView scene;
     scene.view.camera.vertical_fov.value = 0.0;
-    scene.view.image_px = {protocol_->view.width_px, protocol_->view.height_px};
-    const MapDescription first = read_map_description(map_file(object, {0}));
+    scene.view.image_px = {view.width_px, view.height_px};
+    const MapDescription first = read_map_description(map_file(viewed, {0}));
     if (first.camera)
         scene.view.camera = *first.camera;
     if (first.bounds) {
@@ -142,8 +182,8 @@ SceneView StimulusCache::scene_of_given_maps(int object) const {
     // Coordinates that need no box to be read: it is as large as what is seen.
     scene.bounds = {glm::dvec3(std::numeric_limits<double>::infinity()),
                     glm::dvec3(-std::numeric_limits<double>::infinity())};
-    for (int pose = 0; pose < static_cast<int>(poses_.angles.size()); ++pose) {
-        for (const glm::vec4& pixel : read_coordinate_image(map_file(object, {pose})).image.pixels) {
+    for (int pose = 0; pose < poses_.count(); ++pose) {
+        for (const glm::vec4& pixel : read_coordinate_image(map_file(viewed, {pose})).image.pixels) {
             if (pixel.w == 0.0f)
                 continue;
             scene.bounds.min = glm::min(scene.bounds.min, glm::dvec3(pixel));
@@ -153,18 +193,18 @@ SceneView StimulusCache::scene_of_given_maps(int object) const {
     return scene;
 }
 
-CoordinateMaps StimulusCache::maps_of(int object) const {
-    const Object& figure = objects_[static_cast<std::size_t>(object)];
+CoordinateMaps StimulusCache::maps_of(const ViewedObject& viewed) const {
+    const Object& figure = objects_[static_cast<std::size_t>(viewed.object)];
     OVERT_EXPECTS(figure.has_mesh());
     std::vector<TriangleMap> maps;
-    for (int pose = 0; pose < static_cast<int>(poses_.angles.size()); ++pose)
-        maps.push_back(read_triangle_map(map_file(object, {pose})));
-    return {figure.mesh, figure.scene, poses_.angles, std::move(maps)};
+    for (int pose = 0; pose < poses_.count(); ++pose)
+        maps.push_back(read_triangle_map(map_file(viewed, {pose})));
+    return {figure.mesh, figure.scene(viewed.view), poses_.angles, std::move(maps)};
 }
 
 std::filesystem::path StimulusCache::file_of(std::string_view kind, const ContentHash& hash,
-                                             PoseIndex pose) const {
-    return folder_ / kind / hash.substr(0, 24) / fmt::format("{:+010.5f}deg.exr", angle_of(pose).value);
+                                             Degrees turn) const {
+    return folder_ / kind / hash.substr(0, 24) / fmt::format("{:+010.5f}deg.exr", turn.value);
 }
 
 } // namespace overt

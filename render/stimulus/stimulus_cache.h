@@ -8,12 +8,19 @@
 
 #include "experiment/base/content_hash.h"
 #include "experiment/maps/coordinate_maps.h"
+#include "experiment/protocol/all_stimuli.h"
 #include "experiment/stimulus/object.h"
 #include "experiment/trial.h"
 #include "render/bake/spectral_frame.h"
+#include "render/stimulus/frame_key.h"
 #include "render/stimulus/frame_quality.h"
 
 namespace overt {
+
+/// How many frames there are to be had of some stimuli, each counted once.
+struct FrameCount {
+    int all = 0, missing = 0;
+};
 
 /// Knows where everything lies and what is there, and writes and reads it; makes nothing. From any thread.
 class StimulusCache {
@@ -29,14 +36,27 @@ class StimulusCache {
         return objects_[static_cast<std::size_t>(stimulus.object)];
     }
     const MaterialSettings& material_of(const Stimulus& stimulus) const {
-        return protocol_->materials[static_cast<std::size_t>(stimulus.material)];
+        return protocol_->material_of(stimulus);
     }
+    const SceneView& scene_of(const Stimulus& stimulus) const {
+        return object_of(stimulus).scene(stimulus.view);
+    }
+
+    /// The turns of the objects in all motions: what maps are of.
     const PoseTable& poses() const { return poses_; }
-    Degrees angle_of(PoseIndex pose) const { return poses_.angles[static_cast<std::size_t>(pose.value)]; }
+
+    /// The pictures that differ of a stimulus's motion, in order of first appearance.
+    std::span<const Pose> pictures_of(const Stimulus& stimulus) const {
+        return motions_[static_cast<std::size_t>(stimulus.motion)].pictures;
+    }
+    /// Which of them each animation frame shows.
+    std::span<const int> picture_of_frame(const Stimulus& stimulus) const {
+        return motions_[static_cast<std::size_t>(stimulus.motion)].picture_of_frame;
+    }
 
     /// The ready-made frames of a stimulus, or null if it is to be rendered.
     const FrameSequenceSettings* sequence_of(const Stimulus& stimulus) const {
-        return find_frames(*protocol_, stimulus.object, stimulus.material);
+        return find_frames(*protocol_, stimulus);
     }
     bool is_ready_made(const Stimulus& stimulus) const { return sequence_of(stimulus) != nullptr; }
 
@@ -49,8 +69,11 @@ class StimulusCache {
     /// Throws InputError if a stimulus has neither a mesh to render nor [[frames]].
     void require_mesh(const Stimulus& stimulus) const;
 
-    /// Poses of which there is no frame of that quality.
-    std::vector<PoseIndex> missing_frames(const Stimulus& stimulus, const FrameQuality& quality) const;
+    /// Pictures of which there is no frame of that quality. Stimuli may share some: those of two motions that
+    /// have poses in common.
+    std::vector<Pose> missing_frames(const Stimulus& stimulus, const FrameQuality& quality) const;
+
+    FrameCount count_frames(std::span<const Stimulus> stimuli, const FrameQuality& quality) const;
 
     /// The best quality of which every frame of these stimuli is there, if it is no less than `least`.
     std::optional<FrameQuality> best_quality(std::span<const Stimulus> stimuli, BakeQuality least) const;
@@ -58,23 +81,26 @@ class StimulusCache {
     /// A frame's file: linear light without exposure, in rendered_colours(). Live ones are in Rec. 709 and
     /// have the exposure.
     std::filesystem::path frame_file_of(const Stimulus& stimulus, const FrameQuality& quality,
-                                        PoseIndex pose) const;
+                                        const Pose& pose) const;
 
-    /// Everything that makes a stimulus's frames but the angle.
+    /// Everything that makes a stimulus's picture under a turn of its light, but the object's angle.
+    ContentHash picture_key(const Stimulus& stimulus, const FrameQuality& quality, Degrees light_turn) const;
+
+    /// Everything that makes a stimulus's frames but the object's angles.
     ContentHash frame_key(const Stimulus& stimulus, const FrameQuality& quality) const;
 
-    /// What turns a frame's file into the display's light; the exposure is in it.
-    glm::dmat3 display_from_frame(const FrameQuality& quality) const;
+    /// What turns a stimulus's frame file into the display's light; the exposure is in it.
+    glm::dmat3 display_from_frame(const Stimulus& stimulus, const FrameQuality& quality) const;
 
     /// Writes a traced frame, which must be complete. Throws RecordError.
-    void store(const Stimulus& stimulus, PoseIndex pose, const FrameQuality& quality,
+    void store(const Stimulus& stimulus, const Pose& pose, const FrameQuality& quality,
                const SpectralFrame& frame) const;
 
     /// The object has no mesh, but ready-made maps.
     bool has_given_maps(int object) const;
 
     /// A map's file; only for an object with a mesh, or ready-made maps.
-    std::filesystem::path map_file(int object, PoseIndex pose) const;
+    std::filesystem::path map_file(const ViewedObject& viewed, PoseIndex pose) const;
 
     /// Where the small pictures of the light of frames with this hash lie: see light_pictures.h.
     std::filesystem::path light_file(const ContentHash& frames) const {
@@ -88,19 +114,25 @@ class StimulusCache {
 
     /// The box of an object with ready-made maps, and where the camera stood: the field of view is 0 if the
     /// maps do not say. The maps must be there (MapMaker).
-    SceneView scene_of_given_maps(int object) const;
+    SceneView scene_of_given_maps(const ViewedObject& viewed) const;
 
-    /// All maps of an object with a mesh. They must be there.
-    CoordinateMaps maps_of(int object) const;
+    /// All maps of an object with a mesh in a view. They must be there.
+    CoordinateMaps maps_of(const ViewedObject& viewed) const;
 
   private:
-    std::filesystem::path file_of(std::string_view kind, const ContentHash& hash, PoseIndex pose) const;
+    struct Pictures {
+        std::vector<Pose> pictures;
+        std::vector<int> picture_of_frame;
+    };
+    static Pictures pictures_of_motion(const Animation& motion);
+    std::filesystem::path file_of(std::string_view kind, const ContentHash& hash, Degrees turn) const;
 
     const Protocol* protocol_;
     std::span<const Object> objects_;
     std::filesystem::path folder_;
     PoseTable poses_;
-    ContentHash surroundings_;
+    std::vector<Pictures> motions_;
+    std::vector<Surroundings> lights_;
 };
 
 } // namespace overt

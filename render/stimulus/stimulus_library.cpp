@@ -1,5 +1,8 @@
 #include "render/stimulus/stimulus_library.h"
 
+#include <algorithm>
+#include <numeric>
+
 #include <fmt/format.h>
 
 #include "experiment/base/error.h"
@@ -15,13 +18,25 @@ namespace overt {
 StimulusLibrary::StimulusLibrary(const GlContext& context, const Protocol& protocol,
                                  std::span<const Object> objects, std::filesystem::path cache)
     : protocol_(&protocol), cache_(protocol, objects, std::move(cache)), maps_(context, cache_),
-      frames_(context, cache_, maps_), qualities_(objects.size() * protocol.materials.size(),
-                                                  quality_of(protocol.bake.least(), protocol.bake)) {}
+      frames_(context, cache_, maps_) {
+    take_frames(quality_of(protocol.bake.least(), protocol.bake));
+}
+
+void StimulusLibrary::take_frames(const FrameQuality& quality) {
+    for (const Stimulus& stimulus : all_stimuli(*protocol_))
+        qualities_[stimulus] = quality;
+}
+
+glm::ivec2 StimulusLibrary::image_px(const Stimulus& stimulus) const {
+    const ViewSettings& view = protocol_->view_of(stimulus);
+    return {view.width_px, view.height_px};
+}
 
 void StimulusLibrary::prepare_frames(const Progress& progress, BakeQuality least) {
-    for (const FrameSequenceSettings& sequence : protocol_->frames)
-        check_frame_sizes(sequence, protocol_->animation.frame_count,
-                          {protocol_->view.width_px, protocol_->view.height_px});
+    for (const Stimulus& stimulus : all_stimuli(*protocol_)) {
+        if (const FrameSequenceSettings* sequence = cache_.sequence_of(stimulus))
+            check_frame_sizes(*sequence, protocol_->motion_of(stimulus).frame_count, image_px(stimulus));
+    }
     const std::vector<Stimulus> stimuli = cache_.rendered_stimuli();
     for (const Stimulus& stimulus : stimuli)
         cache_.require_mesh(stimulus);
@@ -31,15 +46,13 @@ void StimulusLibrary::prepare_frames(const Progress& progress, BakeQuality least
     }
     const FrameQuality quality = quality_of(least, protocol_->bake);
     if (least > BakeQuality::preview) {
-        std::size_t missing = 0;
-        for (const Stimulus& stimulus : stimuli)
-            missing += cache_.missing_frames(stimulus, quality).size();
+        const FrameCount count = cache_.count_frames(stimuli, quality);
         const std::string file = protocol_->file.string();
         throw InputError(
             fmt::format("{}: this session needs frames of {} quality, and {} of {} are not baked "
                         "yet: run `overt bake {}{}` first (`overt check` says how long it "
                         "takes), or, for a trial run, be content with --quality preview{}",
-                        file, describe(quality), missing, stimuli.size() * cache_.poses().angles.size(), file,
+                        file, describe(quality), count.missing, count.all, file,
                         least == BakeQuality::standard ? "" : fmt::format(" --quality {}", name_of(least)),
                         protocol_->bake.quality ? ""
                                                 : ". What people are shown at least is [bake] quality in the "
@@ -52,32 +65,31 @@ void StimulusLibrary::prepare_frames(const Progress& progress, BakeQuality least
 void StimulusLibrary::prepare_frames(const Stimulus& stimulus, const Progress& progress,
                                      std::optional<AnimationFrameIndex> only) {
     if (const FrameSequenceSettings* sequence = cache_.sequence_of(stimulus)) {
-        check_frame_sizes(*sequence, protocol_->animation.frame_count,
-                          {protocol_->view.width_px, protocol_->view.height_px});
+        check_frame_sizes(*sequence, protocol_->motion_of(stimulus).frame_count, image_px(stimulus));
         return;
     }
     cache_.require_mesh(stimulus);
     const std::span<const Stimulus> one(&stimulus, 1);
     const BakeQuality least = std::min(protocol_->bake.least(), BakeQuality::preview);
     if (const std::optional<FrameQuality> best = cache_.best_quality(one, least)) {
-        qualities_[index_of(stimulus)] = *best;
+        qualities_[stimulus] = *best;
         return;
     }
-    qualities_[index_of(stimulus)] = quality_of(least, protocol_->bake);
-    frames_.make_frames(one, qualities_[index_of(stimulus)], progress,
-                        only ? std::optional(cache_.poses().pose_of(*only)) : std::nullopt);
+    qualities_[stimulus] = quality_of(least, protocol_->bake);
+    frames_.make_frames(one, qualities_[stimulus], progress,
+                        only ? std::optional(protocol_->motion_of(stimulus).pose_of(*only)) : std::nullopt);
 }
 
 const FrameQuality& StimulusLibrary::quality_of_frames(const Stimulus& stimulus) const {
-    return qualities_[index_of(stimulus)];
+    return qualities_.at(stimulus);
 }
 
 std::vector<int> StimulusLibrary::page_of_frame(const Stimulus& stimulus) const {
-    std::vector<int> pages;
-    for (int frame = 0; frame < protocol_->animation.frame_count; ++frame) {
-        // Each ready-made frame is shown itself, even where two share a pose.
-        pages.push_back(cache_.is_ready_made(stimulus) ? frame : cache_.poses().pose_of({frame}).value);
-    }
+    const std::span<const int> picture_of = cache_.picture_of_frame(stimulus);
+    std::vector<int> pages(picture_of.begin(), picture_of.end());
+    // Each ready-made frame is shown itself, even where two share a pose.
+    if (cache_.is_ready_made(stimulus))
+        std::iota(pages.begin(), pages.end(), 0);
     return pages;
 }
 
@@ -104,17 +116,18 @@ const LinearImage& StimulusLibrary::read_page(const Stimulus& stimulus, int page
         transform(room, sequence->exposure * display_from(colours_of(*sequence), protocol_->display));
         return room;
     }
-    const FrameQuality& quality = qualities_[index_of(stimulus)];
-    read_linear_image(cache_.frame_file_of(stimulus, quality, {page}), FrameEncoding::linear,
+    const FrameQuality& quality = qualities_.at(stimulus);
+    const Pose& pose = cache_.pictures_of(stimulus)[static_cast<std::size_t>(page)];
+    read_linear_image(cache_.frame_file_of(stimulus, quality, pose), FrameEncoding::linear,
                       FileColours::as_they_stand, room);
-    transform(room, cache_.display_from_frame(quality));
+    transform(room, cache_.display_from_frame(stimulus, quality));
     return room;
 }
 
 std::string StimulusLibrary::source_of(const Stimulus& stimulus) const {
     if (const FrameSequenceSettings* sequence = cache_.sequence_of(stimulus))
         return "frames " + sequence->files;
-    const FrameQuality& quality = qualities_[index_of(stimulus)];
+    const FrameQuality& quality = qualities_.at(stimulus);
     if (quality.is_live())
         return "OpenGL preview";
     const BakeSettings settings = bake_settings(quality, protocol_->bake, cache_.material_of(stimulus).kind);
@@ -126,7 +139,7 @@ ContentHash StimulusLibrary::frames_hash(const Stimulus& stimulus) const {
     ContentHasher hasher;
     const auto& light = protocol_->display.characterisation;
     if (const FrameSequenceSettings* sequence = cache_.sequence_of(stimulus)) {
-        for (int frame = 0; frame < protocol_->animation.frame_count; ++frame) {
+        for (int frame = 0; frame < protocol_->motion_of(stimulus).frame_count; ++frame) {
             hasher.add(std::string_view(hash_of_file(frame_file(*sequence, {frame}))));
         }
         if (sequence->exposure != 1.0)
@@ -135,8 +148,8 @@ ContentHash StimulusLibrary::frames_hash(const Stimulus& stimulus) const {
             return hasher.finish();
         hasher.add(static_cast<int>(sequence->colour_space));
     } else {
-        hasher.add(std::string_view(cache_.frame_key(stimulus, qualities_[index_of(stimulus)])));
-        hasher.add(protocol_->light.exposure);
+        hasher.add(std::string_view(cache_.frame_key(stimulus, qualities_.at(stimulus))));
+        hasher.add(protocol_->light_of(stimulus).exposure);
     }
     if (light)
         hasher.add(std::string_view(light->sha256));
@@ -145,19 +158,20 @@ ContentHash StimulusLibrary::frames_hash(const Stimulus& stimulus) const {
 
 LightPictures StimulusLibrary::light_of(const Stimulus& stimulus) const {
     LightPictures light;
-    light.image_px = {protocol_->view.width_px, protocol_->view.height_px};
+    light.image_px = image_px(stimulus);
     light.square_px = light_square_px(light.image_px);
-    light.poses = static_cast<int>(cache_.poses().angles.size());
-    light.luminance.resize(light.squares() * static_cast<std::size_t>(light.poses));
+    light.pictures = static_cast<int>(cache_.pictures_of(stimulus).size());
+    light.luminance.resize(light.squares() * static_cast<std::size_t>(light.pictures));
     light.coverage.resize(light.luminance.size());
     const auto& measured = protocol_->display.characterisation;
     const glm::dvec3 shares = measured ? measured->luminance_shares() : glm::dvec3(0.2126, 0.7152, 0.0722);
     const std::vector<int> page_of = page_of_frame(stimulus);
-    parallel_for(light.poses, [&](int pose) {
-        const int frame = first_frame_of(cache_.poses(), {pose}).value;
+    const std::span<const int> picture_of = cache_.picture_of_frame(stimulus);
+    parallel_for(light.pictures, [&](int number) {
+        const auto frame = std::ranges::find(picture_of, number) - picture_of.begin();
         const LinearImage picture = page(stimulus, page_of[static_cast<std::size_t>(frame)]);
         const glm::ivec2 size = light.size();
-        const std::size_t begin = light.squares() * static_cast<std::size_t>(pose);
+        const std::size_t begin = light.squares() * static_cast<std::size_t>(number);
         std::vector<double> luminance(light.squares()), coverage(light.squares());
         std::vector<int> pixels(light.squares());
         for (int y = 0; y < picture.size_px.y; ++y) {
@@ -184,7 +198,12 @@ std::optional<std::filesystem::path> StimulusLibrary::light_file(const Stimulus&
     const FrameSequenceSettings* const sequence = cache_.sequence_of(stimulus);
     if (sequence && !has_alpha(frame_file(*sequence, {0})))
         return std::nullopt;
-    const std::filesystem::path file = cache_.light_file(frames_hash(stimulus));
+    // The angles are not in the frames' hash.
+    ContentHasher hasher;
+    hasher.add(std::string_view(frames_hash(stimulus)));
+    for (const Pose& pose : cache_.pictures_of(stimulus))
+        hasher.add(pose.object.value);
+    const std::filesystem::path file = cache_.light_file(hasher.finish());
     if (!std::filesystem::exists(file)) {
         if (!make)
             return std::nullopt;
@@ -199,7 +218,7 @@ std::filesystem::path StimulusLibrary::first_frame_file(const Stimulus& stimulus
     ContentHasher hasher;
     hasher.add(std::string_view(frames_hash(stimulus)));
     if (!cache_.is_ready_made(stimulus))
-        hasher.add(cache_.angle_of({first}).value);
+        hasher.add(cache_.pictures_of(stimulus).front().object.value);
     if (protocol_->display.background != 0.0)
         hasher.add(protocol_->display.background);
     std::filesystem::path file = cache_.first_frame_file(hasher.finish());
@@ -208,11 +227,6 @@ std::filesystem::path StimulusLibrary::first_frame_file(const Stimulus& stimulus
         write_srgb_png(file, page_on_screen(stimulus, first));
     }
     return file;
-}
-
-std::size_t StimulusLibrary::index_of(const Stimulus& stimulus) const {
-    return static_cast<std::size_t>(stimulus.object) * protocol_->materials.size() +
-           static_cast<std::size_t>(stimulus.material);
 }
 
 } // namespace overt

@@ -2,6 +2,8 @@
 /// to the presenter.
 #pragma once
 
+#include <map>
+
 #include "experiment/maps/light_pictures.h"
 #include "render/presenter/frame_store.h"
 #include "render/stimulus/frame_maker.h"
@@ -32,7 +34,7 @@ class StimulusLibrary final : public FrameSource {
                         std::optional<AnimationFrameIndex> only = {});
 
     /// Has page() give frames of this quality of all stimuli that are not ready-made. They have to be there.
-    void take_frames(const FrameQuality& quality) { qualities_.assign(qualities_.size(), quality); }
+    void take_frames(const FrameQuality& quality);
 
     /// The best quality of which the cache has every frame of every stimulus, no less than `least`.
     std::optional<FrameQuality> quality_of_session(BakeQuality least) const {
@@ -54,10 +56,10 @@ class StimulusLibrary final : public FrameSource {
     /// the files' bytes.
     ContentHash frames_hash(const Stimulus& stimulus) const;
 
-    /// The file with the luminance of a stimulus in small pictures (light_pictures.h), from the cache. What
-    /// is not there is made if `make` says so, which reads all frames of the stimulus. Nothing for what is
-    /// not there, and for ready-made frames without alpha: what they show of the object is not known. Throws
-    /// InputError, RecordError.
+    /// The file with the luminance of a stimulus in small pictures (light_pictures.h), one for each picture
+    /// of its motion, from the cache. What is not there is made if `make` says so, which reads all frames of
+    /// the stimulus. Nothing for what is not there, and for ready-made frames without alpha: what they show
+    /// of the object is not known. Throws InputError, RecordError.
     std::optional<std::filesystem::path> light_file(const Stimulus& stimulus, bool make) const;
 
     /// The first frame on the display's background, for looking at (write_srgb_png), from the cache; made if
@@ -66,13 +68,13 @@ class StimulusLibrary final : public FrameSource {
 
   private:
     LightPictures light_of(const Stimulus& stimulus) const;
-    std::size_t index_of(const Stimulus& stimulus) const;
+    glm::ivec2 image_px(const Stimulus& stimulus) const;
 
     const Protocol* protocol_;
     StimulusCache cache_;
     MapMaker maps_;
     FrameMaker frames_;
-    std::vector<FrameQuality> qualities_; ///< of each stimulus's frames
+    std::map<Stimulus, FrameQuality> qualities_; ///< of each stimulus's frames
 };
 
 } // namespace overt

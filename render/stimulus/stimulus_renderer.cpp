@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "experiment/base/error.h"
-#include "experiment/scene/metal_table.h"
+#include "experiment/spectra/metal_table.h"
 #include "stimulus_shaders.h"
 
 namespace overt {
@@ -38,7 +38,7 @@ void StimulusRenderer::set_material(const MaterialSettings& material) {
                                                              coated ? material.coat_ior : 1.0));
 }
 
-LinearImage StimulusRenderer::draw(const MeshBuffers& mesh, const SceneView& scene, Degrees angle) {
+LinearImage StimulusRenderer::draw(const MeshBuffers& mesh, const SceneView& scene, const Pose& pose) {
     OVERT_EXPECTS(mirrored_.has_value() && scene.view.image_px == image_px_);
     const GladGLContext& gl = context_->gl();
     samples_.bind();
@@ -49,9 +49,9 @@ LinearImage StimulusRenderer::draw(const MeshBuffers& mesh, const SceneView& sce
 
     using Shading = LiveApproximation::Shading;
     const double half_height = 0.5 * scene.bounds.extent().z;
-    TurntablePose about_centre{glm::dvec3(0.0), angle};
+    TurntablePose about_centre{glm::dvec3(0.0), pose.object};
     program_.use();
-    program_.set("clip_from_object", clip_from_centred_object(scene, angle));
+    program_.set("clip_from_object", clip_from_centred_object(scene, pose.object));
     program_.set("world_from_object", glm::mat4(about_centre.world_from_object()));
     program_.set("camera_position", glm::vec3(scene.view.camera.position - scene.bounds.centre()));
     program_.set("mirrored", 0);
@@ -60,6 +60,7 @@ LinearImage StimulusRenderer::draw(const MeshBuffers& mesh, const SceneView& sce
     program_.set("reflectance", glm::vec3(reflectance_));
     program_.set("lobe_radius", live_->lobe_radius(material_));
     program_.set("exposure", static_cast<float>(light_.exposure));
+    program_.set("light_turn", static_cast<float>(pose.light.value / 360.0));
     program_.set("is_diffuse", live_->shading == Shading::matt ? 1 : 0);
     program_.set("is_coated", live_->shading == Shading::coated_metal ? 1 : 0);
     program_.set("coat_ior", static_cast<float>(material_.coat_ior));

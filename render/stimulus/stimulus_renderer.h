@@ -18,7 +18,7 @@ namespace overt {
 /// Changes whenever the same inputs would give other pixels: part of the key under which frames are kept.
 constexpr int stimulus_renderer_version = 6;
 
-/// One light for all stimuli of a protocol.
+/// One light, turned as each picture needs it.
 class StimulusRenderer {
   public:
     /// Throws InputError for the light probe, GraphicsError for the context.
@@ -30,7 +30,7 @@ class StimulusRenderer {
 
     /// Linear display RGB, alpha = share of each pixel that the object covers. 2 x 2 samples a pixel, box
     /// filter.
-    LinearImage draw(const MeshBuffers& mesh, const SceneView& scene, Degrees angle);
+    LinearImage draw(const MeshBuffers& mesh, const SceneView& scene, const Pose& pose);
 
   private:
     static constexpr int samples_per_side = 2;

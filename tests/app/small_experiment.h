@@ -11,7 +11,7 @@
 
 #include <fmt/format.h>
 
-#include "experiment/scene/ply_writer.h"
+#include "experiment/scene/files/ply_writer.h"
 #include "tests/support/figures.h"
 #include "tests/support/program.h"
 #include "tests/support/temporary_folder.h"

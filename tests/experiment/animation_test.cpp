@@ -17,7 +17,7 @@ std::uint64_t bits(Degrees angle) { return std::bit_cast<std::uint64_t>(angle.va
 
 TEST_CASE("the 61 frames of a cycle go through 31 distinct poses", "[unit]") {
     const PoseTable poses = distinct_poses(Animation{});
-    CHECK(poses.of_frame.size() == 61);
+    CHECK(poses.frames_of(0).size() == 61);
     CHECK(poses.angles.size() == 31);
 }
 
@@ -61,7 +61,7 @@ TEST_CASE("every frame has the angle of its pose, whatever the number of frames"
             animation.playback = playback;
             const PoseTable poses = distinct_poses(animation);
             for (int k = 0; k < frames; ++k) {
-                const PoseIndex pose = poses.pose_of({k});
+                const PoseIndex pose = poses.pose_of(0, {k});
                 REQUIRE(bits(poses.angles[static_cast<std::size_t>(pose.value)]) ==
                         bits(animation.angle_of({k})));
             }
@@ -79,7 +79,7 @@ TEST_CASE("eight seconds at 120 Hz are 240 frames of 4 refreshes, four cycles of
     for (int refresh = 0; refresh < 960; ++refresh) {
         const PageCycleEntry& entry = cycle.entry_at(refresh);
         REQUIRE(entry.frame.value == refresh / 4 % 60);
-        REQUIRE(entry.pose == distinct_poses(animation).pose_of(entry.frame));
+        REQUIRE(entry.pose == distinct_poses(animation).pose_of(0, entry.frame));
         REQUIRE(entry.refreshes == 4);
     }
 }
@@ -93,4 +93,78 @@ TEST_CASE("only whole multiples of the frame rate are presented, 119.88 Hz count
     CHECK(refreshes_per_frame(30.0, 24.0) == 0);
     CHECK(refreshes_per_frame(30.0, 10.0) == 0);
     CHECK_THROWS_AS(make_page_cycle(Animation{}, 100.0), InputError);
+}
+
+TEST_CASE("a still object has one pose, and a light that turns makes pictures and no poses", "[unit]") {
+    Animation still;
+    still.kind = MotionKind::still;
+    still.angle = {40.0};
+    CHECK_FALSE(still.moves());
+    CHECK(distinct_poses(still).angles == std::vector<Degrees>{{40.0}});
+    CHECK(still.pictures() == std::vector<Pose>{{{40.0}, {0.0}}});
+    CHECK(still.largest_turn().value == 40.0);
+
+    Animation lamp = still;
+    lamp.light_amplitude = {30.0};
+    CHECK(lamp.moves());
+    CHECK(distinct_poses(lamp).angles.size() == 1);
+    CHECK(lamp.pictures().size() == 31);
+    CHECK(lamp.pose_of({15}) == Pose{{40.0}, {30.0}});
+    CHECK(lamp.pose_of({45}) == Pose{{40.0}, {-30.0}});
+
+    // In step with the object, it makes no more pictures than that has poses.
+    Animation both;
+    both.light_amplitude = {90.0};
+    CHECK(both.pictures().size() == distinct_poses(both).angles.size());
+    CHECK(both.pose_of({15}) == Pose{{25.0}, {90.0}});
+}
+
+TEST_CASE("a turn goes about its angle, and cameras have to allow for the farthest", "[unit]") {
+    Animation turn;
+    turn.angle = {100.0};
+    CHECK(turn.angle_of({0}).value == 100.0);
+    CHECK(turn.angle_of({15}).value == 125.0);
+    CHECK(turn.largest_turn().value == 125.0);
+    turn.angle = {300.0}; // as -60
+    CHECK(turn.largest_turn().value == Approx(85.0));
+    turn.amplitude = {170.0};
+    CHECK(turn.largest_turn().value == 180.0);
+}
+
+TEST_CASE("motions that come through the same angle share its pose", "[unit]") {
+    Animation turn, half;
+    half.amplitude = {12.5};
+    half.frame_count = 5;
+    Animation still;
+    still.kind = MotionKind::still;
+    still.frame_count = 1;
+    still.angle = {12.5}; // 25 sin(30 deg), but for its last bits
+    PoseTable poses;
+    for (const Animation& motion : {turn, half, still})
+        poses.add(motion);
+    CHECK(poses.count() == 31);
+    CHECK(poses.pose_of(2, {0}) == poses.pose_of(0, {5}));
+    CHECK(poses.pose_of(1, {1}) == poses.pose_of(0, {5}));
+    CHECK(poses.pose_of(1, {3}) == poses.pose_of(0, {35}));
+    CHECK(poses.index_of({-12.5}) == poses.pose_of(0, {35}));
+    // Each motion goes through its own.
+    const PageCycle cycle = make_page_cycle(half, poses.frames_of(1), 120.0);
+    CHECK(cycle.entries.size() == 4);
+    CHECK(cycle.entries[1].pose == poses.pose_of(0, {5}));
+    const std::vector<double> seconds = seconds_of_poses(half, poses, 1);
+    CHECK(seconds[static_cast<std::size_t>(poses.pose_of(0, {5}).value)] == Approx(2.0));
+    CHECK(seconds[static_cast<std::size_t>(poses.pose_of(0, {15}).value)] == 0.0);
+}
+
+TEST_CASE("each picture of a motion is lit for its time", "[unit]") {
+    Animation lamp;
+    lamp.kind = MotionKind::still;
+    lamp.light_amplitude = {10.0};
+    lamp.frame_count = 5; // there, left, there, right, there
+    lamp.frame_rate_hz = 4.0;
+    lamp.duration_s = 2.0;
+    const ShownPictures shown = shown_pictures(lamp, distinct_poses(lamp).frames_of(0));
+    CHECK(shown.of_frame == std::vector<int>{0, 1, 0, 2, 0});
+    CHECK(shown.poses == std::vector<PoseIndex>(3));
+    CHECK(shown.seconds == std::vector<double>{1.0, 0.5, 0.5});
 }

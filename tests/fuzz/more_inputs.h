@@ -12,7 +12,7 @@
 #include "experiment/maps/triangle_map.h"
 #include "experiment/protocol/characterisation_file.h"
 #include "experiment/protocol/fault_file.h"
-#include "experiment/scene/mesh_reader.h"
+#include "experiment/scene/files/mesh_reader.h"
 #include "experiment/study/read/study_shard.h"
 #include "tests/fuzz/inputs.h"
 

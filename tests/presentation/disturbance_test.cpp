@@ -45,9 +45,9 @@ class BlankPresenter final : public Presenter {
   public:
     explicit BlankPresenter(Clock& clock) : refresh_(clock, 120.0) {}
     DisplayTiming timing() const override { return refresh_.timing(); }
-    void load_frames(const Stimulus&) override {}
+    void load_slots(std::span<const PlacedStimulus>) override {}
     FlipReport show(const Screen&) override { return refresh_.next(); }
-    FlipReport flip(AnimationFrameIndex) noexcept override { return refresh_.next(); }
+    FlipReport flip_slots(std::span<const AnimationFrameIndex>) noexcept override { return refresh_.next(); }
     bool closed() const noexcept override { return false; }
 
   private:

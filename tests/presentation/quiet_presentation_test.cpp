@@ -30,14 +30,14 @@ class NotingPresenter final : public Presenter {
     int flips = 0;
 
     DisplayTiming timing() const override { return refresh_->timing(); }
-    void load_frames(const Stimulus&) override {}
+    void load_slots(std::span<const PlacedStimulus>) override {}
     FlipReport show(const Screen&) override {
         if (in_presentation_)
             presentations.push_back(test::calls - at_first_flip_);
         in_presentation_ = false;
         return refresh_->next();
     }
-    FlipReport flip(AnimationFrameIndex) noexcept override {
+    FlipReport flip_slots(std::span<const AnimationFrameIndex>) noexcept override {
         if (!in_presentation_)
             at_first_flip_ = test::calls;
         in_presentation_ = true;
@@ -60,8 +60,29 @@ DisplayFaults faults_of_all_kinds() {
     return faults;
 }
 
+/// An area that gaze never comes to.
+class Nowhere final : public AreaView {
+  public:
+    bool is_at(PoseIndex, ScreenPoint) const noexcept override { return false; }
+};
+
+/// The steps of a trial that waits for gaze and for a key while it shows.
+std::vector<StepSettings> waiting_steps() {
+    std::vector<StepSettings> steps(3);
+    steps[0].kind = StepKind::fixation;
+    steps[0].duration = StepDuration{StepDuration::Law::uniform, {}, 0.2, 0.4, 0.0};
+    steps[1].kind = StepKind::show;
+    steps[1].id = "a_name_that_is_longer_than_a_short_text";
+    steps[1].gaze.emplace();
+    steps[1].gaze->area = "head";
+    steps[1].gaze->patience_s = 8.0;
+    steps[2].kind = StepKind::mask;
+    steps[2].duration = StepDuration{StepDuration::Law::fixed, {0.1}, 0.0, 0.0, 0.0};
+    return steps;
+}
+
 /// Three trials of the paper's animation, 960 refreshes each, with everything that a simulated session has.
-void run_quietly(const DisplayFaults& faults) {
+void run_quietly(const DisplayFaults& faults, const std::vector<StepSettings>& steps = {}) {
     const test::TemporaryFolder root;
     const Mesh mesh = test::bust();
     VirtualClock clock;
@@ -72,19 +93,22 @@ void run_quietly(const DisplayFaults& faults) {
     NotingPresenter presenter(refresh);
     Protocol protocol;
     protocol.tasks = {{"free", "Look."}, {"clothes", "Which clothes?"}};
+    for (Task& task : protocol.tasks)
+        task.steps = steps;
     protocol.objects.resize(1);
     protocol.materials.resize(1);
     Schedule schedule;
     schedule.trials = {{0, 0, {}}, {1, 1, {}}, {2, 0, {}}};
     SessionHeader header = testing::example_header();
-    header.animation = protocol.animation;
-    header.poses = distinct_poses(protocol.animation);
+    header.animations[0] = protocol.motions.front();
+    header.poses = distinct_poses(protocol.motions.front());
     const auto session = testing::make_session(root.path(), header);
     {
         SessionStore store(session / session_file_name, testing::patient());
-        const SessionResult result = Session(protocol, schedule, observer.scene().screen.centre(),
-                                             {clock, presenter, tracker, panel, store, {&observer, &refresh}})
-                                         .run({});
+        SessionPorts ports{clock, presenter, tracker, panel, store, {&observer, &refresh}};
+        ports.area_of = [](const PlacedStimulus&, const std::string&) { return std::make_shared<Nowhere>(); };
+        const SessionResult result =
+            Session(protocol, schedule, observer.scene().screen.centre(), std::move(ports)).run({});
         REQUIRE(result.completed_trials == 3);
         store.close();
     }
@@ -114,6 +138,11 @@ void run_quietly(const DisplayFaults& faults) {
 
 TEST_CASE("960 refreshes with tracker, observer and log allocate, lock, open and throw nothing", "[unit]") {
     run_quietly({});
+}
+
+TEST_CASE("nor do they in a step that waits for gaze on the moving object, with steps before and after it",
+          "[unit]") {
+    run_quietly({}, waiting_steps());
 }
 
 TEST_CASE("nor do they when pictures come late, refreshes are skipped and the machine stalls", "[unit]") {

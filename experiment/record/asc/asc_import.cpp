@@ -53,8 +53,8 @@ SessionHeader header_of(const AscFiles& files, const AscSurvey& survey, const As
         options.viewing_distance_mm ? *options.viewing_distance_mm : survey.viewing_distance_mm.value_or(0.0);
     header.display.refresh_hz = survey.refresh_hz.value_or(0.0);
     header.display.output_mode = "unknown";
-    header.animation = no_animation;
-    header.poses = distinct_poses(header.animation);
+    header.animations = {no_animation};
+    header.poses = distinct_poses(no_animation);
     header.tasks = {{"imported", ""}};
     RecordedObject nothing;
     nothing.id = "none";

@@ -20,12 +20,13 @@ SampleJoin::SampleJoin(const SessionRecord& record, const TrialRecord& trial, co
 
 SampleJoin::SampleJoin(const SessionRecord& record, const TrialRecord& trial,
                        const std::optional<TrialLedger>& ledger, const SurfaceLookup* lookup)
-    : SampleJoin(record.header().display.screen, record.clock_map(trial), record.flip_history(ledger),
-                 lookup) {}
+    : SampleJoin(record.header().screen_of_slot(trial.trial.slot), record.clock_map(trial),
+                 record.flip_history(trial, ledger), lookup, !trial.trial.beside.empty()) {}
 
 SampleJoin::SampleJoin(const ScreenGeometry& screen, std::optional<ClockMap> clock_map, FlipHistory history,
-                       const SurfaceLookup* lookup)
-    : screen_(screen), clock_map_(std::move(clock_map)), flip_history_(std::move(history)), lookup_(lookup) {}
+                       const SurfaceLookup* lookup, bool has_other_slots)
+    : screen_(screen), clock_map_(std::move(clock_map)), flip_history_(std::move(history)), lookup_(lookup),
+      has_other_slots_(has_other_slots) {}
 
 // Into `joined` field by field: it is large, and copying it would take longer than all of this.
 void SampleJoin::join_time_and_frame(const GazeSample& sample, JoinedSample& joined) const {
@@ -36,11 +37,16 @@ void SampleJoin::join_time_and_frame(const GazeSample& sample, JoinedSample& joi
     joined.sight.outline_px.reset();
     joined.outline_distance.reset();
     joined.off_plan = false;
+    joined.is_elsewhere = false;
     if (clock_map_)
         joined.at.emplace(clock_map_->to_session(sample.sampled_at));
     if (!sample.gaze)
         return;
     joined.image_px.emplace(screen_.image_from_screen(*sample.gaze));
+    if (has_other_slots_ && !screen_.is_inside_image(*joined.image_px)) {
+        joined.is_elsewhere = true;
+        return;
+    }
     if (!joined.at)
         return;
     const Lighting lighting = flip_history_.lighting_at(joined.at->time, sample.gaze->y_px);

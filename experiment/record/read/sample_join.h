@@ -26,9 +26,12 @@ struct JoinedSample {
     /// or where the lookup knows no outline.
     std::optional<Degrees> outline_distance;
     bool off_plan = false; ///< see FlipHistory::is_off_plan
+    /// Beside the slot's image, where the trial has others: neither lit nor on this slot's surface.
+    bool is_elsewhere = false;
 };
 
-/// Joins the samples of one trial. May be used from any thread.
+/// Joins the samples of one trial with the presentation in one of its slots (TrialRecord::seen_in). May be
+/// used from any thread.
 class SampleJoin {
   public:
     /// `lookup` answers for the trial's object and outlives this; null if there is none. Throws
@@ -41,7 +44,7 @@ class SampleJoin {
 
     /// The same from its parts: without a clock map no sample has a time.
     SampleJoin(const ScreenGeometry& screen, std::optional<ClockMap> clock_map, FlipHistory history,
-               const SurfaceLookup* lookup);
+               const SurfaceLookup* lookup, bool has_other_slots = false);
 
     /// Joins each sample; both spans are equally long. Faster than one by one.
     void join(std::span<const GazeSample> samples, std::span<JoinedSample> joined) const;
@@ -56,6 +59,7 @@ class SampleJoin {
     std::optional<ClockMap> clock_map_;
     FlipHistory flip_history_;
     const SurfaceLookup* lookup_;
+    bool has_other_slots_;
 };
 
 } // namespace overt

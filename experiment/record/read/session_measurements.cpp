@@ -1,4 +1,6 @@
 /// What was measured in the trials of a session: refreshes, gaze and spoken answers.
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "experiment/base/error.h"
@@ -19,6 +21,26 @@ FlipRecord read_flip(Query& row, int trial) {
              flip.missed_refreshes, report.uncertainty);
     report.source = static_cast<VblankSource>(source);
     return flip;
+}
+
+/// Puts what a further slot showed in the place of what the first did. Flips without a row showed nothing
+/// there.
+void take_slot_flips(const SQLite::Database& database, const TrialRecord& trial,
+                     std::vector<FlipRecord>& flips) {
+    for (FlipRecord& flip : flips)
+        flip.planned = flip.shown = no_frame;
+    Query row(database, "SELECT refresh_in_trial, planned, shown, pose FROM slot_flip WHERE trial_id = ? AND "
+                        "place = ? ORDER BY refresh_in_trial");
+    row.bind(1, trial.id);
+    row.bind(2, trial.place);
+    auto flip = flips.begin();
+    while (row.step()) {
+        const int refresh = row.small();
+        flip = std::ranges::find(flip, flips.end(), refresh, &FlipRecord::refresh_in_trial);
+        if (flip == flips.end())
+            return;
+        row.read(flip->planned.value, flip->shown.value, flip->pose.value);
+    }
 }
 
 GazeSample read_sample(Query& row) {
@@ -59,9 +81,12 @@ std::vector<FlipRecord> SessionRecord::flips(const TrialRecord& trial) const {
                         has_column(*database_, "flip", "uncertainty_ns") ? "uncertainty_ns" : "0"),
             [&](Query& row) { return read_flip(row, trial.trial.index); }, trial.id);
     });
+    const int frame_count = header_.animation_of(trial.trial.stimulus).frame_count;
+    if (trial.place > 0)
+        take_slot_flips(*database_, trial, rows);
     for (const FlipRecord& flip : rows) {
         const auto is_frame = [&](AnimationFrameIndex frame) {
-            return frame == no_frame || (frame.value >= 0 && frame.value < header_.animation.frame_count);
+            return frame == no_frame || (frame.value >= 0 && frame.value < frame_count);
         };
         if (flip.pose.value < 0 || static_cast<std::size_t>(flip.pose.value) >= header_.poses.angles.size() ||
             !is_frame(flip.shown) || !is_frame(flip.planned))
@@ -175,14 +200,33 @@ std::optional<TrialLedger> SessionRecord::ledger(const TrialRecord& trial) const
     return TrialLedger{std::move(recorded), std::move(fit)};
 }
 
-FlipHistory SessionRecord::flip_history(const std::optional<TrialLedger>& ledger) const {
+PageCycle planned_cycle(const SessionHeader& header, const TrialRecord& trial) {
+    PageCycle motion = header.page_cycle_of(trial.trial.stimulus);
+    for (const AttemptStep& step : trial.outcome.steps) {
+        if (step.kind != "show")
+            continue;
+        // What a key or gaze ended was over by the plan then.
+        const bool ended_early = step.ended_by == StepEnd::gaze || step.ended_by == StepEnd::key ||
+                                 step.ended_by == StepEnd::patience;
+        const std::optional<int> lasted =
+            ended_early ? std::optional(trial.outcome.shown_refreshes + trial.outcome.missed_refreshes)
+                        : step.planned_refreshes;
+        return cut_to(std::move(motion), lasted,
+                      step.still_frame ? std::optional(AnimationFrameIndex{*step.still_frame})
+                                       : std::nullopt);
+    }
+    return motion;
+}
+
+FlipHistory SessionRecord::flip_history(const TrialRecord& trial,
+                                        const std::optional<TrialLedger>& ledger) const {
     const RecordedDisplay& display = header_.display;
     // Of an imported session not even the refresh rate may be known.
     if (!ledger)
         return FlipHistory({}, {{}, 1.0, 1.0}, {});
     return FlipHistory(ledger->fit.flips(),
                        {display.latency, display.refresh_hz, static_cast<double>(display.screen.screen_px.y)},
-                       make_page_cycle(header_.animation, display.refresh_hz));
+                       planned_cycle(header_, trial));
 }
 
 } // namespace overt

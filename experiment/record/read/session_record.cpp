@@ -22,14 +22,25 @@ void check_indices(const SessionHeader& header, const std::vector<TrialRecord>& 
     const auto within = [](int index, std::size_t count) {
         return index >= 0 && static_cast<std::size_t>(index) < count;
     };
+    const auto entries = entry_counts(header);
     for (const TrialRecord& record : trials) {
         const Trial& trial = record.trial;
-        if (!within(trial.task, header.tasks.size()) ||
-            !within(trial.stimulus.object, header.objects.size()) ||
-            !within(trial.stimulus.material, header.materials.size()))
-            throw RecordError(fmt::format("{}: table trial, trial_id {}: it names a task, object or material "
-                                          "that the session does not have: the file is damaged.",
-                                          file.string(), record.id));
+        bool is_known = within(trial.task, header.tasks.size());
+        for (std::size_t i = 0; i < trial.shown_count(); ++i) {
+            const auto [stimulus, slot] = trial.shown(i);
+            for (std::size_t list = 0; list < stimulus_lists.size(); ++list)
+                is_known = is_known && within(stimulus.*stimulus_lists[list].index, entries[list]);
+            is_known = is_known && within(stimulus.object, header.objects.size()) &&
+                       within(stimulus.motion, header.animations.size()) &&
+                       within(stimulus.view,
+                              header.objects[static_cast<std::size_t>(stimulus.object)].cameras.size()) &&
+                       within(slot, header.slots.size());
+        }
+        if (!is_known)
+            throw RecordError(
+                fmt::format("{}: table trial, trial_id {}: it names a task, an entry of a list or a slot "
+                            "that the session does not have: the file is damaged.",
+                            file.string(), record.id));
     }
 }
 
@@ -45,8 +56,13 @@ SessionRecord::SessionRecord(const std::filesystem::path& session)
         trials_ = read_trials(*database_);
         for (TrialRecord& trial : trials_) {
             const auto planned = static_cast<std::size_t>(trial.trial.index);
-            if (trial.trial.index >= 0 && planned < header_.schedule.trials.size())
-                trial.trial.block = header_.schedule.trials[planned].block;
+            if (trial.trial.index >= 0 && planned < header_.schedule.trials.size()) {
+                const Trial& of = header_.schedule.trials[planned];
+                trial.trial.block = of.block;
+                trial.trial.levels = of.levels;
+                trial.trial.correct = of.correct;
+                trial.trial.role = of.role;
+            }
         }
     });
     check_header(header_, file_);
@@ -55,6 +71,31 @@ SessionRecord::SessionRecord(const std::filesystem::path& session)
 SessionRecord::~SessionRecord() = default;
 SessionRecord::SessionRecord(SessionRecord&&) noexcept = default;
 SessionRecord& SessionRecord::operator=(SessionRecord&&) noexcept = default;
+
+TrialRecord TrialRecord::seen_in(std::size_t i) const {
+    OVERT_EXPECTS(place == 0 && i < trial.shown_count());
+    TrialRecord seen = *this;
+    seen.place = static_cast<int>(i);
+    seen.trial.beside.clear();
+    for (std::size_t k = 0; k < trial.shown_count(); ++k) {
+        const PlacedStimulus shown = trial.shown(k);
+        if (k != i) {
+            seen.trial.beside.push_back(shown);
+        } else {
+            seen.trial.stimulus = shown.stimulus;
+            seen.trial.slot = shown.slot;
+        }
+    }
+    return seen;
+}
+
+std::vector<TrialRecord> SessionRecord::presentations() const {
+    std::vector<TrialRecord> all;
+    for (const TrialRecord& trial : trials_)
+        for (std::size_t i = 0; i < trial.trial.shown_count(); ++i)
+            all.push_back(trial.seen_in(i));
+    return all;
+}
 
 std::vector<RecordedEvent> SessionRecord::events() const {
     std::vector<RecordedEvent> events;

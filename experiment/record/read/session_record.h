@@ -51,6 +51,7 @@ struct TrialRecord {
     Status status = Status::open;
     bool is_superseded = false; ///< its block was restarted later
     bool counts = false;        ///< completed, and not superseded
+    bool gives_results() const { return counts && trial.role == TrialRole::trial; }
     SessionTime started;
     TrialOutcome outcome; ///< meaningless while open, or interrupted; its times: see reached()
     std::int64_t lost_flips = 0;
@@ -63,6 +64,12 @@ struct TrialRecord {
     /// programs.
     std::string response_key = {};
 
+    /// Which of what the trial showed this is about; the others are in trial.beside. See seen_in().
+    int place = 0;
+
+    /// The attempt as the presentation of one stimulus in its slot, 0 <= i < trial.shown_count(): that
+    /// stimulus is the trial's, in its slot, and the others are beside it. Its flips are that slot's.
+    TrialRecord seen_in(std::size_t i) const;
     /// It came to its end, in order or not.
     bool has_outcome() const { return status == Status::completed || status == Status::aborted; }
     /// It got to the screen, or the answer, that its outcome has at this time: those that it did not get to,
@@ -77,6 +84,13 @@ struct TrialLedger {
     std::vector<FlipRecord> recorded;
     LedgerFit fit;
 };
+
+/// The steps of an attempt that its outcome does not tell by a time of its own: fixations, blanks, masks,
+/// feedback, texts after the first, and drift checks but that of the task without steps.
+std::vector<const AttemptStep*> further_steps(const TrialRecord& trial);
+
+/// What an attempt's presentation was to show: the motion, cut to what the trial's steps said.
+PageCycle planned_cycle(const SessionHeader& header, const TrialRecord& trial);
 
 /// A SessionEvent that owns its words.
 struct RecordedEvent {
@@ -105,6 +119,9 @@ class SessionRecord {
 
     /// All attempts, in the order in which they were made.
     const std::vector<TrialRecord>& trials() const { return trials_; }
+
+    /// All presentations of stimuli, a row for each slot of an attempt, in the order of trials().
+    std::vector<TrialRecord> presentations() const;
 
     /// In the order in which they were written. Which refreshes were missed is told by ledger(): the record's
     /// rows of them are what the presenting program knew at once.
@@ -220,7 +237,7 @@ class SessionRecord {
     std::optional<TrialLedger> ledger(const TrialRecord& trial) const;
 
     /// A trial's frames as they were lit on this session's display, at the times of the ledger's line.
-    FlipHistory flip_history(const std::optional<TrialLedger>& ledger) const;
+    FlipHistory flip_history(const TrialRecord& trial, const std::optional<TrialLedger>& ledger) const;
 
     /// The latest session time that any row names: from here on a resumed session's clock may go on.
     SessionTime last_time() const;

@@ -129,8 +129,7 @@ TimingReport timing_report(const SessionRecord& record) {
         timing.attempt = trial.attempt;
         timing.status = trial.status;
         timing.counts = trial.counts;
-        timing.planned_refreshes =
-            make_page_cycle(header.animation, header.display.refresh_hz).total_refreshes;
+        timing.planned_refreshes = planned_cycle(header, trial).total_refreshes;
         take_ledger(timing, *ledger);
         take_samples(timing, record, trial, ledger);
         for (auto [one, end] = disturbances.equal_range(trial.trial.index); one != end; ++one)

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "experiment/record/sql.h"
+#include "experiment/record/stimulus_columns.h"
 
 namespace overt {
 namespace {
@@ -30,12 +31,11 @@ TrialRecord read_trial(Query& row) {
     Trial& trial = record.trial;
     TrialOutcome& outcome = record.outcome;
     std::string status, afterwards;
-    row.read(record.id, record.sitting, trial.index, record.attempt, trial.task, trial.stimulus.object,
-             trial.stimulus.material, status, record.started, outcome.task_screen_onset,
-             outcome.presentation_onset, outcome.presentation_end, outcome.response_screen_onset,
-             outcome.responded_at, outcome.shown_refreshes, outcome.missed_refreshes, outcome.drift,
-             outcome.answer, record.lost_flips, record.lost_samples, outcome.failure, afterwards,
-             record.is_superseded);
+    row.read(record.id, record.sitting, trial.index, record.attempt, trial.task, trial.stimulus, status,
+             record.started, outcome.task_screen_onset, outcome.presentation_onset, outcome.presentation_end,
+             outcome.response_screen_onset, outcome.responded_at, outcome.shown_refreshes,
+             outcome.missed_refreshes, outcome.drift, outcome.answer, record.lost_flips, record.lost_samples,
+             outcome.failure, afterwards, record.is_superseded);
     record.status = status_from(status);
     outcome.afterwards = afterwards_from(afterwards);
     outcome.status = record.status == TrialRecord::Status::completed ? TrialOutcome::Status::completed
@@ -86,6 +86,32 @@ void add_response_keys(const SQLite::Database& database, std::vector<TrialRecord
     }
 }
 
+/// Which slots it shows stimuli in. Sessions of earlier programs have one.
+void add_slots(const SQLite::Database& database, std::vector<TrialRecord>& trials) {
+    if (!has_table(database, "presentation"))
+        return;
+    auto trial = trials.begin(); // both by trial_id
+    for (Query row(
+             database,
+             fmt::format("SELECT trial_id, place, slot, {} FROM presentation WHERE place > 0 OR slot <> 0 "
+                         "ORDER BY trial_id, place",
+                         stimulus_columns_of(database, "presentation"))
+                 .c_str());
+         row.step();) {
+        const std::int64_t id = row.integer();
+        const int place = row.small();
+        PlacedStimulus shown;
+        row.read(shown.slot, shown.stimulus);
+        trial = std::ranges::find(trial, trials.end(), id, &TrialRecord::id);
+        if (trial == trials.end())
+            return;
+        if (place == 0)
+            trial->trial.slot = shown.slot;
+        else
+            trial->trial.beside.push_back(shown);
+    }
+}
+
 void add_gaze(const SQLite::Database& database, std::vector<TrialRecord>& trials) {
     if (!has_table(database, "trial_gaze"))
         return;
@@ -112,7 +138,44 @@ void add_swap_modes(const SQLite::Database& database, std::vector<TrialRecord>& 
     }
 }
 
+void add_steps(const SQLite::Database& database, std::vector<TrialRecord>& trials) {
+    if (!has_table(database, "step"))
+        return;
+    for (Query row(database, "SELECT trial_id, kind, id, planned_refreshes, drawn_s, still_frame, begin_ns, "
+                             "end_ns, ended_by, gaze_onset_us, gaze_detected_us FROM step "
+                             "ORDER BY trial_id, n");
+         row.step();) {
+        const auto trial = std::ranges::find(trials, row.integer(), &TrialRecord::id);
+        AttemptStep step;
+        std::optional<std::string> ended_by;
+        row.read(step.kind, step.id, step.planned_refreshes, step.drawn_s, step.still_frame, step.begin,
+                 step.end, ended_by, step.gaze_onset, step.gaze_detected);
+        const auto word = std::ranges::find(names_of<StepEnd>, ended_by.value_or(""));
+        if (word != names_of<StepEnd>.end())
+            step.ended_by = static_cast<StepEnd>(word - names_of<StepEnd>.begin());
+        if (trial != trials.end())
+            trial->outcome.steps.push_back(std::move(step));
+    }
+}
+
 } // namespace
+
+std::vector<const AttemptStep*> further_steps(const TrialRecord& trial) {
+    constexpr std::string_view question[] = {"text", "drift_check", "show", "answer"};
+    const std::vector<AttemptStep>& steps = trial.outcome.steps;
+    const bool is_one_question =
+        steps.size() <= std::size(question) &&
+        std::ranges::equal(steps, std::span(question).first(steps.size()), {}, &AttemptStep::kind);
+    std::vector<const AttemptStep*> further;
+    for (const AttemptStep& step : steps) {
+        const bool is_told = step.kind == "show" || step.kind == "answer" ||
+                             (step.kind == "text" && step.begin == trial.outcome.task_screen_onset) ||
+                             (step.kind == "drift_check" && is_one_question);
+        if (!is_told && step.begin)
+            further.push_back(&step);
+    }
+    return further;
+}
 
 std::string_view name_of(TrialOutcome::Afterwards afterwards) {
     constexpr std::string_view names[] = {"", "never", "now", "end-of-block"};
@@ -125,11 +188,12 @@ std::vector<TrialRecord> read_trials(const SQLite::Database& database) {
     const bool tells_fates = has_column(database, "trial", "comes_again");
     std::vector<TrialRecord> trials = read_rows(
         database,
-        fmt::format("SELECT trial_id, sitting, trial, attempt, task, object, material, status, started_ns, "
+        fmt::format("SELECT trial_id, sitting, trial, attempt, task, {}, status, started_ns, "
                     "COALESCE(task_screen_onset_ns, -1), COALESCE(presentation_onset_ns, -1), "
                     "COALESCE(presentation_end_ns, -1), COALESCE(response_screen_onset_ns, -1), "
                     "COALESCE(responded_ns, -1), shown_refreshes, missed_refreshes, drift_deg, "
                     "answer, lost_flips, lost_samples, {} FROM trial ORDER BY trial_id",
+                    stimulus_columns_of(database, "trial"),
                     tells_fates ? "failure, comes_again, trial_id IN (SELECT attempt_id FROM superseded)"
                                 : "NULL, NULL, 0"),
         read_trial);
@@ -138,6 +202,8 @@ std::vector<TrialRecord> read_trials(const SQLite::Database& database) {
     add_swap_modes(database, trials);
     add_response_keys(database, trials);
     add_gaze(database, trials);
+    add_steps(database, trials);
+    add_slots(database, trials);
     return trials;
 }
 

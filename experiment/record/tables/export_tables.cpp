@@ -26,24 +26,30 @@ std::string_view description_of(TableFormat format) {
 ExportTables::ExportTables(const SessionHeader& header, const SharedColumns& shared, const PupilWords& pupil,
                            std::optional<Degrees> cone_accuracy, const std::string& event_origins,
                            const std::vector<ParticipantRow>& participant)
-    : trials(trials_layout(shared, header)), flips(ledger_layout(shared, header)),
-      samples(samples_layout(shared, header, pupil, cone_accuracy)),
+    : trials(trials_layout(shared, header)), presentations(presentations_layout(shared, header)),
+      flips(ledger_layout(shared, header)), samples(samples_layout(shared, header, pupil, cone_accuracy)),
       gaze_events(gaze_events_layout(header, event_origins, pupil)), events(events_layout()),
       responses(responses_layout(shared, header)), stimuli(stimuli_layout(shared, header)),
       display_box(display_box_layout()), buttons(buttons_layout()), key_presses(key_presses_layout()),
-      markers(markers_layout()), participants(participants_layout(participant)) {
+      markers(markers_layout()), steps(steps_layout()), participants(participants_layout(participant)),
+      has_slots_(shared.has_slots) {
     const std::vector<LeadingColumn> leading{
         {{"observer", "Label of the observer"}, header.schedule.observer.label},
         {{"session", "Which session of this observer, from 1"}, std::to_string(header.session_number), true}};
     const auto lead = [&](auto&... layouts) { (layouts.lead_with(leading), ...); };
-    lead(trials, flips, samples, gaze_events, events, responses, stimuli, display_box, buttons, key_presses,
-         markers);
+    lead(trials, presentations, flips, samples, gaze_events, events, responses, stimuli, display_box, buttons,
+         key_presses, markers, steps);
 }
 
 std::vector<const Table*> ExportTables::all() const {
-    return {&trials.table(),  &flips.table(),       &samples.table(), &gaze_events.table(),
-            &events.table(),  &responses.table(),   &stimuli.table(), &display_box.table(),
-            &buttons.table(), &key_presses.table(), &markers.table(), &participants.table()};
+    std::vector<const Table*> tables{&trials.table(),      &flips.table(),       &samples.table(),
+                                     &gaze_events.table(), &events.table(),      &responses.table(),
+                                     &stimuli.table(),     &display_box.table(), &buttons.table(),
+                                     &key_presses.table(), &markers.table(),     &steps.table(),
+                                     &participants.table()};
+    if (has_slots_)
+        tables.push_back(&presentations.table());
+    return tables;
 }
 
 nlohmann::ordered_json describe_columns(const std::vector<TableColumn>& columns, TableFormat format) {

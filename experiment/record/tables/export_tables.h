@@ -32,6 +32,7 @@ class ExportTables {
         : ExportTables(header, SharedColumns(header), pupil, cone_accuracy, event_origins, participant) {}
 
     RowLayout<TrialRow> trials;
+    RowLayout<TrialRow> presentations; ///< of sessions with several slots
     RowLayout<LedgerRow> flips;
     RowLayout<SampleCells> samples;
     RowLayout<GazeEventRow> gaze_events;
@@ -42,11 +43,13 @@ class ExportTables {
     RowLayout<RecordedButton> buttons;
     RowLayout<RecordedKeyPress> key_presses;
     RowLayout<RecordedMarker> markers;
+    RowLayout<StepRow> steps;
     RowLayout<ParticipantRow> participants;
 
     std::vector<const Table*> all() const;
 
   private:
+    bool has_slots_;
     ExportTables(const SessionHeader& header, const SharedColumns& shared, const PupilWords& pupil,
                  std::optional<Degrees> cone_accuracy, const std::string& event_origins,
                  const std::vector<ParticipantRow>& participant);

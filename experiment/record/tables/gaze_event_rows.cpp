@@ -171,6 +171,8 @@ RowLayout<GazeEventRow> gaze_events_layout(const SessionHeader& header, const st
              tracker_us_of(&GazeEvent::start)},
             {{"tracker_end_us", "end_s by the tracker's own clock", "us"}, tracker_us_of(&GazeEvent::end)},
         }};
+    if (const SharedColumns shared(header); shared.has_slots)
+        layout.add<GazeEventRow>({{shared.slot, [](auto& row) { return row.slot; }}});
     layout.add<TrackerEventRow>(event_value_columns("px", pupil.unit, pupil.meaning));
     layout.add<GazeEventRow>(surface_columns(header));
     layout.add<GazeEventRow>({
@@ -188,8 +190,15 @@ void write_gaze_events(TableWriter& writer, const RowLayout<GazeEventRow>& layou
     const SessionRecord::EventOrigin::From origin = record.event_origin(trial.sitting).from;
     const std::vector<std::string> parts =
         part_cells_of(record.header(), trial.trial.stimulus.object, writer.format());
+    const std::string_view slot = item(record.header().slots, trial.trial.slot).id;
     for (std::size_t i = 0; i < events.size(); ++i)
-        layout.write(writer, {{events[i]}, trial.trial.index + 1, clock_map, origin, fixations[i], parts});
+        layout.write(writer, {{events[i]},
+                              trial.trial.index + 1,
+                              clock_map,
+                              origin,
+                              fixations[i],
+                              parts,
+                              fixations[i] ? slot : std::string_view()});
 }
 
 void write_gaze_events_outside(TableWriter& writer, const RowLayout<GazeEventRow>& layout,

@@ -30,6 +30,7 @@ struct GazeEventRow : TrackerEventRow {
     /// Where a fixation of the trial met the surface; empty of all else, and beside the presentation.
     std::optional<StudyFixation> fixation = {};
     std::span<const std::string> part_cells = {}; ///< of the trial's object: part_cells_of()
+    std::string_view slot = {};                   ///< of a fixation that lies in one
 };
 
 /// One row for each fixation, saccade, blink, message, button, input, begin and end of a recording, and note.
@@ -37,7 +38,8 @@ struct GazeEventRow : TrackerEventRow {
 RowLayout<GazeEventRow> gaze_events_layout(const SessionHeader& header, const std::string& origins,
                                            const PupilWords& pupil);
 
-/// Writes those of a trial, `events` with where they met the surface, `fixations`. Throws RecordError.
+/// Writes those of a trial as the presentation in its slot has them, `events` with where they met the
+/// surface, `fixations`. Throws RecordError.
 void write_gaze_events(TableWriter& writer, const RowLayout<GazeEventRow>& layout,
                        const SessionRecord& record, const TrialRecord& trial,
                        std::span<const GazeEvent> events,

@@ -1,16 +1,22 @@
 #include "experiment/record/tables/ledger_rows.h"
 
+#include <algorithm>
+
 #include "experiment/record/tables/joined_cells.h"
 
 namespace overt {
 
 RowLayout<LedgerRow> ledger_layout(const SharedColumns& shared, const SessionHeader& header) {
-    return {
+    RowLayout<LedgerRow> layout{
         "flips",
         "The ledger of the completed trials: one row for each refresh of the display, from the "
         "presentation's onset to the plan's end, or longer where pictures came later.",
-        {{shared.trial, &LedgerRow::trial},
-         {{"refresh", "Refresh of the display since the presentation's onset, from 0"}, &LedgerRow::refresh},
+        {{shared.trial, &LedgerRow::trial}}};
+    if (shared.has_slots)
+        layout.add<LedgerRow>(
+            {{shared.slot, [&header](auto& row) { return item(header.slots, row.slot).id; }}});
+    layout.add<LedgerRow>(
+        {{{"refresh", "Refresh of the display since the presentation's onset, from 0"}, &LedgerRow::refresh},
          {{"state",
            "Whether a picture was handed over for this refresh",
            "",
@@ -19,7 +25,8 @@ RowLayout<LedgerRow> ledger_layout(const SharedColumns& shared, const SessionHea
           [](auto& row) { return row.flipped ? "flipped" : "missed"; }},
          {{"planned_frame", "Animation frame that the plan had for this refresh; n/a after the plan's end"},
           [](auto& row) { return when(row.planned != no_frame, row.planned.value); }},
-         {{"shown_frame", "Animation frame that was lit"}, [](auto& row) { return row.lit.shown.value; }},
+         {{"shown_frame", "Animation frame that was lit"},
+          [](auto& row) { return when(row.lit.shown != no_frame, row.lit.shown.value); }},
          {shared.angle, [&header](auto& row) { return angle_of(header, row.lit.pose); }},
          {session_seconds("requested_s", "When the picture was asked for"),
           [](auto& row) { return of_maybe(row.flipped, &FlipReport::requested); }},
@@ -72,7 +79,21 @@ RowLayout<LedgerRow> ledger_layout(const SharedColumns& shared, const SessionHea
             {std::string(name_of(MissCause::drawn_late)), "it was asked for in time, but drawn too late"},
             {std::string(name_of(MissCause::shown_late)),
              "it was drawn in time, but the display took it later"}}},
-          [](auto& row) { return of_maybe(row.cause, [](MissCause cause) { return name_of(cause); }); }}}};
+          [](auto& row) { return of_maybe(row.cause, [](MissCause cause) { return name_of(cause); }); }}});
+    if (std::ranges::any_of(header.animations, [](const Animation& motion) {
+            return motion.light_amplitude.value != 0.0;
+        }))
+        layout.add<LedgerRow>(
+            {{{"light_angle_deg",
+               "Turn of the light from where the protocol has it, counter-clockwise seen from above", "deg"},
+              [&header](auto& row) -> std::optional<Fixed> {
+                  if (row.lit.shown == no_frame)
+                      return std::nullopt;
+                  constexpr int angle_decimals = 6;
+                  const Animation& motion = item(header.animations, row.motion);
+                  return Fixed{motion.pose_of(row.lit.shown).light.value, angle_decimals};
+              }}});
+    return layout;
 }
 
 std::int64_t write_ledger(TableWriter& writer, const RowLayout<LedgerRow>& layout,
@@ -81,7 +102,7 @@ std::int64_t write_ledger(TableWriter& writer, const RowLayout<LedgerRow>& layou
     if (!ledger)
         return 0;
     const auto& [recorded, fit] = *ledger;
-    const PageCycle plan = make_page_cycle(header.animation, header.display.refresh_hz);
+    const PageCycle plan = planned_cycle(header, trial);
     const auto planned_at = [&](int refresh) {
         return refresh < plan.total_refreshes ? plan.entry_at(refresh).frame : no_frame;
     };
@@ -93,21 +114,24 @@ std::int64_t write_ledger(TableWriter& writer, const RowLayout<LedgerRow>& layou
             // One by one to the plan's end; after it the count in the flip that follows says it.
             for (int k = 0; k < run->count && run->refresh_in_trial + k < plan.total_refreshes; ++k) {
                 const int refresh = run->refresh_in_trial + k;
-                layout.write(writer, {number, refresh, nullptr, planned_at(refresh), fit.flips()[i - 1],
-                                      fit.begin_of(refresh), 0, run->cause});
+                layout.write(writer, {number, trial.trial.slot, refresh, nullptr, planned_at(refresh),
+                                      fit.flips()[i - 1], fit.begin_of(refresh), 0, run->cause,
+                                      trial.trial.stimulus.motion});
             }
             ++run;
         }
         const int refresh = fitted.refresh_in_trial;
         // Where the count was inferred anew, the plan has another frame for this refresh than was noted.
         layout.write(writer, {number,
+                              trial.trial.slot,
                               refresh,
                               &recorded[i].report,
                               refresh == recorded[i].refresh_in_trial ? fitted.planned : planned_at(refresh),
                               fitted,
                               {fitted.report.vertical_blank, fitted.report.uncertainty},
                               fitted.missed_refreshes,
-                              std::nullopt});
+                              std::nullopt,
+                              trial.trial.stimulus.motion});
     }
     return static_cast<std::int64_t>(recorded.size());
 }

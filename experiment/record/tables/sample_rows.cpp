@@ -24,9 +24,12 @@ RowLayout<SampleCells> samples_layout(const SharedColumns& shared, const Session
         {
             {shared.trial, &SampleCells::trial},
             {shared.task, [](auto& to, auto& row) { to.ready(row.task); }},
-            {shared.object, [](auto& to, auto& row) { to.ready(row.object); }},
-            {shared.material, [](auto& to, auto& row) { to.ready(row.material); }},
         }};
+    for (std::size_t i = 0; i < shared.stimulus.size(); ++i)
+        layout.add<SampleCells>(
+            {{shared.stimulus[i].what, [i](auto& to, auto& row) { to.ready(row.stimulus[i]); }}});
+    if (shared.has_slots)
+        layout.add<SampleCells>({{shared.slot, [](auto& to, auto& row) { to.ready(row.slot); }}});
     layout.add<JoinedRow>(time_columns());
     layout.add<SampleCells>({
         {{"tracker_time_us", "When the sample was taken, by the tracker's own clock", "us"}, tracker_time_us},
@@ -69,9 +72,11 @@ RowLayout<SampleCells> samples_layout(const SharedColumns& shared, const Session
 
 SampleRows::SampleRows(const RowLayout<SampleCells>& layout, const SessionRecord& record, TableFormat format,
                        std::optional<Degrees> cone_accuracy)
-    : layout_(layout), record_(record), header_(record.header()), format_(format) {
-    if (cone_accuracy)
-        cone_.emplace(header_.display.screen, *cone_accuracy);
+    : layout_(layout), record_(record), header_(record.header()), format_(format),
+      nothing_(text_cell("", format)), columns_(stimulus_columns_of(header_)),
+      no_stimulus_(columns_.size(), nothing_) {
+    for (int slot = 0; cone_accuracy && slot < static_cast<int>(header_.slots.size()); ++slot)
+        cones_.emplace_back(header_.screen_of_slot(slot), *cone_accuracy);
 }
 
 SampleCounts SampleRows::write(TableWriter& to, const TrialRecord& trial,
@@ -82,7 +87,7 @@ SampleCounts SampleRows::write(TableWriter& to, const TrialRecord& trial,
 
 SampleCounts SampleRows::write_after(TableWriter& to, const TrialRecord& trial) {
     const SampleJoin join(header_.display.screen, record_.clock_map(trial),
-                          record_.flip_history(std::nullopt), nullptr);
+                          record_.flip_history(trial, std::nullopt), nullptr);
     return write_all(to, trial, join, nullptr, nullptr);
 }
 
@@ -92,9 +97,11 @@ SampleCounts SampleRows::write_all(TableWriter& to, const TrialRecord& trial, co
     const bool is_after = !fixations;
     const Stimulus stimulus = trial.trial.stimulus;
     const std::string task = text_cell(is_after ? "" : item(header_.tasks, trial.trial.task).id, format_);
-    const std::string object = text_cell(is_after ? "" : item(header_.objects, stimulus.object).id, format_);
-    const std::string material =
-        text_cell(is_after ? "" : item(header_.materials, stimulus.material).id, format_);
+    std::vector<std::string> shown = no_stimulus_;
+    for (std::size_t i = 0; i < columns_.size() && !is_after; ++i)
+        shown[i] = level_cell(columns_[i].level_of(stimulus), format_);
+    const std::string slot = text_cell(is_after ? "" : item(header_.slots, trial.trial.slot).id, format_);
+    const GazeCone* const cone = cones_.empty() ? nullptr : &item(cones_, trial.trial.slot);
     const std::vector<std::string> parts = part_cells_of(header_, stimulus.object, format_);
     const std::vector<std::string>& own_parts = item(header_.objects, stimulus.object).part_names;
     const auto number = is_after ? std::nullopt : std::optional(trial.trial.index + 1);
@@ -110,7 +117,7 @@ SampleCounts SampleRows::write_all(TableWriter& to, const TrialRecord& trial, co
             texts[i] = std::make_unique<TableText>(layout_.table(), format_);
             of_batch[i] = write_batch(
                 *texts[i], placed[i],
-                {piece, number, join, lookup, task, object, material, parts, own_parts, fixations});
+                {piece, number, join, lookup, task, slot, shown, cone, parts, own_parts, fixations});
         });
         for (std::size_t i = 0; i < batches; ++i) {
             to.take(*texts[i]);
@@ -133,11 +140,12 @@ SampleCounts SampleRows::write_batch(TableText& to, std::vector<PlacedSample>& p
     const std::vector<GazeCone::Shares> shares = cone_shares(piece, joined);
     SampleCounts counts;
     for (std::size_t i = 0; i < piece.samples.size(); ++i) {
+        const bool is_elsewhere = joined[i].is_elsewhere;
         layout_.write(to, {{piece.samples[i], joined[i], piece.parts},
                            piece.trial,
                            piece.task,
-                           piece.object,
-                           piece.material,
+                           is_elsewhere || !piece.samples[i].gaze ? nothing_ : piece.slot,
+                           is_elsewhere ? no_stimulus_ : piece.stimulus,
                            piece.own_parts,
                            shares.empty() || shares[i].of_part.empty() ? nullptr : &shares[i]});
         if (piece.fixations)
@@ -152,14 +160,14 @@ SampleCounts SampleRows::write_batch(TableText& to, std::vector<PlacedSample>& p
 
 /// Of each sample that fell on a lit frame; the others' shares are empty.
 std::vector<GazeCone::Shares> SampleRows::cone_shares(const Piece& piece,
-                                                      std::span<const JoinedSample> joined) const {
-    if (!cone_ || !piece.lookup)
+                                                      std::span<const JoinedSample> joined) {
+    if (!piece.cone || !piece.lookup)
         return {};
     std::vector<GazeCone::Shares> shares(joined.size());
     for (std::size_t i = 0; i < joined.size(); ++i)
         if (joined[i].shown)
-            shares[i] = cone_->shares(*piece.lookup, joined[i].shown->pose, *piece.samples[i].gaze,
-                                      piece.own_parts.size());
+            shares[i] = piece.cone->shares(*piece.lookup, joined[i].shown->pose, *piece.samples[i].gaze,
+                                           piece.own_parts.size());
     return shares;
 }
 

@@ -19,10 +19,11 @@ namespace overt {
 inline constexpr std::size_t samples_at_a_time = 16384;
 
 struct SampleCells : JoinedRow {
-    std::optional<int> trial;                    ///< from 1; nothing: of no trial
-    const std::string &task, &object, &material; ///< as cells
-    const std::vector<std::string>& own_parts;   ///< of the object, by PartIndex
-    const GazeCone::Shares* shares;              ///< null without a cone, and beside lit frames
+    std::optional<int> trial;                  ///< from 1; nothing: of no trial
+    const std::string &task, &slot;            ///< as cells
+    const std::vector<std::string>& stimulus;  ///< a cell for each column of stimuli
+    const std::vector<std::string>& own_parts; ///< of the object, by PartIndex
+    const GazeCone::Shares* shares;            ///< null without a cone, and beside lit frames
 };
 
 /// With the columns of a gaze cone if its accuracy is given. `pupil`: see pupil_words(). `header` must
@@ -36,8 +37,9 @@ class SampleRows {
     SampleRows(const RowLayout<SampleCells>& layout, const SessionRecord& record, TableFormat format,
                std::optional<Degrees> cone_accuracy);
 
-    /// Writes the samples of a trial, made on all processors; `lookup` is null if its object has no
-    /// surface. They pass by `fixations`, too. Throws RecordError.
+    /// Writes the samples of a trial as the presentation in its slot has them (TrialRecord::seen_in), made on
+    /// all processors; `lookup` is null if its object has no surface. They pass by `fixations`, too. Throws
+    /// RecordError.
     SampleCounts write(TableWriter& to, const TrialRecord& trial, const std::optional<TrialLedger>& ledger,
                        const SurfaceLookup* lookup, PassingFixations& fixations);
     /// The same of those between the trial's result and the next trial, which are of none.
@@ -49,20 +51,26 @@ class SampleRows {
         std::optional<int> trial; ///< from 1; nothing: of none
         const SampleJoin& join;
         const SurfaceLookup* lookup;
-        const std::string &task, &object, &material; ///< as cells
+        const std::string &task, &slot;           ///< as cells
+        const std::vector<std::string>& stimulus; ///< a cell for each of their columns
+        const GazeCone* cone;                     ///< null: none
         const std::vector<std::string>&parts, &own_parts;
         const PassingFixations* fixations; ///< null: of none
     };
     SampleCounts write_batch(TableText& to, std::vector<PlacedSample>& placed, const Piece& piece) const;
     SampleCounts write_all(TableWriter& to, const TrialRecord& trial, const SampleJoin& join,
                            const SurfaceLookup* lookup, PassingFixations* fixations) const;
-    std::vector<GazeCone::Shares> cone_shares(const Piece& piece, std::span<const JoinedSample> joined) const;
+    static std::vector<GazeCone::Shares> cone_shares(const Piece& piece,
+                                                     std::span<const JoinedSample> joined);
 
     const RowLayout<SampleCells>& layout_;
     const SessionRecord& record_;
     const SessionHeader& header_;
     TableFormat format_;
-    std::optional<GazeCone> cone_;
+    std::vector<GazeCone> cones_; ///< by slot; none: no cone is asked for
+    const std::string nothing_;   ///< a cell
+    const std::vector<StimulusColumn> columns_;
+    const std::vector<std::string> no_stimulus_; ///< cells
 };
 
 } // namespace overt

@@ -17,6 +17,15 @@ RowLayout<RecordedButton> buttons_layout();
 RowLayout<RecordedKeyPress> key_presses_layout();
 RowLayout<RecordedMarker> markers_layout();
 
+/// A step of an attempt that ended.
+struct StepRow {
+    const TrialRecord& attempt;
+    int number; ///< from 1
+    const AttemptStep& step;
+    operator const TrialRecord&() const { return attempt; }
+};
+RowLayout<StepRow> steps_layout();
+
 struct DisplayBoxRow {
     int sitting;
     const RecordedBox& box;

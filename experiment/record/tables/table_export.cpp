@@ -1,6 +1,7 @@
 #include "experiment/record/tables/table_export.h"
 
 #include <algorithm>
+#include <fstream>
 #include <map>
 #include <set>
 #include <string>
@@ -12,6 +13,7 @@
 #include "experiment/base/whole_file.h"
 #include "experiment/maps/coordinate_maps.h"
 #include "experiment/record/tables/export_tables.h"
+#include "experiment/record/tables/imported_trials.h"
 #include "experiment/study/fixations/passing_fixations.h"
 #include "experiment/study/fixations/trial_presentation.h"
 
@@ -22,8 +24,8 @@ namespace {
 
 constexpr const char* dictionary_file = "dictionary.json";
 
-ExportTables with_words(ExportTables tables, const TrialWords& words) {
-    tables.trials.add<TrialRow>(trial_word_columns(words));
+ExportTables with_messages(ExportTables tables, const TrialMessages& messages) {
+    tables.trials.add<TrialRow>(imported_trial_columns(messages));
     return tables;
 }
 
@@ -34,21 +36,20 @@ constexpr double without_end_s = 1e9;
 class TableExport {
   public:
     TableExport(const SessionRecord& record, const fs::path& directory, const TableExportOptions& options)
-        : record_(record), header_(record.header()), format_(options.format), words_(trial_words(record)),
-          participant_(participant_row(record)),
-          tables_(with_words(ExportTables(header_, pupil_words(record), options.cone_accuracy,
-                                          record.event_origins(), {participant_}),
-                             words_)),
+        : record_(record), header_(record.header()), format_(options.format),
+          messages_(trial_messages(record)), participant_(participant_row(record)),
+          tables_(with_messages(ExportTables(header_, pupil_words(record), options.cone_accuracy,
+                                             record.event_origins(), {participant_}),
+                                messages_)),
           directory_(directory), sample_rows_(tables_.samples, record, format_, options.cone_accuracy),
           validations_(validations_of(record)) {
         for (const Table* table : tables_.all())
             writers_.try_emplace(table, directory, *table, format_);
     }
 
-    /// What the samples of the object's trials are to be joined with.
-    void begin_object(int object, const SurfaceLookup* lookup);
-    /// Puts the samples and events of the trial aside: those of trials of one object come one after
-    /// another.
+    /// What the samples of presentations of the object in a view are to be joined with.
+    void begin_object(const ViewedObject& viewed, const SurfaceLookup* lookup);
+    /// Puts the samples and events of a presentation aside: those of one object come one after another.
     void join_samples(const TrialRecord& trial);
     /// With what was put aside.
     void write_trial(const TrialRecord& trial);
@@ -69,7 +70,7 @@ class TableExport {
     const SessionRecord& record_;
     const SessionHeader& header_;
     const TableFormat format_;
-    const TrialWords words_;
+    const TrialMessages messages_;
     const ParticipantRow participant_;
     const ExportTables tables_;
     std::map<const Table*, TableWriter> writers_;
@@ -80,18 +81,26 @@ class TableExport {
         SampleCounts samples;
         std::int64_t events = 0;
     };
-    std::map<std::int64_t, Aside> aside_; ///< by the trial's id
+    std::map<std::pair<std::int64_t, int>, Aside> aside_; ///< by the trial's id, and the presentation's place
     TableWriter aside_writer(const Table& table, const TrialRecord& trial) const {
         return {aside_file(table, trial), table, format_, Packing::none, TableWriter::Header::none};
     }
     fs::path aside_file(const Table& table, const TrialRecord& trial) const {
-        return directory_ / fmt::format("{}_{}.part", table.name, trial.id);
+        return directory_ / fmt::format("{}_{}_{}.part", table.name, trial.id, trial.place);
     }
     template <class Row>
     void take_aside(const RowLayout<Row>& layout, const TrialRecord& trial, std::int64_t rows) {
         writer(layout).take(aside_file(layout.table(), trial), rows);
         fs::remove(aside_file(layout.table(), trial));
     }
+
+    /// Of what the trial shows, the place in whose slot gaze lies; the first, if it lies in none.
+    std::size_t place_with(const Trial& trial, const std::optional<ScreenPoint>& gaze) const;
+    /// Puts what was put aside of all presentations of a trial into the tables: each sample and event once.
+    void merge_presentations(const TrialRecord& trial, std::int64_t samples);
+    /// Makes of the lines put aside of each presentation those of the trial: the n-th is that of places[n].
+    void take_lines_of(const Table& table, const TrialRecord& trial,
+                       const std::vector<std::size_t>& places) const;
 
     /// Whose the fixations are that name no eye: they are of the one that was recorded.
     Eye eye_of_unnamed(std::span<const GazeEvent> events, int sitting) const;
@@ -104,10 +113,11 @@ class TableExport {
     const std::vector<RecordedAccuracy> validations_;
 };
 
-void TableExport::begin_object(int object, const SurfaceLookup* lookup) {
-    const RecordedObject& recorded = item(header_.objects, object);
+void TableExport::begin_object(const ViewedObject& viewed, const SurfaceLookup* lookup) {
+    const RecordedObject& recorded = item(header_.objects, viewed.object);
     lookup_ = lookup;
-    scale_ = object_scale(recorded.camera, recorded.axis_point, header_.display.screen, recorded.unit);
+    scale_ = object_scale(recorded.camera(viewed.view), recorded.axis_point, header_.display.screen,
+                          recorded.unit);
     ways_.reset();
     const auto* maps = dynamic_cast<const CoordinateMaps*>(lookup);
     if (maps && scale_)
@@ -144,9 +154,10 @@ void TableExport::join_samples(const TrialRecord& trial) {
                             dynamic_cast<const CoordinateMaps*>(lookup_) != nullptr,
                             ways_ ? &*ways_ : nullptr,
                             lookup_};
+    context.has_other_slots = !trial.trial.beside.empty();
     PassingFixations fixations(context, events, eye_of_unnamed(events, trial.sitting),
                                Degrees{presentation.validation ? presentation.validation->mean_deg : 0.0});
-    Aside& aside = aside_[trial.id];
+    Aside& aside = aside_[{trial.id, trial.place}];
     TableWriter samples = aside_writer(tables_.samples.table(), trial);
     aside.samples = sample_rows_.write(samples, trial, ledger, lookup_, fixations);
     samples.close();
@@ -157,14 +168,26 @@ void TableExport::join_samples(const TrialRecord& trial) {
 }
 
 void TableExport::write_trial(const TrialRecord& trial) {
-    counts_.flips +=
-        write_ledger(writer(tables_.flips), tables_.flips, header_, trial, record_.ledger(trial));
-    const auto& [of_trial, events] = aside_.at(trial.id);
-    take_aside(tables_.samples, trial, of_trial.samples);
+    SampleCounts of_trial;
+    for (std::size_t i = 0; i < trial.trial.shown_count(); ++i) {
+        const TrialRecord seen = trial.seen_in(i);
+        const std::int64_t flips =
+            write_ledger(writer(tables_.flips), tables_.flips, header_, seen, record_.ledger(seen));
+        const SampleCounts& samples = aside_.at({trial.id, seen.place}).samples;
+        of_trial.on_object += samples.on_object;
+        of_trial.off_plan += samples.off_plan;
+        if (i == 0) {
+            counts_.flips += flips;
+            of_trial.samples = samples.samples;
+            of_trial.without_gaze = samples.without_gaze;
+        }
+        if (header_.slots.size() > 1)
+            write(tables_.presentations, TrialRow{seen, &samples});
+    }
+    merge_presentations(trial, of_trial.samples);
     const SampleCounts after = sample_rows_.write_after(writer(tables_.samples), trial);
     counts_.samples += after.samples;
     counts_.samples_without_gaze += after.without_gaze;
-    take_aside(tables_.gaze_events, trial, events);
     write(tables_.responses, trial);
     write(tables_.trials, TrialRow{trial, &of_trial});
 
@@ -173,6 +196,56 @@ void TableExport::write_trial(const TrialRecord& trial) {
     counts_.samples_without_gaze += of_trial.without_gaze;
     counts_.samples_on_object += of_trial.on_object;
     counts_.samples_off_plan += of_trial.off_plan;
+}
+
+std::size_t TableExport::place_with(const Trial& trial, const std::optional<ScreenPoint>& gaze) const {
+    for (std::size_t i = 0; gaze && i < trial.shown_count(); ++i) {
+        const ScreenGeometry screen = header_.screen_of_slot(trial.shown(i).slot);
+        if (screen.is_inside_image(screen.image_from_screen(*gaze)))
+            return i;
+    }
+    return 0;
+}
+
+void TableExport::merge_presentations(const TrialRecord& trial, std::int64_t samples) {
+    const std::int64_t events = aside_.at({trial.id, 0}).events;
+    if (trial.trial.shown_count() > 1) {
+        std::vector<std::size_t> places;
+        record_.read_samples(trial, samples_at_a_time, [&](std::span<const GazeSample> piece) {
+            for (const GazeSample& sample : piece)
+                places.push_back(place_with(trial.trial, sample.gaze));
+        });
+        take_lines_of(tables_.samples.table(), trial, places);
+        places.clear();
+        record_.read_gaze_events(
+            trial, [&](const GazeEvent& event) { places.push_back(place_with(trial.trial, event.place)); });
+        take_lines_of(tables_.gaze_events.table(), trial, places);
+    }
+    take_aside(tables_.samples, trial, samples);
+    take_aside(tables_.gaze_events, trial, events);
+}
+
+void TableExport::take_lines_of(const Table& table, const TrialRecord& trial,
+                                const std::vector<std::size_t>& places) const {
+    std::vector<std::ifstream> of_place;
+    for (std::size_t i = 0; i < trial.trial.shown_count(); ++i)
+        of_place.emplace_back(aside_file(table, trial.seen_in(i)), std::ios::binary);
+    const fs::path merged = directory_ / fmt::format("{}_{}_merged.part", table.name, trial.id);
+    {
+        OutputFile file(merged);
+        std::string line, taken;
+        for (const std::size_t place : places) {
+            for (std::size_t i = 0; i < of_place.size(); ++i)
+                if (std::getline(of_place[i], line); i == place)
+                    taken = line + '\n';
+            file.text() += taken;
+            file.flush_if_full();
+        }
+        file.close();
+    }
+    for (std::size_t i = 0; i < of_place.size(); ++i)
+        fs::remove(aside_file(table, trial.seen_in(i)));
+    fs::rename(merged, aside_file(table, trial));
 }
 
 void TableExport::write_what_belongs_to_no_trial() {
@@ -187,6 +260,11 @@ void TableExport::write_what_belongs_to_no_trial() {
         write(tables_.key_presses, press);
     for (const RecordedMarker& marker : record_.markers())
         write(tables_.markers, marker);
+    for (const TrialRecord& trial : record_.trials()) {
+        int number = 0;
+        for (const AttemptStep& step : trial.outcome.steps)
+            write(tables_.steps, StepRow{trial, ++number, step});
+    }
     for (const auto& [sitting, box] : record_.display_boxes()) {
         const auto readings = record_.box_clock_readings(sitting);
         write(tables_.display_box,
@@ -224,17 +302,18 @@ TableExportCounts export_tables(const SessionRecord& record, const LookupFor& lo
     const int all = static_cast<int>(record.trials().size());
     int done = 0;
     // Object by object, for the maps of one take much memory, and making them ready much time.
-    std::set<int> objects;
-    for (const TrialRecord& trial : record.trials())
+    std::set<ViewedObject> seen;
+    const std::vector<TrialRecord> presentations = record.presentations();
+    for (const TrialRecord& trial : presentations)
         if (trial.counts)
-            objects.insert(trial.trial.stimulus.object);
-    for (const int object : objects) {
+            seen.insert(viewed(trial.trial.stimulus));
+    for (const ViewedObject& object : seen) {
         tables.begin_object(object, lookup_for(object));
-        for (const TrialRecord& trial : record.trials()) {
-            if (!trial.counts || trial.trial.stimulus.object != object)
+        for (const TrialRecord& trial : presentations) {
+            if (!trial.counts || viewed(trial.trial.stimulus) != object)
                 continue;
             tables.join_samples(trial);
-            if (options.progress)
+            if (options.progress && trial.place == 0)
                 options.progress(++done, all);
         }
     }

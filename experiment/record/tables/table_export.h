@@ -32,9 +32,9 @@ struct TableExportCounts {
     std::int64_t rows = 0, bytes = 0;  ///< of all tables
 };
 
-/// Gives the lookup for an object, or null if there is none. What it gave is used until the next call:
-/// tables ask once for each object, other exports for each trial.
-using LookupFor = std::function<const SurfaceLookup*(int object)>;
+/// Gives the lookup for an object in a view, or null if there is none. What it gave is used until the next
+/// call: tables ask once for each, other exports for each trial.
+using LookupFor = std::function<const SurfaceLookup*(const ViewedObject& viewed)>;
 
 /// Writes trials, flips, samples, the tracker's own events, events, responses and stimuli with a
 /// dictionary.json that explains each column. The same session gives the same bytes, on every machine and at

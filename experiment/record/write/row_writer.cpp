@@ -13,6 +13,7 @@
 #include "experiment/record/session_file.h"
 #include "experiment/record/session_schema.h"
 #include "experiment/record/sql.h"
+#include "experiment/record/stimulus_columns.h"
 
 namespace overt {
 namespace {
@@ -25,6 +26,7 @@ SQLite::Database open_for_rows(const std::filesystem::path& file) {
     try {
         database.exec(
             "PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL; PRAGMA wal_autocheckpoint = 0");
+        database.exec(with_stimulus_columns(slot_tables_sql));
     } catch (const SQLite::Exception& reason) {
         throw_record_error(file, "opening the session for writing", reason);
     }
@@ -48,6 +50,8 @@ RowWriter::RowWriter(const std::filesystem::path& session_file, const Sitting& s
                    "INSERT INTO flip (trial_id, n, refresh_in_trial, refresh, planned, shown, pose, "
                    "requested_ns, swapped_ns, vertical_blank_ns, source, missed, uncertainty_ns) "
                    "VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?)"),
+      insert_slot_flip_(database_, "INSERT OR REPLACE INTO slot_flip (trial_id, refresh_in_trial, place, "
+                                   "planned, shown, pose) VALUES (?,?,?,?,?,?)"),
       insert_missed_(database_,
                      "INSERT OR REPLACE INTO missed_refresh (trial_id, refresh_in_trial, refresh, planned, "
                      "shown, pose, vertical_blank_ns, uncertainty_ns) VALUES (?,?,?,?,?,?,?,?)"),
@@ -55,10 +59,11 @@ RowWriter::RowWriter(const std::filesystem::path& session_file, const Sitting& s
       insert_clock_pair_(database_, "INSERT INTO clock_pair VALUES (NULL,?,?,?,?)"),
       insert_event_(database_, "INSERT INTO event VALUES (NULL,?,?,?,?,?)"),
       insert_map_(database_,
-                  "INSERT OR REPLACE INTO map (object, pose, file, sha256, made) VALUES (?,?,?,?,?)"),
+                  "INSERT OR REPLACE INTO map (object, view, pose, file, sha256, made) VALUES (?,?,?,?,?,?)"),
       insert_trial_(database_,
-                    "INSERT INTO trial (trial_id, sitting, trial, attempt, task, object, material, "
-                    "status, started_ns) VALUES (?,?,?,?,?,?,?,'open',?)"),
+                    fmt::format("INSERT INTO trial (trial_id, sitting, trial, attempt, task, {}, status, "
+                                "started_ns) VALUES (?,?,?,?,?{},'open',?)",
+                                stimulus_columns(), marks_of_stimulus())),
       finish_trial_(
           database_,
           "UPDATE trial SET status = ?, task_screen_onset_ns = ?, presentation_onset_ns = ?, "
@@ -163,6 +168,12 @@ void RowWriter::write(const FlipRecord& flip) {
                   report.uncertainty);
 }
 
+void RowWriter::write(const SlotFlip& flip) {
+    begin();
+    run_statement(insert_slot_flip_, counts_of(flip.trial).trial_id, flip.refresh_in_trial, flip.place,
+                  flip.planned.value, flip.shown.value, flip.pose.value);
+}
+
 void RowWriter::write(const MissedRefresh& refresh) {
     begin();
     run_statement(insert_missed_, counts_of(refresh.trial).trial_id, refresh.refresh_in_trial,
@@ -265,7 +276,7 @@ void RowWriter::write(const EventRow& event) {
 
 void RowWriter::write(const RecordedMap& map) {
     begin_sealed();
-    run_statement(insert_map_, map.object, map.pose.value, map.file, map.sha256,
+    run_statement(insert_map_, map.viewed.object, map.viewed.view, map.pose.value, map.file, map.sha256,
                   map.made == RecordedMap::Made::prepared ? "prepared" : "live");
 }
 
@@ -329,10 +340,33 @@ void RowWriter::write(const TrialStart& start) {
     const std::int64_t attempt =
         1 + number(database_, "SELECT COUNT(*) FROM trial WHERE trial = ?1", trial.index);
     run_statement(insert_trial_, trial_counts_.trial_id, sitting_, trial.index, attempt, trial.task,
-                  trial.stimulus.object, trial.stimulus.material, start.at);
+                  trial.stimulus, start.at);
+    for (std::size_t i = 0; i < trial.shown_count(); ++i) {
+        const auto [stimulus, slot] = trial.shown(i);
+        insert_values(database_,
+                      fmt::format("INTO presentation (trial_id, place, slot, {})", stimulus_columns()),
+                      trial_counts_.trial_id, static_cast<int>(i), slot, stimulus);
+    }
     gaze_rows_.begin_trial(trial_counts_.trial_id);
     if (events_)
         events_->begin_trial();
+}
+
+/// The first and the last refresh at which a flip showed each.
+void RowWriter::note_refreshes_of_presentations() {
+    SQLite::Statement first(
+        database_,
+        "UPDATE presentation SET (first_refresh, last_refresh) = "
+        "(SELECT MIN(refresh_in_trial), MAX(refresh_in_trial) FROM flip "
+        "WHERE flip.trial_id = presentation.trial_id AND shown >= 0) WHERE trial_id = ? AND place = 0");
+    run_statement(first, trial_counts_.trial_id);
+    SQLite::Statement further(
+        database_,
+        "UPDATE presentation SET (first_refresh, last_refresh) = "
+        "(SELECT MIN(refresh_in_trial), MAX(refresh_in_trial) FROM slot_flip "
+        "WHERE slot_flip.trial_id = presentation.trial_id AND slot_flip.place = presentation.place "
+        "AND shown >= 0) WHERE trial_id = ? AND place > 0");
+    run_statement(further, trial_counts_.trial_id);
 }
 
 void RowWriter::write(const TrialFinish& finish) {
@@ -351,6 +385,7 @@ void RowWriter::write(const TrialFinish& finish) {
                   finish.lost_samples,
                   outcome.failure.empty() ? std::nullopt : std::optional(outcome.failure),
                   afterwards.empty() ? std::nullopt : std::optional(afterwards), trial_counts_.trial_id);
+    note_refreshes_of_presentations();
     if (outcome.responded_uncertainty)
         insert_values(database_, "INTO response_press (trial_id, uncertainty_ns)", trial_counts_.trial_id,
                       outcome.responded_uncertainty);
@@ -358,6 +393,15 @@ void RowWriter::write(const TrialFinish& finish) {
         insert_values(database_, "INTO swap_modes (trial_id, flipped, copied, suboptimal_copied, skipped)",
                       trial_counts_.trial_id, swaps->flipped, swaps->copied, swaps->suboptimal_copied,
                       swaps->skipped);
+    int number = 0;
+    for (const AttemptStep& step : outcome.steps)
+        insert_values(database_,
+                      "INTO step (trial_id, n, kind, id, planned_refreshes, drawn_s, still_frame, begin_ns, "
+                      "end_ns, ended_by, gaze_onset_us, gaze_detected_us)",
+                      trial_counts_.trial_id, ++number, step.kind, step.id, step.planned_refreshes,
+                      step.drawn_s, step.still_frame, step.begin, step.end,
+                      step.ended_by ? std::optional(name_of(*step.ended_by)) : std::nullopt,
+                      step.gaze_onset, step.gaze_detected);
     seals_.seal_trial(sitting_, trial_counts_.trial_id);
     forget_file_hash(database_);
     commit_to_disk();

@@ -23,6 +23,8 @@ SessionStore::~SessionStore() {
 
 void SessionStore::flip(const FlipRecord& flip) noexcept { writer_->push(Row(flip)); }
 
+void SessionStore::slot_flip(const SlotFlip& flip) noexcept { writer_->push(Row(flip)); }
+
 void SessionStore::missed(const MissedRefresh& refresh) noexcept { writer_->push(Row(refresh)); }
 
 void SessionStore::sample(int trial, const GazeSample& sample) noexcept {

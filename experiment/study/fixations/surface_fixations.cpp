@@ -163,16 +163,16 @@ void find_motion(StudyFixation& fixation, std::span<const PlacedSample* const> l
         fixation.surface_deg_s = way_deg / fixation.duration_s;
 }
 
-/// The mean over the animation of what a pose gives, each for as long as a presentation shows it.
+/// The mean over the motion of what a picture gives, each for as long as a presentation shows it.
 template <class ScoreOf>
-std::optional<double> mean_over_poses(std::span<const double> pose_seconds, const ScoreOf& score_of) {
+std::optional<double> mean_over_pictures(const ShownPictures& pictures, const ScoreOf& score_of) {
     double sum = 0.0, seconds = 0.0;
-    for (std::size_t pose = 0; pose < pose_seconds.size(); ++pose) {
-        if (!(pose_seconds[pose] > 0.0))
+    for (std::size_t picture = 0; picture < pictures.seconds.size(); ++picture) {
+        if (!(pictures.seconds[picture] > 0.0))
             continue;
-        if (const std::optional<double> score = score_of(PoseIndex{static_cast<int>(pose)})) {
-            sum += pose_seconds[pose] * *score;
-            seconds += pose_seconds[pose];
+        if (const std::optional<double> score = score_of(static_cast<int>(picture))) {
+            sum += pictures.seconds[picture] * *score;
+            seconds += pictures.seconds[picture];
         }
     }
     return seconds > 0.0 ? std::optional(sum / seconds) : std::nullopt;
@@ -183,25 +183,27 @@ std::optional<double> mean_over_poses(std::span<const double> pose_seconds, cons
 void find_light(StudyFixation& fixation, std::span<const PlacedSample* const> placed,
                 const FixationContext& context) {
     const auto* maps = dynamic_cast<const CoordinateMaps*>(context.lookup);
-    if (!maps || !context.screen || !context.light)
+    if (!maps || !context.screen || !context.light || !context.pictures)
         return;
+    const ShownPictures& pictures = *context.pictures;
     double sum = 0.0;
     int met = 0;
     for (const PlacedSample* sample : placed) {
         if (!sample->is_on_surface)
             continue;
-        if (const auto score =
-                context.light->at(sample->pose, context.screen->image_from_screen(sample->gaze))) {
+        const int picture = pictures.of_frame.at(static_cast<std::size_t>(sample->frame));
+        if (const auto score = context.light->at(picture, context.screen->image_from_screen(sample->gaze))) {
             sum += *score;
             ++met;
         }
     }
     const glm::dvec2 place = context.screen->image_from_screen(fixation.place);
     const auto at_place =
-        mean_over_poses(context.pose_seconds, [&](PoseIndex pose) { return context.light->at(pose, place); });
-    const auto at_point = mean_over_poses(context.pose_seconds, [&](PoseIndex pose) -> std::optional<double> {
+        mean_over_pictures(pictures, [&](int picture) { return context.light->at(picture, place); });
+    const auto at_point = mean_over_pictures(pictures, [&](int picture) -> std::optional<double> {
+        const PoseIndex pose = pictures.poses[static_cast<std::size_t>(picture)];
         const glm::dvec2 seen(maps->sight_lines(pose).project(fixation.position));
-        const auto score = context.light->at(pose, seen);
+        const auto score = context.light->at(picture, seen);
         return score && maps->is_visible(pose, fixation.position) ? score : std::nullopt;
     });
     if (met > 0 && at_place && at_point)
@@ -249,6 +251,8 @@ std::optional<StudyFixation> surface_fixation(const GazeEvent& event, const Fixa
             placed.push_back(&sample);
         met += sample.is_on_surface;
     }
+    if (context.has_other_slots && lit.empty())
+        return std::nullopt;
     fixation.samples = static_cast<int>(lit.size());
     fixation.place = event.place.value_or(ScreenPoint{});
     if (!lit.empty()) {

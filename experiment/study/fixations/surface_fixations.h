@@ -36,17 +36,19 @@ struct FixationContext {
     /// Of a session that knows of no stimulus: its fixations are told with their places on the screen alone,
     /// and no frame needs to have been lit.
     bool has_stimulus = true;
-    bool has_mesh = false;                  ///< points have triangles
-    SurfaceWays* ways = nullptr;            ///< along the mesh; null without one, or without a scale
-    const SurfaceLookup* lookup = nullptr;  ///< for the gaze cone; may be null
-    const GazeCone* cone = nullptr;         ///< the same
-    const ScreenGeometry* screen = nullptr; ///< for the error of the look-up; null: it is not reckoned
-    const LightScores* light = nullptr;     ///< of the stimulus; null: not known
-    std::span<const double> pose_seconds{}; ///< how long a presentation shows each pose, by PoseIndex
+    bool has_mesh = false;                   ///< points have triangles
+    SurfaceWays* ways = nullptr;             ///< along the mesh; null without one, or without a scale
+    const SurfaceLookup* lookup = nullptr;   ///< for the gaze cone; may be null
+    const GazeCone* cone = nullptr;          ///< the same
+    const ScreenGeometry* screen = nullptr;  ///< for the error of the look-up; null: it is not reckoned
+    const LightScores* light = nullptr;      ///< of the stimulus; null: not known
+    const ShownPictures* pictures = nullptr; ///< of the stimulus's motion; with `light`
+    /// Of the presentation in one of several slots: fixations in no frame of it are others', and left out.
+    bool has_other_slots = false;
 };
 
 /// A fixation of the events with the samples that are its own. Those that ended before the onset, or began
-/// after the presentation's end, are not the presentation's: nothing.
+/// after the presentation's end, or lie in other slots, are not the presentation's: nothing.
 std::optional<StudyFixation> surface_fixation(const GazeEvent& event, const FixationContext& context);
 
 /// Index range of the samples from one time to another, both in it.

@@ -28,7 +28,7 @@ TrialPresentation presentation_of(const SessionHeader& header, const TrialRecord
     else if (trial.has_outcome() && outcome.responded_at > of.onset)
         of.duration_s = to_seconds(outcome.responded_at - of.onset);
     else if (of.has_stimulus)
-        of.duration_s = header.animation.duration_s;
+        of.duration_s = header.animation_of(trial.trial.stimulus).duration_s;
     const auto validation = std::find_if(validations.rbegin(), validations.rend(),
                                          [&](const auto& one) { return one.at <= trial.started; });
     if (validation != validations.rend())

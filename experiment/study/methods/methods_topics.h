@@ -20,6 +20,8 @@ std::string gaze_quality_text(const StudyResults& results);
 std::string events_text(const StudyResults& results);
 /// From samples to places on the surface, and which fixations count.
 std::string places_text(const StudyResults& results, const StudyOptions& options);
+/// Areas of the screen, and what gaze did with them.
+std::string screen_areas_text(const StudyResults& results, const StudyOptions& options);
 /// Maps, comparisons, tests and intervals.
 std::string statistics_text(const StudyResults& results, const StudyOptions& options);
 

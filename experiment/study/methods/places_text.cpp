@@ -75,6 +75,15 @@ void add_counts(std::string& text, const StudyResults& results) {
 
 std::string places_text(const StudyResults& results, const StudyOptions& options) {
     std::string text;
+    if (!knows_stimuli(results)) {
+        add_sentence(
+            text,
+            "what was shown is not on record, so that no fixation was placed on a surface, and no maps, "
+            "shares of parts or comparisons of conditions on a surface were computed");
+        add_sentence(text, fmt::format("{} have their places on the screen",
+                                       as_counted(results.glance.fixations, "fixation")));
+        return text;
+    }
     if (!any_placed(results)) {
         add_sentence(text, "the sessions have no surfaces, so that no fixation was placed on one");
         add_counts(text, results);

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "experiment/animation.h"
 #include "experiment/maps/coordinate_maps.h"
 #include "experiment/study/results/study_results.h"
 
@@ -21,22 +20,21 @@ struct Exposure {
     std::vector<double> part_pixel_seconds; ///< the same by PartIndex
 };
 
-/// Of one presentation as it was planned. A vertex is visible in a pose if a triangle that has it is at the
-/// centre of a pixel, or if it has a triangle that faces the camera and the map shows no nearer surface at
-/// its place: small triangles may lie between the centres of pixels. There the map's triangle is continued to
-/// the vertex's line of sight, no farther than its corners are, and surfaces within two pixels' width of
-/// depth are taken as one. Uses all processors; does not depend on how many.
-Exposure exposure_of(const CoordinateMaps& maps, const Animation& animation, const PoseTable& poses);
+/// Of presentations that show each pose for so long, `seconds` by PoseIndex. A vertex is visible in a pose if
+/// a triangle that has it is at the centre of a pixel, or if it has a triangle that faces the camera and the
+/// map shows no nearer surface at its place: small triangles may lie between the centres of pixels. There the
+/// map's triangle is continued to the vertex's line of sight, no farther than its corners are, and surfaces
+/// within two pixels' width of depth are taken as one. Uses all processors; does not depend on how many.
+Exposure exposure_of(const CoordinateMaps& maps, std::span<const double> seconds);
 
-/// Each part with its area, how long it is visible, and its share of the exposure and of the fixations; the
+/// Each area with its size, how long it is visible, and its share of the exposure and of the fixations; the
 /// first row is the whole object. `px_mm2`: the area of the object, seen head-on in the depth of its axis,
 /// that a pixel shows.
-struct PartExposure {
+struct AreaExposure {
     const Exposure& exposure;
     const Mesh& mesh;
     double mm_per_unit = 1.0, px_mm2 = 1.0;
 };
-std::vector<ExposureRow> exposure_rows(const PartExposure& of, int object,
-                                       std::span<const std::string> part_names);
+std::vector<ExposureRow> exposure_rows(const AreaExposure& of, int object, const Areas& areas);
 
 } // namespace overt

@@ -89,6 +89,7 @@ std::vector<OpenSession> open_sessions(std::span<const std::filesystem::path> se
                 one.readers.front()->detect_events_of_imports();
             one.keys.push_back(std::make_unique<TrialKeys>(*one.readers.back()));
         }
+        one.presentations = one.record().presentations();
         doubles.add(one.record());
         one.validations = validations_of(one.record());
     }
@@ -109,17 +110,19 @@ StudySession describe_session(const OpenSession& open, const std::filesystem::pa
     session.is_complete = record.is_complete();
     session.setup = setup_of(record);
     for (const TrialRecord& trial : record.trials())
-        session.trials += trial.counts;
+        session.trials += trial.gives_results();
     return session;
 }
 
-bool is_same_object(const SessionHeader& a, int in_a, const SessionHeader& b, int in_b) {
-    const RecordedObject &one = a.objects[static_cast<std::size_t>(in_a)],
-                         &other = b.objects[static_cast<std::size_t>(in_b)];
-    const auto maps_of = [](const SessionHeader& header, int object) {
+bool is_same_object(const SessionHeader& a, const ViewedObject& in_a, const SessionHeader& b,
+                    const ViewedObject& in_b) {
+    const RecordedObject &one = a.objects[static_cast<std::size_t>(in_a.object)],
+                         &other = b.objects[static_cast<std::size_t>(in_b.object)];
+    const Camera &camera = one.camera(in_a.view), &other_camera = other.camera(in_b.view);
+    const auto maps_of = [](const SessionHeader& header, const ViewedObject& viewed) {
         std::vector<std::pair<int, ContentHash>> maps;
         for (const RecordedMap& map : header.maps) {
-            if (map.object == object)
+            if (map.viewed == viewed)
                 maps.emplace_back(map.pose.value, map.sha256);
         }
         std::sort(maps.begin(), maps.end());
@@ -132,23 +135,28 @@ bool is_same_object(const SessionHeader& a, int in_a, const SessionHeader& b, in
     };
     return std::ranges::equal(a.poses.angles, b.poses.angles, same_angle) && one.id == other.id &&
            one.mesh_file.empty() == other.mesh_file.empty() && one.mesh_sha256 == other.mesh_sha256 &&
-           one.camera.position == other.camera.position && one.camera.target == other.camera.target &&
-           one.camera.vertical_fov == other.camera.vertical_fov && screen.image_px == other_screen.image_px &&
+           camera.position == other_camera.position && camera.target == other_camera.target &&
+           camera.vertical_fov == other_camera.vertical_fov && screen.image_px == other_screen.image_px &&
            screen.screen_px == other_screen.screen_px && screen.screen_mm == other_screen.screen_mm &&
            screen.viewing_distance_mm == other_screen.viewing_distance_mm &&
            (!one.mesh_file.empty() || maps_of(a, in_a) == maps_of(b, in_b));
 }
 
-StudyObject describe_object(const SessionHeader& header, int index) {
-    const RecordedObject& recorded = header.objects[static_cast<std::size_t>(index)];
+StudyObject describe_object(const SessionHeader& header, const ViewedObject& viewed) {
+    const RecordedObject& recorded = header.objects[static_cast<std::size_t>(viewed.object)];
     StudyObject object;
     object.id = recorded.id;
     object.title = recorded.title;
+    if (recorded.cameras.size() > 1)
+        object.title += ", " + (static_cast<std::size_t>(viewed.view) < header.views.size()
+                                    ? header.views[static_cast<std::size_t>(viewed.view)].title
+                                    : fmt::format("view {}", viewed.view + 1));
     object.part_names = recorded.part_names;
-    object.head = HeadParts(recorded.part_names);
-    object.camera = recorded.camera;
+    object.areas = Areas(recorded.part_names);
+    object.camera = recorded.camera(viewed.view);
     object.axis_point = recorded.axis_point;
     object.unit = recorded.unit;
+    object.origin = recorded.origin;
     object.screen = header.display.screen;
     return object;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -21,7 +22,8 @@ struct OpenSession {
     std::vector<std::unique_ptr<SessionRecord>> readers;
     std::vector<std::unique_ptr<TrialKeys>> keys; ///< by reader
     std::vector<RecordedAccuracy> validations;    ///< in the order of time
-    std::vector<int> objects;                     ///< of the study, by the session's own index
+    std::map<ViewedObject, int> objects;          ///< of the study, by the session's own indices
+    std::vector<TrialRecord> presentations;       ///< of its record: the units of a study
     const SessionRecord& record() const { return *readers.front(); }
 };
 
@@ -35,11 +37,14 @@ std::vector<OpenSession> open_sessions(std::span<const std::filesystem::path> se
 /// SessionRecord::event_origins().
 StudySession describe_session(const OpenSession& open, const std::filesystem::path& path);
 
-/// Whether two sessions' objects, by their indices there, are one: the same picture of the same mesh.
-bool is_same_object(const SessionHeader& a, int in_a, const SessionHeader& b, int in_b);
+/// Whether two sessions' objects in a view, by their indices there, are one: the same picture of the same
+/// mesh.
+bool is_same_object(const SessionHeader& a, const ViewedObject& in_a, const SessionHeader& b,
+                    const ViewedObject& in_b);
 
-/// What a study knows of a session's object, by its index there, without its mesh.
-StudyObject describe_object(const SessionHeader& header, int index);
+/// What a study knows of a session's object in a view, by its indices there, without its mesh. Where the
+/// session has several views, its title has the view's.
+StudyObject describe_object(const SessionHeader& header, const ViewedObject& viewed);
 
 /// How far a session has got: another text once it was gone on with.
 std::string state_of(const SessionRecord& record);

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <map>
 #include <mutex>
+#include <numeric>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -13,10 +14,11 @@
 #include "experiment/maps/coordinate_maps.h"
 #include "experiment/record/no_stimulus.h"
 #include "experiment/record/preview_file.h"
+#include "experiment/study/read/area_evidence.h"
 #include "experiment/study/read/exposure.h"
 #include "experiment/study/read/gaze_quality.h"
 #include "experiment/study/read/open_sessions.h"
-#include "experiment/study/read/part_evidence.h"
+#include "experiment/study/read/trial_screen_areas.h"
 
 namespace overt {
 
@@ -79,7 +81,7 @@ class StudyReader {
             const SessionRecord& record = open_[i].record();
             results().sessions[i].events = record.event_origins();
             read_.push_back({open_[i].path, state_of(record), results().sessions[i].events,
-                             std::vector<ReadTrial>(record.trials().size())});
+                             std::vector<ReadTrial>(open_[i].presentations.size())});
         }
     }
 
@@ -93,12 +95,16 @@ class StudyReader {
             }
         };
         const auto id_of = [](const auto& item) { return item.id; };
-        take_levels("task", header.tasks, id_of);
-        take_levels("object", header.objects, id_of);
-        take_levels("material", header.materials, id_of);
-        take_levels("block", header.blocks, [](const std::string& block) { return block; });
-        for (int i = 0; i < static_cast<int>(header.objects.size()); ++i)
-            open_[index].objects.push_back(object_of(index, i));
+        const Factors factors = factors_of(header);
+        for (const Factor& factor : factors.all())
+            take_levels(factor.name, factor.levels, [](const FactorLevel& level) { return level.name; });
+        if (header.slots.size() > 1)
+            take_levels("slot", header.slots, id_of);
+        for (int object = 0; object < static_cast<int>(header.objects.size()); ++object) {
+            const std::size_t views = header.objects[static_cast<std::size_t>(object)].cameras.size();
+            for (int view = 0; view < static_cast<int>(views); ++view)
+                open_[index].objects[{object, view}] = object_of(index, {object, view});
+        }
         results().sessions.push_back(describe_session(open_[index], path));
     }
 
@@ -120,8 +126,8 @@ class StudyReader {
         }
     }
 
-    /// The study's index of a session's object, which is new or was in a session before.
-    int object_of(std::size_t session, int own) {
+    /// The study's index of a session's object in a view, which is new or was in a session before.
+    int object_of(std::size_t session, const ViewedObject& own) {
         const SessionHeader& header = open_[session].record().header();
         for (std::size_t i = 0; i < shown_in_.size(); ++i) {
             const auto [other, index] = shown_in_[i];
@@ -146,7 +152,7 @@ class StudyReader {
         for (std::size_t session = 0; session < open_.size(); ++session) {
             for (std::size_t reader = 0; reader < open_[session].readers.size(); ++reader)
                 jobs.push_back({session, reader});
-            for (const TrialRecord& trial : open_[session].record().trials())
+            for (const TrialRecord& trial : open_[session].presentations)
                 trials += is_of(session, trial, index);
         }
         std::atomic<int> done{0};
@@ -158,8 +164,8 @@ class StudyReader {
             if (surface.coarse)
                 ways.emplace(*surface.geometry, *surface.coarse, *surface.coarse_geometry);
             const SessionRecord& record = *open.readers[reader];
-            for (std::size_t t = reader; t < record.trials().size(); t += open.readers.size()) {
-                const TrialRecord& trial = record.trials()[t];
+            for (std::size_t t = reader; t < open.presentations.size(); t += open.readers.size()) {
+                const TrialRecord& trial = open.presentations[t];
                 if (!is_of(session, trial, index))
                     continue;
                 read_[session].trials[t] =
@@ -173,8 +179,17 @@ class StudyReader {
         });
     }
 
-    /// Of an object's stimuli by the hash of their frames.
-    using LightOfStimuli = std::map<ContentHash, LightScores>;
+    /// Of an object's stimuli by the hash of their frames, and the angles of their pictures, which are not in
+    /// the hash.
+    using LightKey = std::pair<ContentHash, std::vector<Degrees>>;
+    using LightOfStimuli = std::map<LightKey, LightScores>;
+
+    static LightKey light_key(const SessionHeader& header, const RecordedStimulus& stimulus) {
+        LightKey key{stimulus.frames_sha256, {}};
+        for (const Pose& pose : header.animation_of(stimulus.stimulus).pictures())
+            key.second.push_back(pose.object);
+        return key;
+    }
 
     /// Each from the first session that has it. A file that cannot be read is as good as none.
     LightOfStimuli load_light(int index, const SurfaceLookup* lookup) {
@@ -183,15 +198,15 @@ class StudyReader {
             const SessionRecord& record = open_[session].record();
             const SessionHeader& header = record.header();
             for (const RecordedStimulus& stimulus : header.stimuli) {
-                const auto own = static_cast<std::size_t>(stimulus.stimulus.object);
+                LightKey key = light_key(header, stimulus);
+                const auto pictures = static_cast<int>(key.second.size());
                 const std::filesystem::path file = record.directory() / light_file(header, stimulus.stimulus);
-                if (open_[session].objects[own] != index || light.contains(stimulus.frames_sha256) ||
+                if (open_[session].objects.at(viewed(stimulus.stimulus)) != index || light.contains(key) ||
                     !std::filesystem::exists(file))
                     continue;
                 try {
-                    light.emplace(stimulus.frames_sha256, LightScores(read_light_pictures(
-                                                              file, header.display.screen.image_px,
-                                                              static_cast<int>(header.poses.angles.size()))));
+                    light.emplace(std::move(key), LightScores(read_light_pictures(
+                                                      file, header.display.screen.image_px, pictures)));
                 } catch (const InputError& error) {
                     results().remarks.push_back(
                         fmt::format("The light of a stimulus is left out: {}", error.what()));
@@ -204,7 +219,7 @@ class StudyReader {
     static const LightScores* light_of(const LightOfStimuli& light, const SessionHeader& header,
                                        const TrialRecord& trial) {
         const RecordedStimulus* const stimulus = stimulus_of(header, trial.trial.stimulus);
-        const auto found = stimulus ? light.find(stimulus->frames_sha256) : light.end();
+        const auto found = stimulus ? light.find(light_key(header, *stimulus)) : light.end();
         return found == light.end() ? nullptr : &found->second;
     }
 
@@ -212,14 +227,15 @@ class StudyReader {
     void add_evidence(int index) {
         const StudyObject& object = results().objects[static_cast<std::size_t>(index)];
         const ObjectSurface& surface = study_.surfaces[static_cast<std::size_t>(index)];
-        if (!object.mesh || !object.head || !surface.scale)
+        if (!object.mesh || object.areas.empty() || !surface.scale)
             return;
         std::vector<StudyFixation*> fixations;
         std::vector<MeasuredPlace> places;
         const SessionHeader* header = nullptr;
         for (std::size_t session = 0; session < open_.size(); ++session) {
             for (std::size_t t = 0; t < read_[session].trials.size(); ++t) {
-                if (!is_of(session, open_[session].record().trials()[t], index))
+                const TrialRecord& trial = open_[session].presentations[t];
+                if (!is_of(session, trial, index))
                     continue;
                 header = &open_[session].record().header();
                 const std::optional<double>& accuracy = read_[session].trials[t].trial.quality.accuracy_deg;
@@ -233,22 +249,24 @@ class StudyReader {
                     if (!fixation.counted() && fixation.why != NotCounted::not_on_surface)
                         continue;
                     fixations.push_back(&fixation);
-                    places.push_back({fixation.mid_pose, object.screen.image_from_screen(fixation.mid_gaze),
-                                      sigma_deg * px_per_deg});
+                    places.push_back(
+                        {fixation.mid_pose,
+                         header->screen_of_slot(trial.trial.slot).image_from_screen(fixation.mid_gaze),
+                         sigma_deg * px_per_deg});
                 }
             }
         }
         if (fixations.empty())
             return;
         const SceneView scene{{object.camera, object.screen.image_px}, object.mesh->bounds()};
-        const auto evidence = part_evidence(*object.mesh, object.head, scene, header->poses.angles, places);
+        auto evidence = area_evidence(*object.mesh, object.areas, scene, header->poses.angles, places);
         for (std::size_t i = 0; i < fixations.size(); ++i)
-            fixations[i]->evidence = evidence[i];
+            fixations[i]->evidence = std::move(evidence[i]);
     }
 
     bool is_of(std::size_t session, const TrialRecord& trial, int object) const {
-        const auto own = static_cast<std::size_t>(trial.trial.stimulus.object);
-        return trial.counts && own < open_[session].objects.size() && open_[session].objects[own] == object;
+        const auto own = open_[session].objects.find(viewed(trial.trial.stimulus));
+        return trial.gives_results() && own != open_[session].objects.end() && own->second == object;
     }
 
     /// From the first session that has it whole.
@@ -256,13 +274,12 @@ class StudyReader {
         const SurfaceLookup* lookup = nullptr;
         std::string fault;
         for (std::size_t session = 0; session < open_.size() && !lookup; ++session) {
-            const std::vector<int>& own = open_[session].objects;
-            const auto found = std::find(own.begin(), own.end(), index);
+            const std::map<ViewedObject, int>& own = open_[session].objects;
+            const auto found = std::ranges::find(own, index, [](const auto& one) { return one.second; });
             if (found == own.end())
                 continue;
             try {
-                lookup =
-                    surface_for_(open_[session].record(), session, static_cast<int>(found - own.begin()));
+                lookup = surface_for_(open_[session].record(), session, found->first);
             } catch (const Error& error) {
                 if (fault.empty())
                     fault = error.what();
@@ -273,22 +290,49 @@ class StudyReader {
         return lookup;
     }
 
+    /// How long a presentation of an object shows each pose as planned, by PoseIndex: the mean over the
+    /// trials that count, and over all motions if there is none.
+    std::vector<double> seconds_shown(int index) const {
+        const SessionHeader& header =
+            open_[shown_in_[static_cast<std::size_t>(index)].first].record().header();
+        std::vector<double> trials(header.animations.size(), 0.0);
+        // Sessions of one object have the same poses; motions have their numbers in the session.
+        for (std::size_t session = 0; session < open_.size(); ++session) {
+            for (const TrialRecord& trial : open_[session].presentations) {
+                const auto motion = static_cast<std::size_t>(trial.trial.stimulus.motion);
+                if (is_of(session, trial, index) && motion < trials.size())
+                    trials[motion] += 1.0;
+            }
+        }
+        double all = std::accumulate(trials.begin(), trials.end(), 0.0);
+        if (!(all > 0.0)) {
+            trials.assign(trials.size(), 1.0);
+            all = static_cast<double>(trials.size());
+        }
+        std::vector<double> seconds(header.poses.angles.size(), 0.0);
+        for (std::size_t motion = 0; motion < trials.size(); ++motion) {
+            const std::vector<double> of_motion =
+                seconds_of_poses(header.animations[motion], header.poses, static_cast<int>(motion));
+            for (std::size_t pose = 0; pose < seconds.size(); ++pose)
+                seconds[pose] += trials[motion] / all * of_motion[pose];
+        }
+        return seconds;
+    }
+
     void find_exposure(int index, const SurfaceLookup* lookup) {
         StudyObject& object = results().objects[static_cast<std::size_t>(index)];
         ObjectSurface& surface = study_.surfaces[static_cast<std::size_t>(index)];
         const auto* maps = dynamic_cast<const CoordinateMaps*>(lookup);
         if (!maps)
             return;
-        const SessionHeader& header =
-            open_[shown_in_[static_cast<std::size_t>(index)].first].record().header();
         progress_(fmt::format("exposure of {}", object.id), 0, 1);
-        Exposure exposure = exposure_of(*maps, header.animation, header.poses);
+        Exposure exposure = exposure_of(*maps, seconds_shown(index));
         if (surface.scale) {
             const ScreenGeometry& screen = object.screen;
             const double px_mm = screen.screen_mm.y / screen.screen_px.y / surface.scale->shown_size;
             for (ExposureRow& row :
                  exposure_rows({exposure, *object.mesh, surface.scale->mm_per_unit, px_mm * px_mm}, index,
-                               object.part_names))
+                               object.areas))
                 results().exposures.push_back(std::move(row));
         }
         object.seconds_visible = std::move(exposure.seconds_visible);
@@ -300,9 +344,9 @@ class StudyReader {
     void collect() {
         bool any_both_eyes = false;
         for (std::size_t session = 0; session < open_.size(); ++session) {
-            const std::vector<TrialRecord>& trials = open_[session].record().trials();
+            const std::vector<TrialRecord>& trials = open_[session].presentations;
             for (std::size_t t = 0; t < trials.size(); ++t) {
-                if (!trials[t].counts)
+                if (!trials[t].gives_results())
                     continue;
                 ReadTrial& read = read_[session].trials[t];
                 const int index = static_cast<int>(results().trials.size());
@@ -310,8 +354,7 @@ class StudyReader {
                 for (StudyKey& key : read.trial.keys)
                     if (key.column == "observer")
                         key.value = results().sessions[session].observer;
-                read.trial.object =
-                    open_[session].objects[static_cast<std::size_t>(trials[t].trial.stimulus.object)];
+                read.trial.object = open_[session].objects.at(viewed(trials[t].trial.stimulus));
                 read.trial.first_fixation = results().fixations.size();
                 read.trial.fixations = read.fixations.size();
                 for (StudyFixation& fixation : read.fixations) {
@@ -323,10 +366,12 @@ class StudyReader {
                     results().traces.push_back(std::move(read.trace));
                 }
                 any_both_eyes |= read.had_both_eyes;
-                results().glance.samples += read.samples;
+                if (trials[t].place == 0)
+                    results().glance.samples += read.samples;
                 results().trials.push_back(std::move(read.trial));
             }
         }
+        add_screen_areas();
         for (int session = 0; session < static_cast<int>(open_.size()); ++session) {
             std::vector<const StudyQuality*> own;
             for (const StudyTrial& trial : results().trials) {
@@ -351,6 +396,43 @@ class StudyReader {
         }
     }
 
+    /// Those that recordings tell and those of the options, by trial.
+    void add_screen_areas() {
+        std::vector<std::vector<ScreenArea>>& areas = results().screen_areas;
+        std::vector<std::string> files, faults;
+        for (const OpenSession& open : open_) {
+            for (const TrialRecord& trial : open.presentations) {
+                if (!trial.counts)
+                    continue;
+                RecordedScreenAreas recorded = recorded_screen_areas(open.record(), trial);
+                for (ScreenArea& chosen :
+                     chosen_screen_areas(options_.screen_areas, results().trials[areas.size()]))
+                    recorded.areas.push_back(std::move(chosen));
+                areas.push_back(std::move(recorded.areas));
+                std::ranges::move(recorded.faults, std::back_inserter(faults));
+                for (std::string& file : recorded.files)
+                    if (std::ranges::find(files, file) == files.end())
+                        files.push_back(std::move(file));
+            }
+        }
+        if (std::ranges::all_of(areas, &std::vector<ScreenArea>::empty))
+            areas.clear();
+        if (!faults.empty())
+            results().remarks.push_back(
+                fmt::format("{} on areas of the screen cannot be read and {} left out; the first is {}.",
+                            faults.size() == 1 ? "A message" : fmt::format("{} messages", faults.size()),
+                            faults.size() == 1 ? "is" : "are", faults.front()));
+        if (!files.empty() && options_.screen_areas.empty())
+            results().remarks.push_back(fmt::format(
+                "Recordings name {} with areas of the screen, such as {}: give such a file with --areas.",
+                files.size() == 1 ? "a file" : fmt::format("{} files", files.size()), files.front()));
+        const std::vector<std::string> unknown = unknown_columns(options_.screen_areas, results());
+        if (!unknown.empty())
+            throw InputError(fmt::format(
+                "{}: no trial has a column {}: an area is of the trials that have the same word there",
+                options_.screen_areas_file, fmt::join(unknown, ", ")));
+    }
+
     /// What is given of them, and what is not.
     void remark_on_sessions_without_stimulus() {
         std::vector<std::string> folders;
@@ -368,17 +450,27 @@ class StudyReader {
                               folders.size() == 1 ? "knows" : "know");
         results().remarks.push_back(
             named +
-            ": fixations with their places on the screen, the quality of gaze, and trials are in the "
-            "tables fixations, quality and trials; saccades and blinks are in the exports. The gaze has "
-            "no places on a surface, so that none of it is in maps, in shares of parts or in comparisons.");
+            ": fixations with their places on the screen, the quality of gaze, and trials are in the tables "
+            "fixations, quality and trials, what gaze did with areas of the screen in screen_areas, where "
+            "there are "
+            "any; saccades and blinks are in the exports. Maps, shares of parts, comparisons of conditions "
+            "on a "
+            "surface, gaze on a moving surface and light at gaze were not computed of them: that takes the "
+            "object "
+            "that was shown, and when.");
+        if (results().screen_areas.empty())
+            results().remarks.push_back(
+                "No area of the screen is known: analyze takes a file of them with --areas, and messages "
+                "\"!V IAREA\" of a recording.");
     }
 
     const SurfaceFor& surface_for_;
     const StudyOptions& options_;
     const StudyProgress& progress_;
     std::vector<OpenSession> open_;
-    std::vector<std::pair<std::size_t, int>> shown_in_; ///< by object: a session that has it, and its index
-    std::vector<ReadSession> read_;                     ///< by session
+    /// By object: a session that has it, and what it is there.
+    std::vector<std::pair<std::size_t, ViewedObject>> shown_in_;
+    std::vector<ReadSession> read_; ///< by session
     ReadStudy study_;
 };
 

@@ -18,11 +18,11 @@
 
 namespace overt {
 
-/// The lookup of a session's object, or null if it has no surface; with a mesh it is a CoordinateMaps.
-/// `session` counts the study's sessions. What it gave is used until the next call. Throws InputError or
-/// RecordError if files are missing or damaged, which the study then says.
-using SurfaceFor =
-    std::function<const SurfaceLookup*(const SessionRecord& record, std::size_t session, int object)>;
+/// The lookup of a session's object in a view, or null if it has no surface; with a mesh it is a
+/// CoordinateMaps. `session` counts the study's sessions. What it gave is used until the next call. Throws
+/// InputError or RecordError if files are missing or damaged, which the study then says.
+using SurfaceFor = std::function<const SurfaceLookup*(const SessionRecord& record, std::size_t session,
+                                                      const ViewedObject& viewed)>;
 
 /// Told what is being done and how much of it is: work is in pieces of unequal length.
 using StudyProgress = std::function<void(std::string_view what, int done, int total)>;

@@ -5,12 +5,22 @@
 
 namespace overt {
 
+namespace {
+
+RowLayout<TrialRow> columns_of(const SessionHeader& header) {
+    const SharedColumns shared(header);
+    return shared.has_slots ? presentations_layout(shared, header) : trials_layout(shared, header);
+}
+
+} // namespace
+
 TrialKeys::TrialKeys(const SessionRecord& record)
-    : words_(trial_words(record)), layout_(trials_layout(SharedColumns(record.header()), record.header())) {
-    if (!words_.empty())
-        layout_.add<TrialRow>(trial_word_columns(words_));
+    : messages_(trial_messages(record)), layout_(columns_of(record.header())) {
+    if (!messages_.empty())
+        layout_.add<TrialRow>(imported_trial_columns(messages_));
     of_session_.push_back({"observer", record.header().schedule.observer.label});
     of_session_.push_back({"session", std::to_string(record.header().session_number)});
+    of_session_.push_back({"day", std::to_string(record.header().session_number)});
     for (const RecordedObserverField& field : record.observer_fields())
         of_session_.push_back({field.id, field.value});
 }

@@ -15,7 +15,7 @@ std::vector<StudyTurn> turns_of(const TrialLedger& ledger, SessionTime onset,
                                 const std::vector<Degrees>& angles) {
     std::vector<StudyTurn> turns;
     for (const FlipRecord& flip : ledger.fit.flips()) {
-        if (!turns.empty() && turns.back().frame == flip.shown.value)
+        if (flip.shown == no_frame || (!turns.empty() && turns.back().frame == flip.shown.value))
             continue;
         turns.push_back({to_seconds(flip.report.vertical_blank - onset),
                          angles[static_cast<std::size_t>(flip.pose.value)].value, flip.shown.value});
@@ -93,11 +93,15 @@ ReadTrial read_trial(const SessionRecord& record, const TrialRecord& trial, cons
     const SessionHeader& header = record.header();
     const std::optional<TrialLedger> ledger = record.ledger(trial);
     const TrialPresentation presentation = presentation_of(header, trial, ledger.has_value(), validations);
+    const ScreenGeometry screen = header.screen_of_slot(trial.trial.slot);
+    const bool has_other_slots = !trial.trial.beside.empty();
     const SessionTime onset = presentation.onset;
     ReadTrial read;
     StudyTrial& of = read.trial;
     of.number = trial.trial.index + 1;
     of.label = fmt::format("observer {}, trial {}", header.schedule.observer.label, of.number);
+    if (has_other_slots)
+        of.label += ", slot " + header.slots[static_cast<std::size_t>(trial.trial.slot)].id;
     of.presentation_s = presentation.duration_s.value_or(0.0);
 
     const double accuracy_deg = presentation.validation ? presentation.validation->mean_deg : 0.0;
@@ -120,7 +124,7 @@ ReadTrial read_trial(const SessionRecord& record, const TrialRecord& trial, cons
     if (!presentation.duration_s)
         of.presentation_s = recorded_s(placed.samples, events, clock_map, onset);
 
-    of.quality = gaze_quality(placed.samples, events, header.display.screen);
+    of.quality = gaze_quality(placed.samples, events, screen);
     if (presentation.validation) {
         of.quality.accuracy_deg = presentation.validation->mean_deg;
         of.quality.worst_accuracy_deg = presentation.validation->worst_deg;
@@ -149,10 +153,11 @@ ReadTrial read_trial(const SessionRecord& record, const TrialRecord& trial, cons
     constexpr int cone_directions = 64;
     std::optional<GazeCone> cone;
     if (surface.lookup && surface.scale)
-        cone.emplace(header.display.screen,
-                     Degrees{of.quality.accuracy_deg.value_or(GazeCone::usual_accuracy.value)},
+        cone.emplace(screen, Degrees{of.quality.accuracy_deg.value_or(GazeCone::usual_accuracy.value)},
                      cone_directions);
-    const std::vector<double> pose_seconds = seconds_of_poses(header.animation, header.poses);
+    const Stimulus& stimulus = trial.trial.stimulus;
+    const ShownPictures pictures =
+        shown_pictures(header.animation_of(stimulus), header.poses.frames_of(stimulus.motion));
     const FixationContext context{options,
                                   placed.samples,
                                   clock_map,
@@ -166,9 +171,10 @@ ReadTrial read_trial(const SessionRecord& record, const TrialRecord& trial, cons
                                   surface.ways,
                                   surface.lookup,
                                   cone ? &*cone : nullptr,
-                                  &header.display.screen,
+                                  &screen,
                                   surface.light,
-                                  pose_seconds};
+                                  &pictures,
+                                  has_other_slots};
     for (const GazeEvent& event : events) {
         if (event.kind != GazeEvent::Kind::fixation)
             continue;

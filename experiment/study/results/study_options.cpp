@@ -64,6 +64,8 @@ std::vector<StudyParameter> parameters_of(const StudyOptions& options) {
         {"by", fmt::format("{}", fmt::join(options.by, ",")), "",
          "Columns of the table of trials whose values make the groups."},
         {"compare", options.compare, "", "The column whose levels are compared within observers."},
+        {"area", options.areas.empty() ? "all" : fmt::format("{}", fmt::join(options.areas, ",")), "",
+         "Areas whose shares are compared and corrected over; the first of several names is that of figure 4."},
         {"sigma", fmt::format("{}", options.sigma.value), options.sigma.is_mm ? "mm" : "deg",
          "Standard deviation of the maps' kernel: millimetres of the object itself, or degrees of visual "
          "angle, which "
@@ -97,6 +99,8 @@ std::vector<StudyParameter> parameters_of(const StudyOptions& options) {
         {"same-observer", same_observers(options), "",
          "Labels of observers that stand for another observer's, whose sessions are then counted as one "
          "person's."},
+        {"areas", options.screen_areas_file.empty() ? "none" : options.screen_areas_file, "",
+         "File with areas of the screen, besides those that imported recordings tell by messages."},
         {"time-step", fmt::format("{}", options.time_step_s), "s", "Stretches of the time course."},
         {"confidence", fmt::format("{}", options.confidence), "", "Level of all intervals."},
         {"resamples", fmt::format("{}", options.resamples), "",

@@ -9,6 +9,7 @@
 
 #include "experiment/base/enum_names.h"
 #include "experiment/events/event_thresholds.h"
+#include "experiment/screen_areas/screen_areas_file.h"
 #include "experiment/statistics/bootstrap.h"
 #include "experiment/statistics/permutation.h"
 #include "experiment/study/results/study_results.h"
@@ -44,7 +45,9 @@ std::optional<ExclusionRule> broken_rule(const StudyQuality& quality, const Excl
 
 struct StudyOptions {
     std::vector<std::string> by{"task", "object", "material"};
+    bool is_by_asked = false; ///< somebody asked for these columns: a factor with one level is refused
     std::string compare = "material"; ///< the column whose levels are compared within observers
+    std::vector<std::string> areas;   ///< that are compared, that of figure 4 first; empty: all
     KernelWidth sigma;
     MapKernel kernel = MapKernel::geodesic;
     double shortest_fixation_s = 0.0;
@@ -56,6 +59,8 @@ struct StudyOptions {
     /// Fixations, saccades and blinks are found anew in all sessions, by these thresholds. Nothing: those on
     /// record, and found in imports that have none.
     std::optional<ChosenThresholds> detect_events;
+    std::vector<ChosenScreenArea> screen_areas; ///< besides those that recordings tell
+    std::string screen_areas_file;              ///< their file's name; empty: none
     /// Labels that stand for the same observer as another, and that one's.
     std::vector<std::pair<std::string, std::string>> same_observer;
     double time_step_s = 1.0; ///< of the time course

@@ -4,6 +4,13 @@
 
 namespace overt {
 
+bool knows_stimuli(const StudyResults& results) {
+    const auto knows_none = [](const StudySession& session) {
+        return session.setup.gaze.origin == GazeOrigin::imported && session.setup.stimuli.frame_count == 0;
+    };
+    return results.sessions.empty() || !std::ranges::all_of(results.sessions, knows_none);
+}
+
 std::string_view name_of(NotCounted why) {
     switch (why) {
     case NotCounted::counted:

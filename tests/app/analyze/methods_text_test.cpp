@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiment/base/json_text.h"
-#include "experiment/scene/ply_writer.h"
+#include "experiment/scene/files/ply_writer.h"
 #include "tests/app/analyze/small_study.h"
 #include "tests/support/methods_laws.h"
 

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include "experiment/scene/ply_writer.h"
+#include "experiment/scene/files/ply_writer.h"
 #include "tests/app/small_experiment.h"
 #include "tests/experiment/surface/flat_and_round.h"
 

@@ -12,7 +12,7 @@ namespace {
 
 Protocol small_view() {
     Protocol protocol;
-    protocol.view.width_px = protocol.view.height_px = 64;
+    protocol.views.front().width_px = protocol.views.front().height_px = 64;
     return protocol;
 }
 

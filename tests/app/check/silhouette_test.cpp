@@ -41,10 +41,10 @@ class PaintedExperiment {
         REQUIRE(experiment);
         const auto context = make_headless_context(ContextKind::osmesa);
         StimulusLibrary library(*context, experiment->protocol, experiment->objects, plain.cache());
-        library.maps().prepare_maps(0, {});
-        for (int frame = 0; frame < experiment->protocol.animation.frame_count; ++frame) {
+        library.maps().prepare_maps({0}, {});
+        for (int frame = 0; frame < experiment->protocol.motions.front().frame_count; ++frame) {
             const TriangleMap map =
-                read_triangle_map(library.cache().map_file(0, library.cache().poses().pose_of({frame})));
+                read_triangle_map(library.cache().map_file({0}, library.cache().poses().pose_of(0, {frame})));
             PictureHeader header{map.size_px, {"R", "G", "B"}, PixelType::bits8};
             if (alpha) {
                 header.channels.emplace_back("A");

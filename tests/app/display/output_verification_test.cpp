@@ -60,9 +60,9 @@ struct Plan {
     Plan() {
         protocol.display.width_px = 640;
         protocol.display.height_px = 200;
-        protocol.view.width_px = 33;
-        protocol.view.height_px = 21;
-        protocol.view.left_px = 55;
+        protocol.views.front().width_px = 33;
+        protocol.views.front().height_px = 21;
+        protocol.views.front().left_px = 55;
         protocol.objects.resize(1);
         protocol.objects[0].id = "muse";
         protocol.materials.resize(2);

@@ -3,23 +3,11 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
-#include "app/inputs/protocol_inputs.h"
-#include "app/record/recorded_surface.h"
-#include "app/session/session_recording.h"
-#include "devices/host/clocks.h"
-#include "devices/simulated/simulated_eye_tracker.h"
-#include "devices/simulated/simulated_response_panel.h"
-#include "experiment/design/schedule.h"
 #include "experiment/events/event_agreement.h"
 #include "experiment/events/event_detector.h"
-#include "experiment/record/tables/table_export.h"
-#include "experiment/record/write/session_store.h"
-#include "experiment/session/session.h"
-#include "render/gl/headless_context.h"
-#include "render/presenter/page_presenter.h"
-#include "render/vblank/display_surface.h"
-#include "tests/app/small_experiment.h"
+#include "tests/app/session/exact_sitting.h"
 #include "tests/experiment/events/detected_events.h"
 #include "tests/support/tsv_file.h"
 
@@ -28,74 +16,87 @@ using namespace overt::test;
 
 namespace {
 
-ObserverSettings steady_eyes() {
-    ObserverSettings settings;
-    settings.drift = settings.tremor = Degrees{0.0};
-    return settings;
+/// With two lights, two motions that share a pose, and two views.
+std::string protocol_of_lists() {
+    std::string text = with(small_protocol, "[view]\nwidth_px = 128\nheight_px = 128\n",
+                            R"([[view]]
+id = "front"
+width_px = 128
+height_px = 128
+
+[[view]]
+id = "above"
+width_px = 128
+height_px = 128
+camera_position = [300, -900, 700]
+
+[[light]]
+id = "cloudy"
+
+[[light]]
+id = "behind"
+rotation_deg = 180
+)");
+    text =
+        with(text, "[animation]\nframe_count = 31\nframe_rate_hz = 30\namplitude_deg = 25\nduration_s = 1\n",
+             R"([[motion]]
+id = "turn"
+frame_count = 31
+frame_rate_hz = 30
+amplitude_deg = 25
+duration_s = 1
+
+[[motion]]
+id = "lamp"
+kind = "still"
+angle_deg = 25
+light_amplitude_deg = 40
+frame_count = 5
+frame_rate_hz = 10
+duration_s = 0.5
+)");
+    return text;
 }
 
-SimulatedTrackerSettings without_errors(const TrackerSettings& settings) {
-    SimulatedTrackerSettings exact = simulated_tracker_settings(settings);
-    exact.noise_deg = exact.accuracy_deg = exact.steps_per_px = 0.0;
-    return exact;
-}
-
-/// The program's own parts, put together as its rig does, with perfect devices whose truth can be asked for.
-class ExactSitting {
-  public:
-    SmallExperiment files;
-    Diagnostics diagnostics;
-    Experiment experiment =
-        read_experiment(files.protocol(), files.cache(), InputDepth::everything, diagnostics).value();
-    const Protocol& protocol = experiment.protocol;
-    Schedule schedule = make_schedule(protocol, {"P01", 1}, 11);
-    std::unique_ptr<GlContext> context = make_headless_context(ContextKind::osmesa);
-    StimulusLibrary library{*context, protocol, experiment.objects, files.cache()};
-    ScreenGeometry geometry = screen_geometry_of(protocol);
-    VirtualClock clock;
-    VirtualDisplay display{*context, clock, protocol.display.refresh_hz};
-    PagePresenter presenter{*context, display, library, geometry, protocol.display, protocol.screens};
-    SimulatedObserver observer{make_observed_scene(protocol, experiment.objects, geometry), 3, steady_eyes()};
-    SimulatedEyeTracker tracker{clock, observer, 3, without_errors(protocol.tracker)};
-    SimulatedResponsePanel panel{clock, observer};
-
-    std::filesystem::path folder; ///< of the session, once it has run
-
-    /// Runs all trials and exports them; gives the export's folder.
-    std::filesystem::path run() {
-        library.maps().prepare_maps({});
-        library.prepare_frames({}, BakeQuality::live);
-        const SessionHeader header =
-            make_session_header(protocol, schedule, experiment.objects, library, context->description(),
-                                tracker.description(), ClockKind::virtual_time, true);
-        SessionDirectory directory({files.sessions(), protocol.name, "P01"});
-        put_files(directory, header, experiment.objects, library);
-        directory.publish();
-        SessionStore store(directory.session_file(),
-                           {.wait_when_full = true,
-                            .started_utc = header.started_utc,
-                            .detection = SittingDetection{protocol.events, geometry}});
-        Session sitting(protocol, schedule, geometry.centre(),
-                        {clock, presenter, tracker, panel, store, {&observer}});
-        sitting.run({});
-        store.close();
-
-        folder = directory.path();
-        const SessionRecord record(folder);
-        RecordedSurfaces surfaces(record);
-        std::filesystem::path tables = files.folder().path() / "tables";
-        export_tables(
-            record, [&](int object) { return surfaces.lookup_of(object); }, tables);
-        return tables;
-    }
-};
+void check_places(ExactSitting& sitting, int least_samples, int least_compared);
 
 } // namespace
 
 TEST_CASE("each exported gaze sample is where the observer's gaze met the surface", "[session]") {
     ExactSitting sitting;
+    check_places(sitting, 10000, 6000);
+}
+
+TEST_CASE("gaze meets the surface in the pose and the view of its trial", "[session]") {
+    ExactSitting sitting(protocol_of_lists());
+    check_places(sitting, 10000, 5000);
+    const SessionRecord record(sitting.folder);
+    const SessionHeader& header = record.header();
+    // The lamp's pose is one that the turn has, and no light has maps of its own.
+    CHECK(header.poses.of_motion.size() == 2);
+    CHECK(std::ranges::count(header.poses.of_motion[0], header.poses.of_motion[1].front()) > 0);
+    CHECK(header.maps.size() == 2 * 2 * header.poses.angles.size());
+    CHECK(header.stimuli.size() == 2u * 2u * 2u * 2u * 2u);
+    std::set<int> lights, motions, views;
+    for (const TrialRecord& trial : record.trials()) {
+        const Stimulus& stimulus = trial.trial.stimulus;
+        lights.insert(stimulus.light);
+        motions.insert(stimulus.motion);
+        views.insert(stimulus.view);
+        const PageCycle cycle = header.page_cycle_of(stimulus);
+        CHECK(trial.outcome.shown_refreshes == cycle.total_refreshes);
+        CHECK(cycle.total_refreshes == (stimulus.motion == 0 ? 120 : 60));
+        CHECK(trial.trial == header.schedule.trials[static_cast<std::size_t>(trial.trial.index)]);
+    }
+    for (const auto& levels : {lights, motions, views})
+        CHECK(levels.size() == 2);
+}
+
+namespace {
+
+void check_places(ExactSitting& sitting, int least_samples, int least_compared) {
     const TsvFile samples(sitting.run() / "samples.tsv");
-    REQUIRE(samples.size() > 10000);
+    REQUIRE(static_cast<int>(samples.size()) > least_samples);
 
     int compared = 0, on_another_frame = 0, elsewhere = 0, missing = 0, invented = 0;
     double farthest_px = 0.0, latest_s = 0.0;
@@ -128,7 +129,7 @@ TEST_CASE("each exported gaze sample is where the observer's gaze met the surfac
         // Six decimals are exported of each coordinate.
         elsewhere += glm::distance(exported, truth.surface->position) > 1e-6;
     }
-    CHECK(compared > 6000);
+    CHECK(compared > least_compared);
     CHECK(elsewhere == 0);
     // Right on an outline the last digit may decide.
     CHECK(missing == 0);
@@ -137,6 +138,8 @@ TEST_CASE("each exported gaze sample is where the observer's gaze met the surfac
     CHECK(farthest_px < 0.0006); // of a pixel, three
     CHECK(latest_s < 2e-5);      // as well as both clocks were read together
 }
+
+} // namespace
 
 TEST_CASE("the fixations of a simulated observer come back from its session", "[session]") {
     ExactSitting sitting;

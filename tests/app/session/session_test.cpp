@@ -68,7 +68,7 @@ TEST_CASE("a session records every trial, every refresh and every gaze sample", 
         CHECK(trial.outcome.missed_refreshes == 0);
         CHECK(trial.outcome.drift.has_value());
         CHECK_FALSE(trial.outcome.answer.empty());
-        check_ledger(record.flips(trial), record.header().animation, 120.0);
+        check_ledger(record.flips(trial), record.header().animations[0], 120.0);
         check_samples(record, trial, 1000.0, 1.0);
     }
 }
@@ -82,7 +82,7 @@ TEST_CASE("a presentation of the paper's animation is 240 frames, 960 refreshes 
     INFO(run.err);
     REQUIRE(run.exit_code == 0);
     const SessionRecord record(experiment.session());
-    const Animation& animation = record.header().animation;
+    const Animation& animation = record.header().animations[0];
     CHECK(animation.shown_frame_count() == 240);
     CHECK(record.header().poses.angles.size() == 31);
     REQUIRE(record.trials().size() == 2);

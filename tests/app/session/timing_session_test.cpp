@@ -129,7 +129,7 @@ TEST_CASE("stretching shows every frame for its refreshes, and says how much lon
     const std::string faults = experiment.folder().file("faults.toml", three_faults).string();
     REQUIRE(experiment.run({"--trials", "2", "--faults", faults}).exit_code == 0);
     const SessionRecord record(experiment.session());
-    const Animation& animation = record.header().animation;
+    const Animation& animation = record.header().animations[0];
     CHECK(animation.when_late == WhenLate::stretch);
     const PageCycle plan = make_page_cycle(animation, 120.0);
     for (const TrialRecord& trial : record.trials()) {

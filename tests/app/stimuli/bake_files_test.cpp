@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/inputs/protocol_inputs.h"
-#include "experiment/scene/spectra.h"
+#include "experiment/spectra/spectra.h"
 #include "render/gl/headless_context.h"
 #include "render/image/linear_image.h"
 #include "render/stimulus/stimulus_library.h"

@@ -62,15 +62,16 @@ TEST_CASE("every level of a ramp comes through film, cache, frame store and enco
     const auto context = make_headless_context(ContextKind::osmesa);
     StimulusLibrary library(*context, protocol, experiment->objects, files.cache());
     const StimulusCache& cache = library.cache();
-    library.maps().prepare_maps(0, {});
+    library.maps().prepare_maps({0}, {});
 
     // Light of the material under the protocol's light, as the tracer gives it ...
     const FrameQuality quality = quality_of(BakeQuality::draft, protocol.bake);
-    SpectralFrame frame = library.frames().trace(matt_bust, {0}, {BakeQuality::draft, 1, {}}, {});
+    SpectralFrame frame =
+        library.frames().trace(matt_bust, cache.pictures_of(matt_bust)[0], {BakeQuality::draft, 1, {}}, {});
     const std::vector<float> light = traced_light(frame);
 
     // ... at every level from black to where its brightest channel is the display's white.
-    const glm::dmat3 to_display = cache.display_from_frame(quality);
+    const glm::dmat3 to_display = cache.display_from_frame(matt_bust, quality);
     const glm::dvec3 full = predicted(light, 1.0, to_display);
     const int brightest = full.x >= std::max(full.y, full.z) ? 0 : full.y >= full.z ? 1 : 2;
     const auto share_of = [&](int level) { return level / 65535.0 / full[brightest]; };

@@ -19,7 +19,7 @@ TEST_CASE("from the begin of a presentation to its last sample nothing is alloca
     SimulatedEyeTracker tracker(sitting.clock, sitting.observer, 31);
     SimulatedResponsePanel panel(sitting.clock, sitting.observer);
     const ObservedScene& scene = sitting.observer.scene();
-    const PageCycle cycle = make_page_cycle(scene.animation, scene.refresh_hz);
+    const PageCycle cycle = make_page_cycle(scene.animations[0], scene.refresh_hz);
     std::array<TrackerItem, 256> samples;
     for (int trial = 0; trial < 3; ++trial) {
         sitting.observer.screen_shown({}, sitting.clock.now());

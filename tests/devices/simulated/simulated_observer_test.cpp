@@ -24,7 +24,7 @@ double distance_px(ScreenPoint a, ScreenPoint b) { return std::hypot(a.x_px - b.
 ScreenPoint shown_at(const Sitting& sitting, const SurfacePoint& point, AnimationFrameIndex frame) {
     const ObservedScene& scene = sitting.observer.scene();
     const SceneView& view = scene.objects[0].scene;
-    const glm::dmat4 turn = view.pose_at(scene.animation.angle_of(frame)).world_from_object();
+    const glm::dmat4 turn = view.pose_at(scene.animations[0].angle_of(frame)).world_from_object();
     return scene.screen.screen_from_image(
         view.view.project(glm::dvec3(turn * glm::dvec4(point.position, 1.0))));
 }
@@ -35,7 +35,7 @@ std::optional<RayHit> cast(const Sitting& sitting, const RayCaster& caster, Scre
     const ObservedScene& scene = sitting.observer.scene();
     const SceneView& view = scene.objects[0].scene;
     return caster.first_hit(to_object(view.view.ray_through(scene.screen.image_from_screen(place)),
-                                      view.pose_at(scene.animation.angle_of(frame))));
+                                      view.pose_at(scene.animations[0].angle_of(frame))));
 }
 
 template <class Visit> void for_each_sample(const Sitting& sitting, const Visit& visit) {
@@ -63,7 +63,7 @@ TEST_CASE("an observer's share of fixation time on the head is the task's", "[un
                 ++fixations;
             }
         }
-        const double expected = sitting.observer.scene().tasks[std::size_t(task)].head_share;
+        const double expected = sitting.observer.scene().tasks[std::size_t(task)].shares[0];
         // Four standard errors; durations differ, and so count as fewer than there are.
         const double bound = 4.0 * std::sqrt(expected * (1.0 - expected) * 1.3 / fixations);
         CHECK(fixations > 2000);
@@ -99,15 +99,15 @@ TEST_CASE("halfway through a lit frame the eye is exactly on its target in that 
         for (const ScriptedFixation& fixation : sitting.observer.script_of(trial)->fixations()) {
             if (!fixation.target)
                 continue;
-            for (int step = 0; step < scene.animation.shown_frame_count(); ++step) {
+            for (int step = 0; step < scene.animations[0].shown_frame_count(); ++step) {
                 const SessionDuration middle =
-                    from_seconds((step + 0.5) / scene.animation.frame_rate_hz) + fixation.light_delay;
+                    from_seconds((step + 0.5) / scene.animations[0].frame_rate_hz) + fixation.light_delay;
                 if (middle < fixation.begin || middle >= fixation.end)
                     continue;
                 const GazeTruth truth = sitting.observer.truth_at(sitting.onset() + middle);
                 if (truth.gaze.state == EyeState::blink)
                     continue;
-                const AnimationFrameIndex frame = scene.animation.frame_at_step(step);
+                const AnimationFrameIndex frame = scene.animations[0].frame_at_step(step);
                 REQUIRE(truth.frame == frame);
                 REQUIRE(distance_px(truth.gaze.place, shown_at(sitting, *fixation.target, frame)) < 1e-3);
                 const std::optional<RayHit> hit = cast(sitting, caster, truth.gaze.place, frame);
@@ -164,7 +164,7 @@ TEST_CASE("what a fixation is meant for is visible in every frame lit meanwhile"
         for (SessionDuration time = fixation.begin; time < fixation.end; time += 5ms) {
             const AnimationFrameIndex frame = *sitting.observer.truth_at(sitting.onset() + time).frame;
             const glm::dvec3 eye = to_object({view.view.camera.position, {0.0, 1.0, 0.0}},
-                                             view.pose_at(scene.animation.angle_of(frame)))
+                                             view.pose_at(scene.animations[0].angle_of(frame)))
                                        .origin;
             REQUIRE_FALSE(caster.is_hidden(fixation.target->position, eye));
             ++checked;

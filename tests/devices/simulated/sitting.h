@@ -19,7 +19,7 @@ inline ObservedScene scene_with(const Mesh& mesh) {
     ObservedScene scene;
     const View view{fit_camera(mesh, {11.9}, {1024, 1024}, {25.0}, 0.06), {1024, 1024}};
     scene.objects = {{&mesh, SceneView{view, mesh.bounds()}}};
-    scene.tasks = {{"free", 0.4}, {"clothes", 0.15}};
+    scene.tasks = {{"free", {0.4}}, {"clothes", {0.15}}};
     scene.display_latency = std::chrono::microseconds(3500);
     return scene;
 }
@@ -46,7 +46,7 @@ class Sitting {
         const Trial& trial, const std::vector<int>& missed = {},
         const std::function<void()>& at_flip = [] {}) {
         const ObservedScene& scene = observer.scene();
-        const PageCycle cycle = make_page_cycle(scene.animation, scene.refresh_hz);
+        const PageCycle cycle = make_page_cycle(scene.animations[0], scene.refresh_hz);
         flips.clear();
         flips.reserve(static_cast<std::size_t>(cycle.total_refreshes));
         observer.screen_shown({}, next_blank());

@@ -18,13 +18,13 @@ TEST_CASE("the paper's design is 54 maps, and 30 trials of 240 frames and 960 re
     const DesignReport report = make_design_report(paper_protocol(), {});
     CHECK(report.incidence.size() == 54);
     CHECK(report.trials_per_observer == 30);
-    CHECK(report.animation.frames == 61);
-    CHECK(report.animation.distinct_poses == 31);
-    CHECK(report.animation.shown_frames == 240);
-    CHECK(report.animation.refreshes_per_frame == 4);
-    CHECK(report.animation.refreshes == 960);
-    CHECK(report.animation.duration_s == 8.0);
-    CHECK(report.animation.periods == 4.0);
+    CHECK(report.motions[0].frames == 61);
+    CHECK(report.motions[0].distinct_poses == 31);
+    CHECK(report.motions[0].shown_frames == 240);
+    CHECK(report.motions[0].refreshes_per_frame == 4);
+    CHECK(report.motions[0].refreshes == 960);
+    CHECK(report.motions[0].duration_s == 8.0);
+    CHECK(report.motions[0].periods == 4.0);
     CHECK(report.warnings.empty());
 }
 
@@ -43,9 +43,9 @@ TEST_CASE("visual angles are those of the screen's trigonometry", "[unit]") {
 
 TEST_CASE("the visual angles of a stimulus are those of the place where it is shown", "[unit]") {
     Protocol protocol = paper_protocol();
-    protocol.view.centre_right_deg = 8.0;
-    protocol.view.centre_up_deg = -4.0;
-    protocol.view.width_px = protocol.view.height_px = 200;
+    protocol.views.front().centre_right_deg = 8.0;
+    protocol.views.front().centre_up_deg = -4.0;
+    protocol.views.front().width_px = protocol.views.front().height_px = 200;
     const VisualAngles angles = make_design_report(protocol, {}).angles;
     const glm::dvec2 mm_per_px(698.4 / 1920, 392.9 / 1080);
     CHECK(angles.image_right_deg == Approx(8.0).margin(0.02)); // to the pixel
@@ -138,7 +138,7 @@ TEST_CASE("weights and groups that show some stimuli more often are no imbalance
     BlockSettings block;
     block.id = "weighted";
     block.order = OrderMethod::weighted;
-    block.by = TrialFactor::material;
+    block.by = "material";
     block.weights = {2.0, 1.0, 1.0};
     protocol.blocks = {block};
     CHECK(make_design_report(protocol, {}).warnings.empty());
@@ -146,9 +146,9 @@ TEST_CASE("weights and groups that show some stimuli more often are no imbalance
     protocol.blocks.clear();
     GroupSettings gold, coating;
     gold.id = "gold";
-    gold.materials = {protocol.materials[0].id, protocol.materials[1].id};
+    gold.chosen[1] = {protocol.materials[0].id, protocol.materials[1].id};
     coating.id = "coating";
-    coating.materials = {protocol.materials[2].id};
+    coating.chosen[1] = {protocol.materials[2].id};
     coating.cap = 2;
     protocol.groups = {gold, coating};
     protocol.schedule.observers = 12;

@@ -5,7 +5,7 @@
 #include "experiment/base/error.h"
 #include "experiment/base/random.h"
 #include "experiment/colour/display_colour.h"
-#include "experiment/scene/spectra.h"
+#include "experiment/spectra/spectra.h"
 #include "tests/support/sample_display.h"
 
 using namespace overt;

@@ -18,7 +18,9 @@ namespace {
 /// Two materials, two blocks of two tasks in square order, the blocks themselves in square order.
 Protocol three_factors(int observers) {
     Protocol protocol;
-    protocol.materials = {{"gold", {}, {}}, {"clay", {}, {}}};
+    protocol.materials.resize(2);
+    protocol.materials[0].id = "gold";
+    protocol.materials[1].id = "clay";
     protocol.objects.resize(1);
     protocol.objects.front().id = "muse";
     for (const char* const id : {"age", "mood", "look"})
@@ -71,7 +73,7 @@ Protocol random_design(RandomStream& random) {
         BlockSettings block;
         block.id = "b" + std::to_string(i);
         block.order = OrderMethod::blocked;
-        block.by = random.below(2) == 0 ? TrialFactor::task : TrialFactor::material;
+        block.by = random.below(2) == 0 ? "task" : "material";
         block.levels = squares[random.below(3)];
         protocol.blocks.push_back(block);
     }
@@ -158,7 +160,7 @@ TEST_CASE("each group goes round by itself", "[unit]") {
     GroupSettings one, other;
     one.id = "one";
     other.id = "other";
-    other.materials = {"gold"};
+    other.chosen[1] = {"gold"};
     protocol.groups = {one, other};
     const auto facts = rotation_facts(protocol);
     REQUIRE(facts.size() == 2);

@@ -209,9 +209,10 @@ TEST_CASE("the stimulus that is expected is the one that comes, unless a trial f
     protocol.practice = {{"age", "scholar", "coated", "three", ""}};
     const Schedule schedule = make_schedule(protocol, {"P", 1}, 1);
     TrialQueue queue(protocol, schedule);
-    std::optional<Stimulus> expected = queue.expected();
+    std::optional<Trial> expected = queue.expected();
     while (const auto step = queue.next()) {
-        CHECK(((expected && *expected == step->trial.stimulus) || step->kind == SessionStep::Kind::practice));
+        CHECK(((expected && expected->stimulus == step->trial.stimulus) ||
+               step->kind == SessionStep::Kind::practice));
         expected = queue.expected();
         if (step->kind == SessionStep::Kind::trial)
             queue.tell({});

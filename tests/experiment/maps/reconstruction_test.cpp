@@ -7,7 +7,7 @@
 
 #include "experiment/base/error.h"
 #include "experiment/maps/reconstruction_file.h"
-#include "experiment/scene/mesh_reader.h"
+#include "experiment/scene/files/mesh_reader.h"
 #include "tests/support/cast_maps.h"
 #include "tests/support/temporary_folder.h"
 

@@ -97,7 +97,7 @@ TEST_CASE("paths count from the folder of the file that they stand in", "[unit]"
     REQUIRE(protocol);
     CHECK(protocol->objects[0].mesh == files.folder / "rig/m.ply");
     CHECK(protocol->objects[2].mesh == files.folder / "m.ply");
-    CHECK(protocol->light.probe == (files.folder / "rig/../sky.exr").string());
+    CHECK(protocol->lights.front().probe == (files.folder / "rig/../sky.exr").string());
 }
 
 TEST_CASE("a file that includes itself is refused over any way; one included twice counts once", "[unit]") {

@@ -19,8 +19,8 @@ TEST_CASE("keys left out have their defaults, and keys written their values", "[
     CHECK(read.protocol->display.output == OutputMode::mono_plus_plus);
     CHECK(read.protocol->display.width_px == DisplaySettings{}.width_px);
     CHECK(read.protocol->schedule.seed == 9007199254740993ull);
-    CHECK_FALSE(read.protocol->view.vertical_fov_deg);
-    CHECK(read.protocol->animation.frame_count == 61);
+    CHECK_FALSE(read.protocol->views.front().vertical_fov_deg);
+    CHECK(read.protocol->motions.front().frame_count == 61);
     CHECK(read.protocol->title == "minimal");
     CHECK(read.protocol->objects.at(0).title == "a");
 }
@@ -62,22 +62,22 @@ observers = 5
 )");
     INFO(read.diagnostics.print());
     REQUIRE(read.protocol);
-    CHECK(read.protocol->view.camera_position == glm::dvec3(0.0, -4.5, 1.0));
-    CHECK(read.protocol->animation.playback == Playback::ping_pong);
-    CHECK(read.protocol->animation.amplitude.value == 12.5);
+    CHECK(read.protocol->views.front().camera_position == glm::dvec3(0.0, -4.5, 1.0));
+    CHECK(read.protocol->motions.front().playback == Playback::ping_pong);
+    CHECK(read.protocol->motions.front().amplitude.value == 12.5);
     const ObjectSettings& object = read.protocol->objects.at(0);
     CHECK(object.mesh == "scans/p.ply");
     CHECK(object.up == "-y");
     CHECK(object.scale == 2.0);
-    CHECK(object.head_spheres.at(0) == std::array{0.015, 0.82, -0.05, 0.215});
-    CHECK(object.head_spheres.at(1) == std::array{1.0, 2.0, 3.0, 4.0});
-    CHECK(object.head_planes == std::vector{std::array{0.0, 0.63, -0.05, 0.0, 1.0, 0.0}});
+    CHECK(object.areas.at(0).spheres.at(0) == std::array{0.015, 0.82, -0.05, 0.215});
+    CHECK(object.areas.at(0).spheres.at(1) == std::array{1.0, 2.0, 3.0, 4.0});
+    CHECK(object.areas.at(0).planes == std::vector{std::array{0.0, 0.63, -0.05, 0.0, 1.0, 0.0}});
     CHECK(read.protocol->materials.at(0).kind == MaterialKind::coated_conductor);
     CHECK(read.protocol->materials.at(0).coat_absorbance == std::array{0.0, 0.1, 0.75});
     CHECK(read.protocol->tasks.at(0).stimuli == TaskCoverage::once_per_object);
     CHECK(read.protocol->frames.at(0).encoding == FrameEncoding::srgb);
     CHECK(frame_file(read.protocol->frames.at(0), {7}) == "f/x_0008.exr");
-    CHECK(find_frames(*read.protocol, 0, 0) == &read.protocol->frames.at(0));
+    CHECK(find_frames(*read.protocol, {0, 0}) == &read.protocol->frames.at(0));
 }
 
 TEST_CASE("paths count from the protocol's folder", "[unit]") {
@@ -88,7 +88,7 @@ TEST_CASE("paths count from the protocol's folder", "[unit]") {
     REQUIRE(protocol);
     CHECK(protocol->objects.at(1).mesh == "/lab/study/m.ply");
     CHECK(protocol->objects.at(0).mesh.empty());
-    CHECK(protocol->light.probe == "/lab/square.exr");
+    CHECK(protocol->lights.front().probe == "/lab/square.exr");
     CHECK(protocol->text == text);
     CHECK(protocol->file == "/lab/study/p.toml");
 }

@@ -118,7 +118,7 @@ TEST_CASE("events are found over a recording as a whole, however it is cut into 
     CHECK((after > 10) == has_results);
     // Tables and ASC files have all of them, too.
     export_tables(
-        record, [](int) -> const SurfaceLookup* { return nullptr; }, root.path() / "tables");
+        record, [](const ViewedObject&) -> const SurfaceLookup* { return nullptr; }, root.path() / "tables");
     const test::TsvFile table(root.path() / "tables" / "gaze_events.tsv");
     std::size_t rows = 0;
     for (std::size_t i = 0; i < table.size(); ++i)

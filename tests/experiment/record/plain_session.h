@@ -29,7 +29,10 @@ class PlainPresenter final : public Presenter {
   public:
     explicit PlainPresenter(StandingClock& clock) : clock_(clock) {}
     DisplayTiming timing() const override { return {120.0, VblankSource::virtual_display}; }
-    void load_frames(const Stimulus& stimulus) override { loaded.push_back(stimulus); }
+    void load_slots(std::span<const PlacedStimulus> shown) override {
+        for (const PlacedStimulus& placed : shown)
+            loaded.push_back(placed.stimulus);
+    }
     FlipReport show(const Screen& screen) override {
         if (screen.kind != Screen::Kind::blank && screen.kind != Screen::Kind::target) {
             texts.push_back(screen.text);
@@ -38,8 +41,9 @@ class PlainPresenter final : public Presenter {
         return next();
     }
     void show_level(const LevelBar& bar) override { bars.push_back(bar); }
-    FlipReport flip(AnimationFrameIndex frame) noexcept override {
-        (is_veiled ? veiled_frames : seen_frames).push_back(frame.value);
+    FlipReport flip_slots(std::span<const AnimationFrameIndex> frames) noexcept override {
+        for (const AnimationFrameIndex frame : frames)
+            (is_veiled ? veiled_frames : seen_frames).push_back(frame.value);
         return next();
     }
     void veil(bool is_on) override { is_veiled = is_on; }

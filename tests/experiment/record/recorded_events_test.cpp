@@ -153,7 +153,7 @@ TEST_CASE("events stand in the tables, in BIDS and in ASC, and those of ASC come
     const fs::path session =
         record_session(root.path() / "sessions", is_live ? std::optional(EventSettings{}) : std::nullopt);
     const SessionRecord record(session);
-    const auto no_surface = [](int) -> const SurfaceLookup* { return nullptr; };
+    const auto no_surface = [](const ViewedObject&) -> const SurfaceLookup* { return nullptr; };
 
     export_tables(record, no_surface, root.path() / "tables");
     const test::TsvFile table(root.path() / "tables" / "gaze_events.tsv");

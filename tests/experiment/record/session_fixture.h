@@ -41,29 +41,34 @@ inline SessionHeader example_header() {
     screen.image_origin_px = {144, 44};
     screen.image_px = {512, 511};
     header.display = {screen, 100.0, std::chrono::microseconds(1500), "mono++", 0.125};
-    header.animation = {3, 25.0, Degrees{12.5}, Playback::ping_pong, 2.52};
+    header.animations = {{.frame_count = 3,
+                          .frame_rate_hz = 25.0,
+                          .amplitude = Degrees{12.5},
+                          .playback = Playback::ping_pong,
+                          .duration_s = 2.52}};
     header.poses = {{Degrees{-12.5}, Degrees{0.1}, Degrees{12.5}},
-                    {PoseIndex{0}, PoseIndex{1}, PoseIndex{2}}};
+                    {{PoseIndex{0}, PoseIndex{1}, PoseIndex{2}}}};
     header.tasks = {{"free", "Look around"}, {"age", "How old?\tSay it."}};
     RecordedObject bust{"bust",
                         "A bust",
                         std::string(64, 'a'),
                         "meshes/bust.ply",
                         {"body", "head"},
-                        {{1.0, -200.5, 3.0}, {0.25, 0.5, 0.75}, Degrees{11.5}},
+                        {Camera{{1.0, -200.5, 3.0}, {0.25, 0.5, 0.75}, Degrees{11.5}}},
                         {1.5, 2.5, 3.5},
                         {{-1.0, -2.0, -3.0}, {4.0, 5.0, 6.0}}};
-    RecordedObject vase{"vase", "A vase", std::string(64, 'b'), "meshes/vase.ply", {"body"}, {}, {}, {}};
+    RecordedObject vase{"vase", "A vase", std::string(64, 'b'), "meshes/vase.ply", {"body"}, {Camera{}},
+                        {},     {}};
     header.objects = {bust, vase};
     header.materials = {{"gold", "Gold"}, {"silver", "Silver"}};
     header.stimuli = {{{0, 0}, "rendered", std::string(64, 'c')}, {{1, 1}, "given: a/##.exr", ""}};
-    header.maps = {{0,
+    header.maps = {{{0},
                     {2},
                     "maps/bust_02.exr",
                     std::string(64, 'd'),
                     RecordedMap::Made::prepared,
                     RecordedMap::Kind::coordinates},
-                   {1, {0}, "maps/vase_00.exr", std::string(64, 'e'), RecordedMap::Made::live}};
+                   {{1}, {0}, "maps/vase_00.exr", std::string(64, 'e'), RecordedMap::Made::live}};
     return header;
 }
 

@@ -12,7 +12,8 @@ using namespace overt::testing;
 
 TEST_CASE("a session's header comes back from the disk in every field", "[unit]") {
     const TemporaryFolder root;
-    const SessionHeader in = example_header();
+    SessionHeader in = example_header();
+    in.objects[0].origin = {565400.0, 5934200.25, -35.5};
     const SessionRecord record(make_session(root.path(), in));
     const SessionHeader& out = record.header();
 
@@ -47,13 +48,13 @@ TEST_CASE("a session's header comes back from the disk in every field", "[unit]"
     CHECK(out.display.latency == in.display.latency);
     CHECK(out.display.output_mode == in.display.output_mode);
     CHECK(out.display.background == in.display.background);
-    CHECK(out.animation.frame_count == in.animation.frame_count);
-    CHECK(out.animation.frame_rate_hz == in.animation.frame_rate_hz);
-    CHECK(out.animation.amplitude == in.animation.amplitude);
-    CHECK(out.animation.playback == in.animation.playback);
-    CHECK(out.animation.duration_s == in.animation.duration_s);
+    CHECK(out.animations[0].frame_count == in.animations[0].frame_count);
+    CHECK(out.animations[0].frame_rate_hz == in.animations[0].frame_rate_hz);
+    CHECK(out.animations[0].amplitude == in.animations[0].amplitude);
+    CHECK(out.animations[0].playback == in.animations[0].playback);
+    CHECK(out.animations[0].duration_s == in.animations[0].duration_s);
     CHECK(out.poses.angles == in.poses.angles);
-    CHECK(out.poses.of_frame == in.poses.of_frame);
+    CHECK(out.poses.of_motion == in.poses.of_motion);
     REQUIRE(out.tasks.size() == 2);
     CHECK(out.tasks[1].id == in.tasks[1].id);
     CHECK(out.tasks[1].question == in.tasks[1].question);
@@ -67,20 +68,21 @@ TEST_CASE("a session's header comes back from the disk in every field", "[unit]"
     CHECK(bust.mesh_sha256 == given.mesh_sha256);
     CHECK(bust.mesh_file == given.mesh_file);
     CHECK(bust.part_names == given.part_names);
-    CHECK(bust.camera.position == given.camera.position);
-    CHECK(bust.camera.target == given.camera.target);
-    CHECK(bust.camera.vertical_fov == given.camera.vertical_fov);
+    CHECK(bust.camera(0).position == given.camera(0).position);
+    CHECK(bust.camera(0).target == given.camera(0).target);
+    CHECK(bust.camera(0).vertical_fov == given.camera(0).vertical_fov);
     CHECK(bust.axis_point == given.axis_point);
     CHECK(bust.bounds.min == given.bounds.min);
     CHECK(bust.bounds.max == given.bounds.max);
     CHECK(bust.unit == given.unit);
+    CHECK(bust.origin == given.origin);
     REQUIRE(out.stimuli.size() == 2);
     CHECK(out.stimuli[1].stimulus == in.stimuli[1].stimulus);
     CHECK(out.stimuli[1].source == in.stimuli[1].source);
     CHECK(out.stimuli[0].frames_sha256 == in.stimuli[0].frames_sha256);
     REQUIRE(out.maps.size() == 2);
     for (std::size_t i = 0; i < 2; ++i) {
-        CHECK(out.maps[i].object == in.maps[i].object);
+        CHECK(out.maps[i].viewed == in.maps[i].viewed);
         CHECK(out.maps[i].pose == in.maps[i].pose);
         CHECK(out.maps[i].file == in.maps[i].file);
         CHECK(out.maps[i].sha256 == in.maps[i].sha256);
@@ -101,12 +103,12 @@ TEST_CASE("docs/session_format.md has the columns of the header as their tables 
 TEST_CASE("a session that lacks a column of today reads as the column's row says", "[unit]") {
     const TemporaryFolder root;
     SessionHeader header = example_header();
-    header.animation.when_late = WhenLate::stretch;
+    header.animations[0].when_late = WhenLate::stretch;
     const std::filesystem::path session = make_session(root.path(), header);
-    CHECK(SessionRecord(session).header().animation.when_late == WhenLate::stretch);
+    CHECK(SessionRecord(session).header().animations[0].when_late == WhenLate::stretch);
     SQLite::Database(session / session_file_name, SQLite::OPEN_READWRITE)
         .exec("ALTER TABLE session DROP COLUMN when_late");
-    CHECK(SessionRecord(session).header().animation.when_late == WhenLate::drop);
+    CHECK(SessionRecord(session).header().animations[0].when_late == WhenLate::drop);
 }
 
 TEST_CASE("the words of the header's enumerations are all that its table takes", "[unit]") {

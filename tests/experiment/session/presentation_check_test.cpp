@@ -67,8 +67,8 @@ TEST_CASE(
 
 TEST_CASE("a longer presentation is checked for one period of its frames", "[unit]") {
     DarkPresentation dark;
-    dark.protocol.animation.duration_s = 8.0;
-    const int period = dark.protocol.animation.steps_per_period();
+    dark.protocol.motions.front().duration_s = 8.0;
+    const int period = dark.protocol.motions.front().steps_per_period();
     CHECK(dark.run().refreshes == 4 * period);
 }
 

@@ -54,9 +54,9 @@ class MarkerLog final : public SessionLog {
 class RaisingPresenter final : public Presenter {
   public:
     DisplayTiming timing() const override { return {}; }
-    void load_frames(const Stimulus&) override {}
+    void load_slots(std::span<const PlacedStimulus>) override {}
     FlipReport show(const Screen&) override { return {}; }
-    FlipReport flip(AnimationFrameIndex) noexcept override { return {}; }
+    FlipReport flip_slots(std::span<const AnimationFrameIndex>) noexcept override { return {}; }
     bool closed() const noexcept override { return false; }
     void raise_with_next_flip(std::uint16_t outputs, double pulse_ms) noexcept override {
         raised.emplace_back(outputs, pulse_ms);

@@ -31,7 +31,7 @@ struct ShownBall {
         animation.frame_rate_hz = 1.0;
         animation.duration_s = 3.0;
         poses.angles = scene.angles;
-        poses.of_frame = {PoseIndex{0}, PoseIndex{1}, PoseIndex{2}};
+        poses.of_motion = {{PoseIndex{0}, PoseIndex{1}, PoseIndex{2}}};
     }
     /// Of a place of a ball of radius 1: the plane that touches it there has the camera before it.
     double seconds_of(const glm::vec3& position) const {
@@ -47,7 +47,7 @@ struct ShownBall {
 TEST_CASE("vertices are visible where geometry says so, also those between the centres of pixels", "[unit]") {
     // Some five triangles of the ball to each pixel: the centres miss many.
     const ShownBall ball(test::icosphere(1.0, 6), {96, 96});
-    const Exposure exposure = exposure_of(ball.maps, ball.animation, ball.poses);
+    const Exposure exposure = exposure_of(ball.maps, seconds_of_poses(ball.animation, ball.poses, 0));
     double shown_s = 0.0, true_s = 0.0;
     int by_centres = 0, by_truth = 0, wrongly_never = 0, wrongly_ever = 0;
     for (std::size_t v = 0; v < ball.scene.mesh.positions.size(); ++v) {
@@ -79,7 +79,8 @@ TEST_CASE("what a nearer sheet hides is not visible", "[unit]") {
         mesh.triangles.push_back(t + in_front);
     mesh.triangle_parts.assign(mesh.triangles.size(), PartIndex{0});
     const ShownBall squares(std::move(mesh), {96, 96}, 5.0);
-    const Exposure exposure = exposure_of(squares.maps, squares.animation, squares.poses);
+    const Exposure exposure =
+        exposure_of(squares.maps, seconds_of_poses(squares.animation, squares.poses, 0));
     int seen_in_front = 0, seen_behind = 0;
     for (std::size_t v = 0; v < exposure.seconds_visible.size(); ++v)
         (v < in_front ? seen_in_front : seen_behind) += exposure.seconds_visible[v] > 0.0f;
@@ -93,13 +94,13 @@ TEST_CASE("exposure is shared among the parts as the picture shows them", "[unit
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
         mesh.triangle_parts[t] = mesh.positions[mesh.triangles[t].x].z > 0.0f ? 1 : 0;
     const ShownBall ball(std::move(mesh), {160, 160});
-    const Exposure exposure = exposure_of(ball.maps, ball.animation, ball.poses);
+    const Exposure exposure = exposure_of(ball.maps, seconds_of_poses(ball.animation, ball.poses, 0));
     const double away = glm::length(ball.maps.sight_lines(PoseIndex{1}).origin());
     const double px = ball.maps.sight_lines(PoseIndex{1}).pixel_width_at(away);
-    const std::vector<std::string> names{"below", "above"};
-    const auto rows = exposure_rows({exposure, ball.scene.mesh, 10.0, 100.0 * px * px}, 0, names);
+    const auto rows = exposure_rows({exposure, ball.scene.mesh, 10.0, 100.0 * px * px}, 0,
+                                    Areas(ball.scene.mesh.part_names));
     REQUIRE(rows.size() == 3);
-    CHECK(rows[0].part == "all");
+    CHECK(rows[0].area.empty());
     CHECK(rows[0].area_mm2 == Approx(4.0 * std::numbers::pi * 100.0).epsilon(0.01));
     double true_s = 0.0, never = 0.0;
     for (const glm::vec3& position : ball.scene.mesh.positions) {

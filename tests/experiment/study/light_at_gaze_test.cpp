@@ -74,7 +74,12 @@ struct LitBall {
         event.duration = event.end - event.start;
         const StudyOptions options;
         const std::optional<ObjectScale> scale = ObjectScale{1.0, 1000.0, 30.0};
-        const std::vector<double> pose_seconds(poses, 0.1);
+        ShownPictures pictures; // each pose has a picture and a frame of its own
+        for (int one = 0; one < poses; ++one) {
+            pictures.poses.push_back({one});
+            pictures.seconds.push_back(0.1);
+            pictures.of_frame.push_back(one);
+        }
         return *surface_fixation(event, {.options = options,
                                          .samples = samples,
                                          .clock_map = clock_map,
@@ -86,7 +91,7 @@ struct LitBall {
                                          .lookup = &maps,
                                          .screen = &screen,
                                          .light = with_light ? &scores : nullptr,
-                                         .pose_seconds = pose_seconds});
+                                         .pictures = &pictures});
     }
 
     glm::dvec2 seen(int pose, const glm::dvec3& point) const {

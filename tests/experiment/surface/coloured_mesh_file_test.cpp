@@ -6,7 +6,7 @@
 
 #include "experiment/base/json_text.h"
 #include "experiment/base/whole_file.h"
-#include "experiment/scene/mesh_reader.h"
+#include "experiment/scene/files/mesh_reader.h"
 #include "experiment/surface/colour_scale.h"
 #include "experiment/surface/coloured_mesh_file.h"
 #include "tests/experiment/surface/flat_and_round.h"

@@ -7,7 +7,7 @@
 
 #include "experiment/base/error.h"
 #include "experiment/base/random.h"
-#include "experiment/scene/metal_table.h"
+#include "experiment/spectra/metal_table.h"
 #include "render/bake/coat_surface.h"
 #include "render/bake/sample_sequence.h"
 #include "tests/render/bake/bake_support.h"

@@ -57,7 +57,7 @@ struct Store {
           store(*context, pages, encoder, {10, 20}, page_px, budget_bytes) {}
 
     /// The greys of all pages, as the card has them.
-    std::vector<int> greys(const StoredStimulus& stimulus) const {
+    std::vector<int> greys(const StoredStimuli& stimulus) const {
         std::vector<int> greys;
         Framebuffer target(*context);
         std::vector<std::byte> bytes(page_bytes);
@@ -102,12 +102,30 @@ TEST_CASE("a stimulus has its own pages on the card, whether or not it was expec
     bench.store.expect({4, 0});
     bench.store.use_spare_time();
     CHECK(bench.greys(bench.store.load({5, 0})) == truth({5, 0}));
-    CHECK(bench.store.load({5, 0}).page_of_frame.front() == pages_each - 1);
+    CHECK(bench.store.load({5, 0}).page_of(0, 0) == pages_each - 1);
+}
+
+TEST_CASE("the stimuli of a trial lie one after another, each once", "[gl]") {
+    Store bench;
+    const std::vector<Stimulus> two{{1, 0}, {3, 0}};
+    std::vector<int> all = truth({1, 0});
+    const std::vector<int> second = truth({3, 0});
+    all.insert(all.end(), second.begin(), second.end());
+    const StoredStimuli& stored = bench.store.load(two);
+    CHECK(bench.greys(stored) == all);
+    CHECK(stored.page_of(0, 0) == pages_each - 1);
+    CHECK(stored.page_of(1, 0) == 2 * pages_each - 1);
+    CHECK(stored.page_of(1, pages_each - 1) == pages_each);
+    // They are there already; one of them alone is another trial's.
+    const int read = bench.pages.read;
+    bench.store.load(two);
+    CHECK(bench.pages.read == read);
+    CHECK(bench.greys(bench.store.load({3, 0})) == second);
 }
 
 TEST_CASE("the shown stimulus stays whole while the next arrives", "[gl]") {
     Store bench;
-    const StoredStimulus& shown = bench.store.load({1, 0});
+    const StoredStimuli& shown = bench.store.load({1, 0});
     bench.store.expect({2, 0});
     bench.store.use_spare_time();
     CHECK(bench.greys(shown) == truth({1, 0}));

@@ -7,7 +7,7 @@
 #include "devices/host/clocks.h"
 #include "experiment/base/random.h"
 #include "experiment/colour/display_colour.h"
-#include "experiment/scene/spectra.h"
+#include "experiment/spectra/spectra.h"
 #include "render/gl/headless_context.h"
 #include "render/presenter/page_presenter.h"
 #include "render/signal/signal_check.h"

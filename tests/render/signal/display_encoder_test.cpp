@@ -266,9 +266,9 @@ TEST_CASE("what a page takes is reckoned before any is drawn as the encoder has 
                 protocol.display.output = row.mode;
                 protocol.display.dither = dither;
                 protocol.display.pair_filter = left % 2 == 0 ? PairFilter::lanczos : PairFilter::box;
-                protocol.view.width_px = 200;
-                protocol.view.height_px = 30;
-                protocol.view.left_px = left;
+                protocol.views.front().width_px = 200;
+                protocol.views.front().height_px = 30;
+                protocol.views.front().left_px = left;
                 const DisplayEncoder encoder(protocol.display);
                 const ScreenGeometry geometry = screen_geometry_of(protocol);
                 const glm::ivec2 size = encoder.patch_of(geometry.image_origin_px, geometry.image_px).size_px;

@@ -22,12 +22,16 @@ struct Inputs {
     LightSettings light;
     BakeSettings settings;
     StandardObserver observer = StandardObserver::cie1931;
+    int view = 0;
+    Degrees light_turn;
 
     ContentHash key() const {
-        return traced_key(object, material, hash_of_surroundings(light), light.exposure, settings, observer);
+        return traced_key(object, view, material, hash_of_surroundings(Surroundings(light), light_turn),
+                          light.exposure, settings, observer);
     }
     ContentHash key_live() const {
-        return live_key(object, material, hash_of_surroundings(light), light.exposure);
+        return live_key(object, view, material, hash_of_surroundings(Surroundings(light), {}), light_turn,
+                        light.exposure);
     }
 };
 
@@ -35,6 +39,8 @@ Inputs some_inputs() {
     Inputs inputs;
     inputs.object.mesh = bust();
     inputs.object.mesh_hash = hash_of_mesh(inputs.object.mesh);
+    inputs.object.scenes.resize(2);
+    inputs.object.scenes[1].view.camera.position = {0.0, -2.0, 1.0};
     return inputs;
 }
 
@@ -45,10 +51,10 @@ TEST_CASE("whatever makes a traced frame changes its key, and nothing else does"
     const std::filesystem::path probe = folder.file("probe.exr", "one"), metal = folder.file("m.csv", "one");
     const std::map<std::string, std::function<void(Inputs&)>> changes{
         {"mesh", [](Inputs& i) { i.object.mesh_hash = "other"; }},
-        {"camera", [](Inputs& i) { i.object.scene.view.camera.position.x += 1e-9; }},
-        {"target", [](Inputs& i) { i.object.scene.view.camera.target.z += 1e-9; }},
-        {"field of view", [](Inputs& i) { i.object.scene.view.camera.vertical_fov.value += 1e-9; }},
-        {"size", [](Inputs& i) { i.object.scene.view.image_px.y += 1; }},
+        {"camera", [](Inputs& i) { i.object.scenes[0].view.camera.position.x += 1e-9; }},
+        {"target", [](Inputs& i) { i.object.scenes[0].view.camera.target.z += 1e-9; }},
+        {"field of view", [](Inputs& i) { i.object.scenes[0].view.camera.vertical_fov.value += 1e-9; }},
+        {"size", [](Inputs& i) { i.object.scenes[0].view.image_px.y += 1; }},
         {"kind", [](Inputs& i) { i.material.kind = MaterialKind::diffuse; }},
         {"metal", [](Inputs& i) { i.material.metal = "Ag"; }},
         {"roughness", [](Inputs& i) { i.material.roughness *= 1.001; }},
@@ -62,6 +68,8 @@ TEST_CASE("whatever makes a traced frame changes its key, and nothing else does"
         {"probe", [&](Inputs& i) { i.light.probe = probe.string(); }},
         {"gallery", [](Inputs& i) { i.light.probe = "gallery"; }},
         {"rotation", [](Inputs& i) { i.light.rotation_deg = 1.0; }},
+        {"turn of the light", [](Inputs& i) { i.light_turn = {2.0}; }},
+        {"view", [](Inputs& i) { i.view = 1; }},
         {"samples", [](Inputs& i) { i.settings.samples += 1; }},
         {"target error", [](Inputs& i) { i.settings.target_error_de = 0.5; }},
         {"filter", [](Inputs& i) { i.settings.filter = PixelFilter::gaussian; }},
@@ -108,6 +116,20 @@ TEST_CASE("the exposure is in live frames, and they are no traced ones", "[unit]
     CHECK(before != inputs.key());
     inputs.light.exposure = 2.0;
     CHECK(inputs.key_live() != before);
+}
+
+TEST_CASE("a light that turns makes other frames and the same maps", "[unit]") {
+    Inputs turned = some_inputs();
+    turned.light_turn = {10.0};
+    CHECK(turned.key() != some_inputs().key());
+    CHECK(turned.key_live() != some_inputs().key_live());
+    // A frame does not tell whether its light came there by a motion or stands there.
+    Inputs standing = some_inputs();
+    standing.light.rotation_deg = 10.0;
+    CHECK(turned.key() == standing.key());
+    const Inputs inputs = some_inputs();
+    CHECK(map_key(inputs.object, 0) == map_key(turned.object, 0));
+    CHECK(map_key(inputs.object, 0) != map_key(inputs.object, 1));
 }
 
 TEST_CASE("samples and target of a protocol belong to its own quality", "[unit]") {

@@ -16,20 +16,20 @@ namespace {
 /// A bust as another program maps it: by rays, with 16-bit codes, a file for each of five frames.
 struct GivenBust {
     GivenBust() {
-        protocol.view.width_px = 60;
-        protocol.view.height_px = 80;
-        protocol.animation.frame_count = 5;
+        protocol.views.front().width_px = 60;
+        protocol.views.front().height_px = 80;
+        protocol.motions.front().frame_count = 5;
         ObjectSettings object;
         object.id = "bust";
         object.lut = (folder.path() / "map_##.png").string();
-        object.head_spheres = {{0.0, -10.0, 245.0, 55.0}};
+        object.areas = {{"head", {{0.0, -10.0, 245.0, 55.0}}, {}, {}, {}}};
         protocol.objects.push_back(object);
         scene.view.image_px = {60, 80};
         scene.bounds = mesh.bounds();
         scene.view.camera = fit_camera(mesh, {12.0}, scene.view.image_px, {25.0}, 0.05);
         const RayCaster rays(mesh);
         for (int frame = 0; frame < 5; ++frame) {
-            const Degrees angle = protocol.animation.angle_of({frame});
+            const Degrees angle = protocol.motions.front().angle_of({frame});
             CoordinateImage image(scene.view.image_px);
             for (int y = 0; y < 80; ++y) {
                 for (int x = 0; x < 60; ++x) {
@@ -90,24 +90,24 @@ TEST_CASE("the protocol can say what a map means, and then nothing need stand be
     const std::vector<std::string> remarks = check_given_maps(given.protocol, 0);
     REQUIRE(remarks.size() == 1);
     CHECK_THAT(remarks[0], Catch::Contains("depth and incidence will be missing"));
-    given.protocol.view.camera_position = given.scene.view.camera.position;
-    given.protocol.view.vertical_fov_deg = 12.0;
+    given.protocol.views.front().camera_position = given.scene.view.camera.position;
+    given.protocol.views.front().vertical_fov_deg = 12.0;
     CHECK(check_given_maps(given.protocol, 0).empty());
 }
 
 TEST_CASE("a map of another size, of another angle or of another place than its head is refused", "[unit]") {
     GivenBust given;
-    given.protocol.view.width_px = 64;
+    given.protocol.views.front().width_px = 64;
     CHECK_THROWS_WITH(read_given_map(given.protocol, 0, {0}), Catch::Contains("map_00.png") &&
                                                                   Catch::Contains("60 x 80") &&
                                                                   Catch::Contains("64 x 80"));
-    given.protocol.view.width_px = 60;
-    given.protocol.animation.amplitude = {20.0};
+    given.protocol.views.front().width_px = 60;
+    given.protocol.motions.front().amplitude = {20.0};
     CHECK_NOTHROW(read_given_map(given.protocol, 0, {0})); // straight ahead in either
     CHECK_THROWS_WITH(read_given_map(given.protocol, 0, {1}),
                       Catch::Contains("25 degrees") && Catch::Contains("20"));
-    given.protocol.animation.amplitude = {25.0};
-    given.settings().head_spheres = {{0.0, 0.0, 2450.0, 55.0}};
+    given.protocol.motions.front().amplitude = {25.0};
+    given.settings().areas[0].spheres = {{0.0, 0.0, 2450.0, 55.0}};
     CHECK_THROWS_WITH(check_given_maps(given.protocol, 0), Catch::Contains("no pixel"));
     std::filesystem::remove(given.file(1));
     CHECK_THROWS_WITH(check_given_maps(given.protocol, 0), Catch::Contains("map_01.png"));
@@ -122,7 +122,7 @@ TEST_CASE("the hash of a ready-made map follows all that it is made from", "[uni
         CHECK(std::find(hashes.begin(), hashes.end(), hash) == hashes.end());
         hashes.push_back(hash);
     };
-    given.settings().head_spheres[0][3] = 50.0;
+    given.settings().areas[0].spheres[0][3] = 50.0;
     note();
     given.settings().lut_min = glm::dvec3(0.0);
     note();

@@ -16,7 +16,7 @@ std::vector<Object> one_bust() {
     Object bust;
     bust.id = "bust";
     bust.mesh = test::bust();
-    bust.scene = {{fit_camera(bust.mesh, {12.0}, small_px, {25.0}, 0.05), small_px}, bust.mesh.bounds()};
+    bust.scenes = {{{fit_camera(bust.mesh, {12.0}, small_px, {25.0}, 0.05), small_px}, bust.mesh.bounds()}};
     std::vector<Object> objects;
     objects.push_back(std::move(bust));
     return objects;
@@ -29,7 +29,7 @@ void present(LiveMaps& live, const Animation& animation, const PoseTable& poses)
         const AnimationFrameIndex frame = animation.frame_at_step(step);
         FlipRecord flip;
         flip.shown = frame;
-        flip.pose = poses.pose_of(frame);
+        flip.pose = poses.pose_of(0, frame);
         live.flipped(flip);
     }
     live.screen_shown({}, {});
@@ -51,7 +51,7 @@ TEST_CASE("maps drawn while frames are shown are those drawn before, each pose o
         const MeshBuffers buffers(*context, objects[0].mesh);
         for (std::size_t i = 0; i < maps.size(); ++i) {
             CHECK(maps[i].pose.value == static_cast<int>(i));
-            CHECK(maps[i].map.codes == pass.draw(buffers, objects[0].scene, poses.angles[i]));
+            CHECK(maps[i].map.codes == pass.draw(buffers, objects[0].scene(), poses.angles[i]));
         }
         present(live, animation, poses);
         CHECK(live.take_finished().empty());

@@ -104,7 +104,7 @@ TEST_CASE(
 
     // The tables have all of them; those between trials are of none.
     export_tables(
-        record, [](int) { return nullptr; }, lab.root.path() / "tables");
+        record, [](const ViewedObject&) { return nullptr; }, lab.root.path() / "tables");
     const TsvFile rows(lab.root.path() / "tables" / "samples.tsv");
     CHECK(rows.size() == 150);
     int outside = 0;
@@ -117,7 +117,7 @@ TEST_CASE("what a recording does not tell of a trial is missing: no presentation
     Lab lab;
     const SessionRecord record = lab.record(continuous());
     export_tables(
-        record, [](int) { return nullptr; }, lab.root.path() / "tables");
+        record, [](const ViewedObject&) { return nullptr; }, lab.root.path() / "tables");
     const TsvFile trials(lab.root.path() / "tables" / "trials.tsv"),
         responses(lab.root.path() / "tables" / "responses.tsv");
     for (std::size_t i = 0; i < 2; ++i) {
@@ -132,7 +132,7 @@ TEST_CASE("what a recording does not tell of a trial is missing: no presentation
     CHECK(trials.text(1, "trialid_3") == "right");
 
     export_bids(
-        record, [](int) { return nullptr; }, lab.root.path() / "bids");
+        record, [](const ViewedObject&) { return nullptr; }, lab.root.path() / "bids");
     const TsvFile events(lab.root.path() /
                          "bids/sub-07/ses-01/beh/sub-07_ses-01_task-imported_run-01_events.tsv");
     REQUIRE(events.size() == 2); // no screens

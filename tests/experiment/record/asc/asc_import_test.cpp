@@ -376,7 +376,7 @@ TEST_CASE("an imported session can be exported as tables", "[unit]") {
     AscExample example;
     example.right = true;
     const auto counts = export_tables(
-        imported(root, asc_text(example)), [](int) { return nullptr; }, root.path() / "tables");
+        imported(root, asc_text(example)), [](const ViewedObject&) { return nullptr; }, root.path() / "tables");
     CHECK(counts.samples == 240);
     CHECK(counts.samples_without_gaze == 40);
     // The tracker's own events have a table.
@@ -404,7 +404,7 @@ TEST_CASE("a pupil in an export has the digits that it has in the recording", "[
     text.replace(text.find("  900.0"), 7, " 2338.6");
     const SessionRecord record = imported(root, text);
     export_tables(
-        record, [](int) { return nullptr; }, root.path() / "tables");
+        record, [](const ViewedObject&) { return nullptr; }, root.path() / "tables");
     export_asc(record, root.path() / "asc");
     const auto holds = [&](const fs::path& file, const std::string& words) {
         std::ifstream stream(root.path() / file);

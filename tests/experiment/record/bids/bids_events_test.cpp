@@ -54,7 +54,7 @@ TEST_CASE(
     "[unit]") {
     const test::TemporaryFolder root;
     const std::filesystem::path session = make_eye_session(root.path() / "sessions", "AB7");
-    export_bids(SessionRecord(session), [](int) -> const SurfaceLookup* { return nullptr; },
+    export_bids(SessionRecord(session), [](const ViewedObject&) -> const SurfaceLookup* { return nullptr; },
                 root.path() / "dataset", {});
     // Of each attempt, by the names of its rows: see outcome_at().
     std::map<std::pair<std::string, std::string>, std::map<std::string, Row>> attempts;

@@ -33,10 +33,28 @@ TEST_CASE("an index that leads out of its table is a damage that is named", "[un
     const auto sound = root.path() / "sound.sqlite", damaged = root.path() / "damaged.sqlite";
     std::filesystem::copy_file(session / session_file_name, sound);
     CHECK_NOTHROW(read_all(sound));
-    for (const char* const column :
-         {"trial.task", "trial.object", "trial.material", "schedule.task", "schedule.object",
-          "schedule.material", "stimulus.object", "stimulus.material", "map.object", "map.pose",
-          "animation_frame.pose", "flip.shown", "flip.planned", "flip.pose"})
+    for (const char* const column : {"trial.task",
+                                     "trial.object",
+                                     "trial.material",
+                                     "schedule.task",
+                                     "schedule.object",
+                                     "schedule.material",
+                                     "stimulus.object",
+                                     "stimulus.material",
+                                     "map.object",
+                                     "map.pose",
+                                     "trial.motion",
+                                     "trial.view",
+                                     "schedule.motion",
+                                     "schedule.view",
+                                     "stimulus.motion",
+                                     "stimulus.view",
+                                     "map.view",
+                                     "animation_frame.motion",
+                                     "animation_frame.pose",
+                                     "flip.shown",
+                                     "flip.planned",
+                                     "flip.pose"})
         for (const int index : {-2, 3, 1'000'000}) {
             CAPTURE(column, index);
             std::filesystem::copy_file(sound, damaged, std::filesystem::copy_options::overwrite_existing);

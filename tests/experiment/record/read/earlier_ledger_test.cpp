@@ -34,11 +34,11 @@ void write_some(const std::filesystem::path& session, int first) {
 TEST_CASE("what the ledger says of flips and misses is read as it was written", "[unit]") {
     const TemporaryFolder root;
     SessionHeader header = example_header();
-    header.animation.when_late = WhenLate::stretch;
+    header.animations[0].when_late = WhenLate::stretch;
     const auto session = make_session(root.path(), header);
     write_some(session, 0);
     const SessionRecord record(session);
-    CHECK(record.header().animation.when_late == WhenLate::stretch);
+    CHECK(record.header().animations[0].when_late == WhenLate::stretch);
     REQUIRE(record.trials().size() == 1);
     for (const FlipRecord& flip : record.flips(record.trials()[0]))
         CHECK(flip.report.uncertainty == std::chrono::microseconds(7));
@@ -58,7 +58,7 @@ TEST_CASE("a session begun before misses had rows is read, and goes on with them
     }
     {
         const SessionRecord record(session);
-        CHECK(record.header().animation.when_late == WhenLate::drop);
+        CHECK(record.header().animations[0].when_late == WhenLate::drop);
         CHECK(record.flips(record.trials()[0]).size() == 3);
         CHECK(record.flips(record.trials()[0])[0].report.uncertainty == SessionDuration::zero());
         CHECK(test::missed_rows(session, record.trials()[0].id).empty());

@@ -77,7 +77,7 @@ struct Recorded {
         const SessionHeader header = example_header();
         session = make_session(root.path(), header);
         SessionStore store(session / session_file_name, patient());
-        const PageCycle plan = make_page_cycle(header.animation, header.display.refresh_hz);
+        const PageCycle plan = header.page_cycle_of({});
         // Both clocks are read in no time and run at one rate: the map is exact.
         for (const std::int64_t second : {0, 100})
             store.clock_pair({at_ms(1000 * second),
@@ -113,6 +113,6 @@ inline std::map<std::string, std::string> row_of(const std::vector<std::vector<s
 }
 
 inline const LeftHalf left_half;
-inline const SurfaceLookup* bust_only(int object) { return object == 0 ? &left_half : nullptr; }
+inline const SurfaceLookup* bust_only(const ViewedObject& viewed) { return viewed.object == 0 ? &left_half : nullptr; }
 
 } // namespace overt::testing

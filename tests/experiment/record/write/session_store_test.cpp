@@ -32,7 +32,7 @@ TEST_CASE("rows, outcomes, events and clock pairs come back as they were written
         store.event({at_ms(10001), 1, "drift check", "left\tright"});
         store.sample(1, sample_number(3));
         store.trial_finished(header.schedule.trials[1], broken_off);
-        store.map_made({1, {0}, "maps/other.exr", "f", RecordedMap::Made::live});
+        store.map_made({{1}, {0}, "maps/other.exr", "f", RecordedMap::Made::live});
         store.close();
     }
     const SessionRecord record(session);

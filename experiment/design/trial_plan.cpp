@@ -1,0 +1,199 @@
+#include "experiment/design/trial_plan.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "experiment/base/counted.h"
+#include "experiment/base/random.h"
+#include "experiment/base/text_number.h"
+#include "experiment/factors.h"
+#include "experiment/protocol/all_stimuli.h"
+
+namespace overt {
+
+int refreshes_in(double seconds, double refresh_hz) {
+    return std::max(1, static_cast<int>(std::lround(seconds * refresh_hz)));
+}
+
+double drawn_s(const StepDuration& duration, double u) {
+    switch (duration.law) {
+    case StepDuration::Law::uniform:
+        return duration.from_s + u * (duration.to_s - duration.from_s);
+    case StepDuration::Law::exponential: {
+        const double tau = time_constant_s(duration.from_s, duration.to_s, duration.mean_s);
+        return duration.from_s - tau * std::log1p(u * std::expm1(-(duration.to_s - duration.from_s) / tau));
+    }
+    case StepDuration::Law::fixed:
+    case StepDuration::Law::one_of:
+        break;
+    }
+    const auto count = static_cast<double>(duration.choices_s.size());
+    return duration.choices_s[static_cast<std::size_t>(u * count)];
+}
+
+WatchedSteps watched_steps(const std::vector<StepSettings>& steps) {
+    const auto shows = std::ranges::find(steps, StepKind::show, &StepSettings::kind);
+    if (shows == steps.end())
+        return {};
+    WatchedSteps watched{static_cast<std::size_t>(shows - steps.begin()), 0};
+    watched.end = watched.begin + 1;
+    const auto may_be = [&](std::size_t i) { return row_of(steps[i].kind).may_be_watched; };
+    while (watched.begin > 0 && may_be(watched.begin - 1))
+        --watched.begin;
+    while (watched.end < steps.size() && may_be(watched.end))
+        ++watched.end;
+    return watched;
+}
+
+namespace {
+
+TrialPlan plan_of_one_question(const Protocol& protocol, const Stimulus& stimulus) {
+    TrialPlan plan;
+    for (const StepKind kind : {StepKind::text, StepKind::drift_check, StepKind::show, StepKind::answer}) {
+        PlannedStep step;
+        step.kind = kind;
+        if (kind == StepKind::show) {
+            step.drawn_s = protocol.motion_of(stimulus).duration_s;
+            step.refreshes = page_cycles(protocol)[static_cast<std::size_t>(stimulus.motion)].total_refreshes;
+            step.is_watched = true;
+        }
+        plan.steps.push_back(std::move(step));
+    }
+    return plan;
+}
+
+} // namespace
+
+TrialPlan plan_trial(const Protocol& protocol, std::uint64_t seed, const Trial& trial, bool is_practice) {
+    const std::vector<StepSettings>& steps = protocol.tasks[static_cast<std::size_t>(trial.task)].steps;
+    if (steps.empty())
+        return plan_of_one_question(protocol, trial.stimulus);
+    const double refresh_hz = protocol.display.refresh_hz;
+    const WatchedSteps watched = watched_steps(steps);
+    TrialPlan plan;
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+        const StepSettings& settings = steps[i];
+        PlannedStep step;
+        step.settings = &settings;
+        step.kind = settings.kind;
+        step.id = settings.id;
+        step.is_watched = i >= watched.begin && i < watched.end;
+        if (settings.kind == StepKind::show)
+            step.drawn_s = protocol.motion_of(trial.stimulus).duration_s;
+        if (settings.duration) {
+            RandomStream stream(seed, fmt::format("{}step {}", is_practice ? "practice " : "", i),
+                                static_cast<std::uint64_t>(trial.index));
+            step.drawn_s = drawn_s(*settings.duration, stream.uniform());
+        }
+        if (const auto own_s = number_in<double>(own_level(trial, seconds_column(settings))))
+            step.drawn_s = own_s;
+        if (step.drawn_s)
+            step.refreshes = refreshes_in(*step.drawn_s, refresh_hz);
+        if (settings.gaze && settings.gaze->patience_s)
+            step.patience_refreshes = refreshes_in(*settings.gaze->patience_s, refresh_hz);
+        plan.steps.push_back(std::move(step));
+    }
+    return plan;
+}
+
+namespace {
+
+std::string seconds_and_refreshes(double seconds, double refresh_hz) {
+    const int refreshes = refreshes_in(seconds, refresh_hz);
+    return fmt::format("{:g} s ({}, {:.1f} ms)", seconds, counted(refreshes, "refresh", "refreshes"),
+                       1e3 * refreshes / refresh_hz);
+}
+
+std::string duration_text(const StepDuration& duration, double refresh_hz) {
+    const auto said = [&](double seconds) { return seconds_and_refreshes(seconds, refresh_hz); };
+    switch (duration.law) {
+    case StepDuration::Law::uniform:
+        return fmt::format("{} to {}, drawn", said(duration.from_s), said(duration.to_s));
+    case StepDuration::Law::exponential:
+        return fmt::format("{} to {}, drawn exponentially with a mean of {:g} s", said(duration.from_s),
+                           said(duration.to_s), duration.mean_s);
+    case StepDuration::Law::fixed:
+    case StepDuration::Law::one_of:
+        break;
+    }
+    std::string text;
+    for (const double one : duration.choices_s)
+        text += fmt::format("{}{}", text.empty() ? "" : " or ", said(one));
+    return duration.law == StepDuration::Law::one_of ? text + ", drawn" : text;
+}
+
+/// Each once.
+StepDuration durations_of_motions(const Protocol& protocol) {
+    StepDuration durations;
+    for (const MotionSettings& motion : protocol.motions)
+        if (std::ranges::find(durations.choices_s, motion.duration_s) == durations.choices_s.end())
+            durations.choices_s.push_back(motion.duration_s);
+    return durations;
+}
+
+std::string gaze_text(const GazeWait& wait) {
+    const std::string where =
+        wait.within_deg ? fmt::format("within {:g} deg", *wait.within_deg) : fmt::format("on {}", wait.area);
+    std::string text = fmt::format("until gaze is {} for {:g} s", where, wait.for_s);
+    if (wait.patience_s)
+        text += fmt::format(", for {:g} s at most: then {}", *wait.patience_s,
+                            wait.otherwise == GazeMissed::goes_on       ? "the trial goes on"
+                            : wait.otherwise == GazeMissed::drift_check ? "a drift check, and the step again"
+                                                                        : "the attempt is over");
+    return text;
+}
+
+} // namespace
+
+std::string describe_steps(const Protocol& protocol, const Task& task) {
+    if (task.steps.empty())
+        return {};
+    const double refresh_hz = protocol.display.refresh_hz;
+    std::string text = fmt::format("steps of task {}:\n", task.id);
+    double least_s = 0.0, most_s = 0.0;
+    bool has_end = true;
+    for (std::size_t i = 0; i < task.steps.size(); ++i) {
+        const StepSettings& step = task.steps[i];
+        std::vector<std::string> ends;
+        const StepDuration motions = durations_of_motions(protocol);
+        const bool is_motion = step.kind == StepKind::show && !step.duration;
+        double shortest_s = is_motion ? motions.shortest_s() : 0.0;
+        double longest_s = is_motion ? motions.longest_s() : 0.0;
+        if (step.duration) {
+            ends.push_back(duration_text(*step.duration, refresh_hz));
+            shortest_s = step.duration->shortest_s();
+            longest_s = step.duration->longest_s();
+        } else if (is_motion) {
+            ends.push_back(duration_text({StepDuration::Law::fixed, motions.choices_s}, refresh_hz) +
+                           (motions.choices_s.size() > 1 ? ", by the motion" : ""));
+        }
+        if (step.gaze) {
+            ends.push_back(gaze_text(*step.gaze));
+            shortest_s = std::min(step.gaze->for_s, shortest_s > 0.0 ? shortest_s : step.gaze->for_s);
+            if (longest_s <= 0.0)
+                longest_s = step.gaze->patience_s.value_or(0.0);
+        }
+        const bool waits_for_key = step.ends_by_key || (step.kind == StepKind::text && !step.duration);
+        if (waits_for_key)
+            ends.push_back("until a key is pressed");
+        if (step.kind == StepKind::answer)
+            ends.push_back("until the answer");
+        if (waits_for_key || step.kind == StepKind::answer || step.kind == StepKind::drift_check)
+            shortest_s = 0.0;
+        has_end = has_end && longest_s > 0.0;
+        least_s += shortest_s;
+        most_s += longest_s;
+        std::string line = fmt::format("  {}. {}{}: {}", i + 1, row_of(step.kind).name,
+                                       step.id.empty() ? "" : " " + step.id, row_of(step.kind).shows);
+        for (std::size_t k = 0; k < ends.size(); ++k)
+            line += fmt::format("{}{}", k == 0 ? "; " : "; or ", ends[k]);
+        text += line + "\n";
+    }
+    text += has_end ? fmt::format("  together {:g} to {:g} s\n", least_s, most_s)
+                    : fmt::format("  together {:g} s at least\n", least_s);
+    return text;
+}
+
+} // namespace overt

@@ -1,0 +1,61 @@
+/// What a trial is going to do, made before it runs.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiment/protocol/protocol.h"
+#include "experiment/trial.h"
+
+namespace overt {
+
+/// A step with what was drawn for it. What it shows and waits for is in its settings.
+struct PlannedStep {
+    const StepSettings* settings = nullptr; ///< of the protocol; null in a task without steps
+    StepKind kind = StepKind::blank;
+    std::string id = {};
+    std::optional<double> drawn_s = {};         ///< as drawn, or as the protocol has it
+    std::optional<int> refreshes = {};          ///< the same rounded; nothing: it has no end in time
+    std::optional<int> patience_refreshes = {}; ///< that gaze is waited for
+    bool is_watched = false;                    ///< gaze is recorded meanwhile
+
+    const GazeWait* gaze() const { return settings && settings->gaze ? &*settings->gaze : nullptr; }
+    /// The only frame that `show` shows; nothing: the motion.
+    std::optional<AnimationFrameIndex> still() const {
+        return settings && settings->frame ? std::optional(AnimationFrameIndex{*settings->frame})
+                                           : std::nullopt;
+    }
+    bool ends_by_key() const { return settings && settings->ends_by_key; }
+};
+
+struct TrialPlan {
+    std::vector<PlannedStep> steps;
+};
+
+/// Refreshes in so many seconds, at least one.
+int refreshes_in(double seconds, double refresh_hz);
+
+/// The steps of a trial's task. Durations are drawn from streams of their own by the session's seed, the
+/// trial and the step, or are the trial's own (seconds_column): every attempt at a trial has the same. A task
+/// without steps is a question, a drift check, the stimulus and an answer. Of a practice trial numbers are
+/// drawn apart. The protocol must outlive the plan.
+TrialPlan plan_trial(const Protocol& protocol, std::uint64_t seed, const Trial& trial, bool is_practice);
+
+/// The steps of a task around the one that shows its stimulus during which gaze is recorded without a break:
+/// indices of the first and the one after the last.
+struct WatchedSteps {
+    std::size_t begin = 0, end = 0;
+};
+WatchedSteps watched_steps(const std::vector<StepSettings>& steps);
+
+/// A draw of a duration, in seconds, from a number in [0, 1). Exponential, cut off: from - tau log(1 - u (1 -
+/// exp(-(to - from) / tau))).
+double drawn_s(const StepDuration& duration, double u);
+
+/// Lines on a task's steps for a person: what each shows, how long, in seconds and in refreshes, and what
+/// else ends it; at last how long all of them last at least and at most. Empty for a task without steps.
+std::string describe_steps(const Protocol& protocol, const Task& task);
+
+} // namespace overt

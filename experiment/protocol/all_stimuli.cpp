@@ -1,0 +1,104 @@
+#include "experiment/protocol/all_stimuli.h"
+
+#include <algorithm>
+
+#include "experiment/base/error.h"
+
+namespace overt {
+
+std::vector<Stimulus> all_stimuli(const Protocol& protocol) {
+    std::vector<Stimulus> stimuli{{}};
+    for (std::size_t list = 0; list < stimulus_lists.size(); ++list) {
+        std::vector<Stimulus> longer;
+        const int entries = static_cast<int>(entries_of(protocol, list).size());
+        for (Stimulus stimulus : stimuli) {
+            for (int entry = 0; entry < entries; ++entry) {
+                stimulus.*stimulus_lists[list].index = entry;
+                longer.push_back(stimulus);
+            }
+        }
+        stimuli = std::move(longer);
+    }
+    return stimuli;
+}
+
+Stimulus stimulus_of(const Protocol& protocol, const FrameSequenceSettings& frames) {
+    const std::vector<Stimulus> stimuli = all_stimuli(protocol);
+    const auto found = std::ranges::find_if(
+        stimuli, [&](const Stimulus& stimulus) { return find_frames(protocol, stimulus) == &frames; });
+    OVERT_EXPECTS(found != stimuli.end());
+    return *found;
+}
+
+PoseTable poses_of(const Protocol& protocol) {
+    PoseTable poses;
+    for (const Animation& motion : protocol.motions)
+        poses.add(motion);
+    return poses;
+}
+
+std::vector<PageCycle> page_cycles(const Protocol& protocol) {
+    const PoseTable poses = poses_of(protocol);
+    std::vector<PageCycle> cycles;
+    for (const Animation& motion : protocol.motions)
+        cycles.push_back(make_page_cycle(motion, poses.frames_of(static_cast<int>(cycles.size())),
+                                         protocol.display.refresh_hz));
+    return cycles;
+}
+
+std::vector<ViewedObject> all_viewed_objects(const Protocol& protocol) {
+    std::vector<ViewedObject> all;
+    for (int object = 0; object < static_cast<int>(protocol.objects.size()); ++object) {
+        for (int view = 0; view < static_cast<int>(protocol.views.size()); ++view)
+            all.push_back({object, view});
+    }
+    return all;
+}
+
+bool is_named(std::size_t list, std::size_t entries) {
+    return stimulus_lists.at(list).is_always_named || entries > 1;
+}
+
+namespace {
+
+std::string joined(const Protocol& protocol, const Stimulus& stimulus, std::string ListEntry::*what,
+                   std::string_view between) {
+    std::string name;
+    for (std::size_t list = 0; list < stimulus_lists.size(); ++list) {
+        const std::vector<const ListEntry*> entries = entries_of(protocol, list);
+        if (!is_named(list, entries.size()))
+            continue;
+        if (!name.empty())
+            name += between;
+        name += entries[static_cast<std::size_t>(stimulus.*stimulus_lists[list].index)]->*what;
+    }
+    return name;
+}
+
+} // namespace
+
+std::string stimulus_name(const Protocol& protocol, const Stimulus& stimulus, char between) {
+    return joined(protocol, stimulus, &ListEntry::id, std::string_view(&between, 1));
+}
+
+std::string stimulus_in_words(const Protocol& protocol, const Stimulus& stimulus) {
+    return joined(protocol, stimulus, &ListEntry::id, ", ");
+}
+
+std::string stimulus_title(const Protocol& protocol, const Stimulus& stimulus) {
+    return joined(protocol, stimulus, &ListEntry::title, ", ");
+}
+
+std::string section_of_view(const Protocol& protocol, int view) {
+    return protocol.views.size() > 1 ? "[[view]] " + protocol.views[static_cast<std::size_t>(view)].id
+                                     : "[view]";
+}
+
+std::string viewed_name(const Protocol& protocol, const ViewedObject& viewed, char between) {
+    std::string name = protocol.objects[static_cast<std::size_t>(viewed.object)].id;
+    if (protocol.views.size() > 1)
+        name += between + protocol.views[static_cast<std::size_t>(viewed.view)].id;
+    return name;
+}
+
+} // namespace overt

@@ -1,0 +1,214 @@
+#include "experiment/protocol/written_series.h"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "experiment/base/counted.h"
+#include "experiment/protocol/protocol_keys.h"
+#include "experiment/stimulus_lists.h"
+
+namespace overt {
+
+namespace {
+
+TomlEntry* entry_called(TomlTable& table, std::string_view key) {
+    const auto found = std::ranges::find(table, key, &TomlEntry::key);
+    return found == table.end() ? nullptr : &*found;
+}
+
+bool is_number(const TomlValue& value) {
+    return std::holds_alternative<std::int64_t>(value.content) ||
+           std::holds_alternative<double>(value.content);
+}
+
+/// As ids, titles and tables have it; nothing if it is neither a number nor a word.
+std::optional<std::string> text_of_value(const TomlValue& value) {
+    if (const auto* whole = std::get_if<std::int64_t>(&value.content))
+        return fmt::format("{}", *whole);
+    if (const auto* number = std::get_if<double>(&value.content))
+        return fmt::format("{}", *number);
+    if (const auto* word = std::get_if<std::string>(&value.content))
+        return std::filesystem::path(*word).stem().string(); // of a file: its name without the ending
+    return std::nullopt;
+}
+
+/// The same where only letters, digits, -, _ and points within may stand.
+std::string id_part(std::string text) {
+    for (char& character : text)
+        if (!std::isalnum(static_cast<unsigned char>(character)) && character != '.' && character != '-')
+            character = '_';
+    return text;
+}
+
+class SeriesWriter {
+  public:
+    SeriesWriter(const Section& section, const std::string& file, Diagnostics& diagnostics)
+        : section_(section), file_(file), diagnostics_(diagnostics) {}
+
+    /// The entries that stand in an entry's place.
+    TomlList written_out(TomlValue entry) {
+        auto* table = std::get_if<TomlTable>(&entry.content);
+        TomlEntry* series = table ? entry_called(*table, "series") : nullptr;
+        const TomlTable* keys = series ? series->value.table() : nullptr;
+        if (!keys || !is_sound(*table, *series, *keys))
+            return {std::move(entry)};
+        TomlList entries;
+        for (std::size_t i = 0; i < keys->front().value.list()->size(); ++i)
+            entries.push_back(at(entry, *keys, i));
+        return entries;
+    }
+
+  private:
+    bool is_sound(TomlTable& table, const TomlEntry& series, const TomlTable& keys) {
+        if (keys.empty())
+            return fault(series.value.place, "series: names no key",
+                         "such as series = { roughness = [0.05, 0.1] }");
+        bool are_sound = true;
+        for (const TomlEntry& entry : keys)
+            are_sound = is_key_sound(table, entry) && are_sound;
+        if (!are_sound)
+            return false;
+        const std::size_t length = keys.front().value.list()->size();
+        for (const TomlEntry& entry : keys)
+            if (entry.value.list()->size() != length)
+                return fault(entry.value.place,
+                             fmt::format("series.{} has {}, and series.{} has {}", entry.key,
+                                         counted(entry.value.list()->size(), "value"), keys.front().key,
+                                         counted(length, "value")),
+                             "the first values belong together, then the second, and so on");
+        return true;
+    }
+
+    bool is_key_sound(TomlTable& table, const TomlEntry& entry) {
+        const Key* key = section_.find_key(entry.key);
+        std::vector<std::string_view> names;
+        for (const Key& known : section_.keys)
+            if (takes_series(known))
+                names.push_back(known.rule.name);
+        if (!key)
+            return fault(entry.key_place,
+                         fmt::format("unknown key \"{}\" in the series of [{}]", entry.key, section_.name),
+                         suggest_name(entry.key, names));
+        if (!takes_series(*key))
+            return fault(entry.key_place,
+                         fmt::format("\"{}\" takes {}: a series is of a number, a word or a file", entry.key,
+                                     key->type->noun));
+        if (const TomlEntry* own = entry_called(table, entry.key))
+            return fault(own->key_place, fmt::format("\"{}\" is set by the series, too", entry.key),
+                         "take it out here, or there");
+        if (!entry.value.list() || entry.value.list()->empty())
+            return fault(entry.value.place,
+                         fmt::format("series.{}: expected a list of values, found {}", entry.key,
+                                     entry.value.list() ? "an empty one" : entry.value.kind()));
+        std::vector<std::string> before;
+        for (const TomlValue& value : *entry.value.list()) {
+            const std::optional<std::string> text = text_of_value(value);
+            if (!text)
+                return fault(value.place, fmt::format("series.{}: expected a number or a word, found {}",
+                                                      entry.key, value.kind()));
+            if (std::ranges::find(before, *text) != before.end())
+                return fault(value.place, fmt::format("series.{}: has {} already", entry.key, *text),
+                             "two entries would have the same id");
+            before.push_back(*text);
+        }
+        return true;
+    }
+
+    static bool takes_series(const Key& key) {
+        constexpr std::string_view not_these[] = {"id", "title"};
+        constexpr std::string_view nouns[] = {"a number", "a whole number", "a text"};
+        return std::ranges::find(not_these, key.rule.name) == std::end(not_these) &&
+               std::ranges::find(nouns, key.type->noun) != std::end(nouns);
+    }
+
+    TomlValue at(const TomlValue& entry, const TomlTable& keys, std::size_t index) const {
+        TomlValue one = entry;
+        auto& table = std::get<TomlTable>(one.content);
+        std::string ending, words;
+        for (const TomlEntry& key : keys) {
+            const TomlValue& value = (*key.value.list())[index];
+            ending += "-" + id_part(*text_of_value(value));
+            words += " " + *text_of_value(value);
+            table.push_back({key.key, key.key_place, value});
+            column(table, key, value);
+        }
+        name(table, "id", ending, one.place);
+        if (entry_called(table, "title"))
+            name(table, "title", words, one.place);
+        return one;
+    }
+
+    void column(TomlTable& table, const TomlEntry& key, const TomlValue& value) const {
+        if (!entry_called(table, "columns"))
+            table.push_back({"columns", key.key_place, {key.value.place, TomlTable()}});
+        auto* columns = std::get_if<TomlTable>(&entry_called(table, "columns")->value.content);
+        if (!columns)
+            return; // is no table, and found wrong as what it is
+        if (const TomlEntry* own = entry_called(*columns, key.key)) {
+            diagnostics_.error(file_, own->key_place,
+                               fmt::format("the series makes a column \"{}\", too", key.key),
+                               "call this one otherwise");
+            return;
+        }
+        TomlValue content{value.place, value.content};
+        if (!is_number(value))
+            content.content = *text_of_value(value);
+        columns->push_back({key.key, key.key_place, std::move(content)});
+    }
+
+    /// Puts an ending behind an id or a title. An id left out, of a list that may have one entry, is its
+    /// name.
+    void name(TomlTable& table, std::string_view key, const std::string& ending, Place place) const {
+        TomlEntry* known = entry_called(table, key);
+        if (!known && !section_.is_never_empty())
+            return; // is found to be missing
+        if (!known)
+            known =
+                &table.emplace_back(TomlEntry{std::string(key), place, {place, std::string(section_.name)}});
+        if (auto* text = std::get_if<std::string>(&known->value.content))
+            *text += ending;
+    }
+
+    bool fault(Place place, std::string message, std::string hint = {}) const {
+        diagnostics_.error(file_, place, std::move(message), std::move(hint));
+        return false;
+    }
+
+    const Section& section_;
+    const std::string& file_;
+    Diagnostics& diagnostics_;
+};
+
+} // namespace
+
+void write_out_series(TomlFile& toml, const std::string& file, Diagnostics& diagnostics) {
+    for (const StimulusList& list : stimulus_lists) {
+        const Section& section = protocol_keys().section(list.name);
+        SeriesWriter writer(section, file, diagnostics);
+        for (TomlEntry& root : toml.root) {
+            if (!section.is_called(root.key))
+                continue;
+            TomlList entries;
+            if (root.value.table()) {
+                const Place place = root.value.place;
+                if (!entry_called(std::get<TomlTable>(root.value.content), "series"))
+                    continue;
+                entries = writer.written_out(std::move(root.value));
+                root.value.place = place;
+            } else if (root.value.list()) {
+                for (const TomlValue& entry : *root.value.list())
+                    for (TomlValue& one : writer.written_out(entry))
+                        entries.push_back(std::move(one));
+            } else {
+                continue;
+            }
+            root.value.content = std::move(entries);
+        }
+    }
+}
+
+} // namespace overt

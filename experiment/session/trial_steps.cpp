@@ -1,0 +1,327 @@
+#include "experiment/session/trial_run.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "experiment/ports/event_kinds.h"
+#include "experiment/session/session_screens.h"
+#include "experiment/session/step_screens.h"
+
+namespace overt {
+
+namespace {
+
+/// How often a step that waits for gaze looks at what has come.
+constexpr SessionDuration look_interval = std::chrono::milliseconds(2);
+
+StepEnd end_of(OperatorControl::How how, StepEnd by_key, StepEnd by_time) {
+    switch (how) {
+    case OperatorControl::How::timed_out:
+        return by_time;
+    case OperatorControl::How::trial_over:
+    case OperatorControl::How::session_over:
+        return StepEnd::stopped;
+    default:
+        return by_key;
+    }
+}
+
+} // namespace
+
+void TrialRun::run_steps(Running& running) {
+    has_shown_ = false;
+    gaze_checks_ = 0;
+    const std::vector<PlannedStep>& steps = running.plan.steps;
+    for (std::size_t number = 0; number < steps.size() && goes_on(running.attempt);) {
+        if (!steps[number].is_watched) {
+            run_step(running, number++);
+            continue;
+        }
+        std::size_t end = number;
+        while (end < steps.size() && steps[end].is_watched)
+            ++end;
+        run_watched(running, number, end);
+        number = end;
+    }
+    end_row(running, state_.now());
+}
+
+/// Steps during which gaze is recorded: nothing else happens between them.
+void TrialRun::run_watched(Running& running, std::size_t begin, std::size_t end) {
+    for (std::size_t number = begin; number < end && goes_on(running.attempt);) {
+        if (!begin_watching(running)) {
+            act_on_tracker(running.attempt);
+            act_on_pressed_keys(running.attempt);
+            return;
+        }
+        bool starts_over = false;
+        for (; number < end && !is_cut_short() && !starts_over && goes_on(running.attempt); ++number) {
+            if (running.plan.steps[number].kind == StepKind::show)
+                present(running, number);
+            else
+                hold(running, number);
+            if (is_gaze_missed(running, number)) {
+                starts_over = true;
+                --number;
+            }
+        }
+        has_ended_in_order_ =
+            number == end && running.attempt.outcome.steps.back().ended_by != StepEnd::stopped;
+        end_watching(running);
+        act_on_tracker(running.attempt);
+        act_on_pressed_keys(running.attempt);
+        if (!starts_over)
+            return;
+        if (goes_on(running.attempt))
+            check_drift(running, {.kind = StepKind::drift_check});
+    }
+}
+
+/// Gaze did not come, and the step says what then: whether it begins anew after a drift check. An attempt
+/// that is not to go on is rejected here.
+bool TrialRun::is_gaze_missed(Running& running, std::size_t number) {
+    const PlannedStep& step = running.plan.steps[number];
+    const AttemptStep& row = running.attempt.outcome.steps.back();
+    if (!step.gaze() || row.ended_by != StepEnd::patience || step.gaze()->otherwise == GazeMissed::goes_on)
+        return false;
+    if (step.gaze()->otherwise == GazeMissed::drift_check &&
+        gaze_checks_ < state_.protocol.tracker.drift_checks) {
+        ++gaze_checks_;
+        return true;
+    }
+    control_.reject_trial("gaze did not come to where it was waited for");
+    return false;
+}
+
+void TrialRun::run_step(Running& running, std::size_t number) {
+    const PlannedStep& step = running.plan.steps[number];
+    switch (step.kind) {
+    case StepKind::text:
+        if (!step.settings || !step.refreshes)
+            ask(running, number);
+        else
+            stand(running, number);
+        break;
+    case StepKind::drift_check:
+        check_drift(running, step);
+        break;
+    case StepKind::answer:
+        take_answer(running, number);
+        break;
+    case StepKind::fixation:
+    case StepKind::blank:
+    case StepKind::mask:
+    case StepKind::feedback:
+        stand(running, number);
+        break;
+    case StepKind::show:
+        break; // is watched
+    }
+}
+
+/// Something else than what the step before shows is on the screen.
+void TrialRun::end_row(Running& running, SessionTime lit) {
+    TrialOutcome& outcome = running.attempt.outcome;
+    if (!outcome.steps.empty() && !outcome.steps.back().end)
+        outcome.steps.back().end = lit;
+}
+
+/// A row for a step that is come to; its times come later, so that nothing is allocated between flips.
+void TrialRun::add_row(Running& running, const PlannedStep& step) {
+    AttemptStep& row = running.attempt.outcome.steps.emplace_back();
+    row.kind = name_of(step.kind);
+    row.id = step.id;
+    row.planned_refreshes = step.refreshes;
+    row.drawn_s = step.drawn_s;
+    if (step.still())
+        row.still_frame = step.still()->value;
+}
+
+/// What the step added last shows is on the screen, and what the one before showed is not.
+void TrialRun::begin_row(Running& running, SessionTime lit) noexcept {
+    std::vector<AttemptStep>& rows = running.attempt.outcome.steps;
+    if (rows.size() > 1 && !rows[rows.size() - 2].end)
+        rows[rows.size() - 2].end = lit;
+    rows.back().begin = lit;
+}
+
+/// The question of a task without steps is told by the phase alone, as ever.
+void TrialRun::mark_step(const PlannedStep& step, SessionTime lit) {
+    if (!step.settings)
+        return;
+    const std::string text =
+        fmt::format("STEP {}{}{}", name_of(step.kind), step.id.empty() ? "" : " ", step.id);
+    mark_trackers(lit, text);
+    state_.markers.tell(lit, text);
+}
+
+/// A text that a key ends: the question, or the step's.
+void TrialRun::ask(Running& running, std::size_t number) {
+    const ScreenSettings& screens = state_.protocol.screens;
+    const PlannedStep& step = running.plan.steps[number];
+    TrialOutcome& outcome = running.attempt.outcome;
+    if (state_.phase() != SessionPhase::task_screen)
+        state_.enter(SessionPhase::task_screen, state_.trial());
+    const Screen screen = step.settings
+                              ? screen_of(step, {state_.protocol, running.trial, seed_, number, false})
+                              : overt::screens::question(state_.protocol, running.trial.task);
+    const SessionTime onset = state_.show(screen);
+    if (outcome.task_screen_onset == SessionTime())
+        outcome.task_screen_onset = onset;
+    mark_step(step, onset);
+    add_row(running, step);
+    begin_row(running, onset);
+    const OperatorControl::Press press = control_.wait(
+        {.screen = screen, .onset = onset, .min_s = screens.task_min_s, .max_s = without_end_s});
+    outcome.steps.back().ended_by = end_of(press.how, StepEnd::key, StepEnd::time);
+}
+
+void TrialRun::check_drift(Running& running, const PlannedStep& step) {
+    TrialOutcome& outcome = running.attempt.outcome;
+    add_row(running, step);
+    drift_checks_.check(outcome);
+    begin_row(running, drift_checks_.began());
+    outcome.steps.back().ended_by = goes_on(running.attempt) ? StepEnd::done : StepEnd::stopped;
+}
+
+void TrialRun::take_answer(Running& running, std::size_t number) {
+    const PlannedStep& step = running.plan.steps[number];
+    TrialOutcome& outcome = running.attempt.outcome;
+    add_row(running, step);
+    const OperatorControl::How how =
+        answers_.take(running.trial, running.next, running.is_practice, step.drawn_s, outcome);
+    running.is_answered = how == OperatorControl::How::next;
+    begin_row(running, outcome.response_screen_onset);
+    AttemptStep& row = outcome.steps.back();
+    row.ended_by = end_of(how, StepEnd::answer, StepEnd::time);
+    row.end = outcome.responded_at;
+}
+
+/// A screen that stands for a time, outside of what is watched.
+void TrialRun::stand(Running& running, std::size_t number) {
+    const PlannedStep& step = running.plan.steps[number];
+    // What comes after the answer belongs to its screen.
+    if (state_.phase() != SessionPhase::response_screen && state_.phase() != SessionPhase::task_screen)
+        state_.enter(SessionPhase::task_screen, state_.trial());
+    const Screen screen =
+        screen_of(step, {state_.protocol, running.trial, seed_, number, running.is_answered});
+    const SessionTime onset = state_.show(screen);
+    mark_step(step, onset);
+    add_row(running, step);
+    begin_row(running, onset);
+    // The next screen is asked for in the middle of the last refresh.
+    const double max_s = (*step.refreshes - 0.5) / state_.protocol.display.refresh_hz;
+    const OperatorControl::Press press = control_.wait(
+        {.screen = screen, .onset = onset, .max_s = max_s, .await = [](SessionTime) {}, .takes_keys = false});
+    running.attempt.outcome.steps.back().ended_by = end_of(press.how, StepEnd::key, StepEnd::time);
+}
+
+/// A screen that stands while gaze is recorded, until time, a key or gaze ends it.
+void TrialRun::hold(Running& running, std::size_t number) {
+    const PlannedStep& step = running.plan.steps[number];
+    const Screen screen =
+        screen_of(step, {state_.protocol, running.trial, seed_, number, running.is_answered});
+    const double refresh_hz = state_.protocol.display.refresh_hz;
+    const SessionTime onset = state_.show(screen);
+    mark_step(step, onset);
+    add_row(running, step);
+    begin_row(running, onset);
+    await_gaze(running, step, onset);
+    // The next screen is asked for in the middle of the last refresh.
+    const auto after = [&](const std::optional<int>& refreshes) {
+        return onset + from_seconds(refreshes ? (*refreshes - 0.5) / refresh_hz : without_end_s);
+    };
+    const SessionTime time_up = after(step.refreshes), patience_up = after(step.patience_refreshes);
+    const SessionTime latest = std::min(time_up, patience_up);
+    while (state_.now() < latest && !is_cut_short() && !watch_.has_come() && !was_next_pressed_) {
+        take_items(running.trial.index);
+        look_at_keys();
+        feeds_.front().items.look_at_state();
+        if (!watch_.has_come())
+            state_.ports.clock.wait_until(std::min(latest, state_.now() + look_interval));
+    }
+    AttemptStep& row = running.attempt.outcome.steps.back();
+    row.ended_by = is_cut_short()           ? StepEnd::stopped
+                   : watch_.has_come()      ? StepEnd::gaze
+                   : was_next_pressed_      ? StepEnd::key
+                   : time_up <= patience_up ? StepEnd::time
+                                            : StepEnd::patience;
+    take_gaze(row, step);
+}
+
+/// What ends the step besides time.
+void TrialRun::await_gaze(Running& running, const PlannedStep& step, SessionTime since) {
+    was_next_pressed_ = false;
+    awaits_key_ = step.ends_by_key();
+    if (awaits_key_)
+        state_.ports.panel.await_key(since);
+    watch_.end();
+    const GazeWait* const wait = step.gaze();
+    if (!wait)
+        return;
+    GazeAim aim{target_of(*step.settings, screen_geometry_of(state_.protocol)), nullptr};
+    if (!wait->area.empty() && state_.ports.area_of)
+        aim.area = state_.ports.area_of(running.trial.shown(0), wait->area);
+    if (wait->area.empty() || aim.area)
+        watch_.begin(*wait, std::move(aim), since, feeds_.front().items.readings(),
+                     state_.ports.tracker.description());
+}
+
+void TrialRun::take_gaze(AttemptStep& row, const PlannedStep& step) const {
+    if (!step.gaze() || row.ended_by != StepEnd::gaze)
+        return;
+    row.gaze_onset = watch_.condition().onset();
+    row.gaze_detected = watch_.condition().detected();
+}
+
+bool TrialRun::is_cut_short() const noexcept {
+    return state_.went_away() || (pressed_ && pressed_->key == ResponsePress::Key::abort) ||
+           feeds_.front().items.state() != RecordingState::running;
+}
+
+/// Begins to record gaze; false if the session's own tracker does not.
+bool TrialRun::begin_watching(Running& running) {
+    has_ended_in_order_ = false;
+    if (state_.phase() != SessionPhase::stimulus)
+        state_.enter(SessionPhase::stimulus, state_.trial());
+    read_clocks();
+    for (Feed& feed : feeds_)
+        if (const std::optional<SessionDuration> jump = feed.items.take_jump())
+            state_.note_of(feed.used, tracker_clock_jumped_event,
+                           fmt::format("by {:+.3f} ms before the trial", 1e3 * to_seconds(*jump)));
+    start_recording();
+    if (!feeds_.front().items.has_recorded())
+        return false;
+    end_row(running, state_.show({}));
+    wait_and_take_items(running.trial.index,
+                        state_.now() + from_seconds(state_.protocol.screens.recording_lead_s));
+    return true;
+}
+
+void TrialRun::end_watching(Running& running) {
+    TrialOutcome& outcome = running.attempt.outcome;
+    watch_.end();
+    awaits_key_ = false;
+    const SessionTime dark = state_.show({});
+    end_row(running, dark);
+    if (has_shown_) {
+        const auto shown = std::ranges::find(outcome.steps, name_of(StepKind::show), &AttemptStep::kind);
+        outcome.presentation_end = shown == outcome.steps.end() ? dark : shown->end.value_or(dark);
+        outcome.swaps = state_.ports.presenter.take_swap_modes();
+        mark(MarkedEvent::end, outcome.presentation_end, "PRESENTATION_END");
+    }
+    state_.ends_by_itself();
+    wait_and_take_items(running.trial.index,
+                        state_.now() + from_seconds(state_.protocol.screens.recording_lead_s));
+    for (Feed& feed : feeds_)
+        feed.items.stop_recording(state_.now());
+    take_items(running.trial.index);
+    read_clocks();
+    for (Feed& feed : feeds_)
+        feed.items.look_at_state();
+    note_what_came(running.attempt);
+    note_lost_trackers();
+}
+
+} // namespace overt

@@ -1,0 +1,12 @@
+/// Noise where the stimulus stands: a mask.
+#pragma once
+
+#include "render/presenter/screen_text.h"
+
+namespace overt {
+
+/// Squares of equal light, each drawn evenly between none and all of it, over the stimulus's place; those at
+/// the right and below are cut off. The same for the same seed.
+PlacedPicture draw_noise(const Screen& screen, const ScreenGeometry& geometry);
+
+} // namespace overt
