@@ -176,4 +176,12 @@ TomlFile parse_toml(std::string_view text, const std::string& file, Diagnostics&
     }
 }
 
+std::vector<const TomlEntry*> in_order_of_file(const TomlTable& table) {
+    std::vector<const TomlEntry*> entries;
+    for (const TomlEntry& entry : table)
+        entries.push_back(&entry);
+    std::ranges::stable_sort(entries, {}, [](const TomlEntry* entry) { return entry->key_place; });
+    return entries;
+}
+
 } // namespace overt
