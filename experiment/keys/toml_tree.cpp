@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "experiment/keys/toml_order.h"
 #include "experiment/keys/toml_remedy.h"
 
 // toml++ 3.3 takes a few things for granted that a damaged file does not keep to, and goes on with undefined

@@ -34,9 +34,6 @@ struct TomlEntry {
     TomlValue value;
 };
 
-/// The entries of a table as they stand in the file; parse_toml() has them by their keys.
-std::vector<const TomlEntry*> in_order_of_file(const TomlTable& table);
-
 /// What could be read of a file.
 struct TomlFile {
     TomlTable root;

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiment/base/error.h"
+#include "experiment/keys/toml_order.h"
 
 namespace overt {
 

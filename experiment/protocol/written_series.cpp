@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "experiment/base/counted.h"
+#include "experiment/keys/toml_order.h"
 #include "experiment/protocol/protocol_keys.h"
 #include "experiment/stimulus_lists.h"
 
