@@ -52,8 +52,7 @@ Factor factor_of_column(std::string_view name, std::size_t list, const std::vect
 Factor factor_of_own(std::string_view name, const std::vector<NamedWord>& own) {
     Factor factor{std::string(name), Factor::Source::own, 0, {}, {}};
     for (const NamedWord& level : own)
-        if (level.name == name &&
-            std::ranges::find(factor.levels, level.text, &FactorLevel::name) == factor.levels.end())
+        if (level.name == name)
             factor.levels.push_back({level.text, level.number});
     std::ranges::stable_sort(factor.levels, [](const FactorLevel& one, const FactorLevel& other) {
         return one.number && (!other.number || *one.number < *other.number);
@@ -71,19 +70,19 @@ std::string_view own_level(const Trial& trial, std::string_view factor) {
     return found == trial.levels.end() ? std::string_view() : found->level;
 }
 
+void OwnLevels::add(std::string_view factor, std::string_view level) {
+    if (!level.empty() && known_.emplace(factor, level).second)
+        levels_.push_back({std::string(factor), std::string(level), number_in<double>(level)});
+}
+
 std::vector<NamedWord> own_levels_of(const std::vector<Trial>& trials) {
-    std::vector<NamedWord> own;
-    const auto add = [&](std::string_view name, const std::string& level) {
-        const NamedWord word{std::string(name), level, number_in<double>(level)};
-        if (!level.empty() && std::ranges::find(own, word) == own.end())
-            own.push_back(word);
-    };
+    OwnLevels own;
     for (const Trial& trial : trials) {
         for (const TrialLevel& of : trial.levels)
-            add(of.factor, of.level);
-        add(correct_answer, trial.correct);
+            own.add(of.factor, of.level);
+        own.add(correct_answer, trial.correct);
     }
-    return own;
+    return own.levels();
 }
 
 Factors::Factors(const FactorSources& sources) {

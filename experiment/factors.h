@@ -5,8 +5,10 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "experiment/list_entry.h"
@@ -58,6 +60,18 @@ inline constexpr std::string_view correct_answer = "correct";
 
 /// The level of a factor that a trial has of its own; empty where it has none.
 std::string_view own_level(const Trial& trial, std::string_view factor);
+
+/// Levels of factors that trials have of their own, each once, in the order in which they come up.
+class OwnLevels {
+  public:
+    /// Does nothing where there is no level.
+    void add(std::string_view factor, std::string_view level);
+    const std::vector<NamedWord>& levels() const { return levels_; }
+
+  private:
+    std::set<std::pair<std::string, std::string>> known_;
+    std::vector<NamedWord> levels_;
+};
 
 /// What planned trials have of their own, for FactorSources: each level once.
 std::vector<NamedWord> own_levels_of(const std::vector<Trial>& trials);

@@ -1,17 +1,14 @@
-#include <algorithm>
-
 #include <fmt/format.h>
 
-#include "experiment/base/text_number.h"
 #include "experiment/protocol/protocol.h"
 
 namespace overt {
 
 namespace {
 
-class OwnLevels {
+class OwnLevelsOf {
   public:
-    explicit OwnLevels(const Protocol& protocol) : protocol_(protocol) {}
+    explicit OwnLevelsOf(const Protocol& protocol) : protocol_(protocol) {}
 
     void add_task(int task) {
         const Task& settings = protocol_.tasks[static_cast<std::size_t>(task)];
@@ -21,13 +18,8 @@ class OwnLevels {
         if (settings.trials.rule)
             add_rule(task, settings.trials, row_of(*settings.trials.rule));
     }
-    void add(std::string_view name, std::string level) {
-        NamedWord word{std::string(name), std::move(level), {}};
-        word.number = number_in<double>(word.text);
-        if (!word.text.empty() && std::ranges::find(levels_, word) == levels_.end())
-            levels_.push_back(std::move(word));
-    }
-    std::vector<NamedWord> levels() { return std::move(levels_); }
+    void add(std::string_view name, std::string_view level) { own_.add(name, level); }
+    const std::vector<NamedWord>& levels() const { return own_.levels(); }
 
   private:
     void add_table(const TrialTable& table) {
@@ -39,7 +31,7 @@ class OwnLevels {
     }
     void add_rule(int task, const TrialsSettings& trials, const TrialRuleRow& rule) {
         for (const std::string_view answer : rule.answers)
-            add(correct_answer, std::string(answer));
+            add(correct_answer, answer);
         const std::vector<int> slots = slots_of_task(protocol_, task);
         for (const int slot : slots) {
             const std::string& id = protocol_.slots[static_cast<std::size_t>(slot)].id;
@@ -51,7 +43,7 @@ class OwnLevels {
         if (!rule.has_key("set_sizes"))
             return;
         for (const std::string_view answer : rule.answers)
-            add("target", std::string(answer));
+            add("target", answer);
         for (const double size : trials.set_sizes)
             add("set_size", fmt::format("{}", size));
         if (trials.set_sizes.empty())
@@ -59,20 +51,20 @@ class OwnLevels {
     }
 
     const Protocol& protocol_;
-    std::vector<NamedWord> levels_;
+    OwnLevels own_;
 };
 
 } // namespace
 
 std::vector<NamedWord> own_levels_of(const Protocol& protocol) {
-    OwnLevels own(protocol);
+    OwnLevelsOf own(protocol);
     for (int task = 0; task < static_cast<int>(protocol.tasks.size()); ++task)
         own.add_task(task);
     for (const BlockSettings& block : protocol.blocks)
         for (const std::string_view seen : {"old", "new"})
             if (!block.draw.from.empty()) {
-                own.add("seen", std::string(seen));
-                own.add(correct_answer, std::string(seen));
+                own.add("seen", seen);
+                own.add(correct_answer, seen);
             }
     return own.levels();
 }

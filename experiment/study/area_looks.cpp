@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <string>
 
+#include "experiment/statistics/area_visits.h"
+
 namespace overt {
 
 namespace {
@@ -36,26 +38,23 @@ std::optional<SurfaceAreaLook> area_look(const StudyResults& results, const Stud
     if (!of)
         return std::nullopt;
     SurfaceAreaLook look;
-    bool is_in_run = false;
+    std::vector<AreaLook> looks;
     int number = 0;
     for (std::size_t i = trial.first_fixation; i < trial.first_fixation + trial.fixations; ++i) {
         const StudyFixation& fixation = results.fixations[i];
-        if (fixation.why == NotCounted::not_on_surface)
-            is_in_run = false;
-        if (!fixation.counted())
+        if (!fixation.counted() && fixation.why != NotCounted::not_on_surface)
             continue;
-        ++number;
-        const bool is_on_it = object.areas.holds(*of, fixation.part);
-        if (is_on_it) {
-            look.dwell_s += fixation.duration_s;
-            look.visits += !is_in_run;
-            if (!look.first_arrival_s) {
-                look.first_arrival_s = fixation.onset_s;
-                look.first_arrival_number = number;
-            }
-        }
-        is_in_run = is_on_it;
+        number += fixation.counted();
+        const bool is_on_it = fixation.counted() && object.areas.holds(*of, fixation.part);
+        if (is_on_it && look.first_arrival_number == 0)
+            look.first_arrival_number = number;
+        looks.push_back({fixation.onset_s, fixation.duration_s,
+                         is_on_it ? std::vector<std::size_t>{0} : std::vector<std::size_t>()});
     }
+    const AreaVisits found = area_visits(looks, 1).front();
+    look.dwell_s = found.dwell_s;
+    look.visits = found.visits;
+    look.first_arrival_s = found.first_arrival_s;
     return look;
 }
 
