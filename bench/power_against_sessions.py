@@ -53,14 +53,17 @@ def difference_of_means(a, b):
 
 def found_in_study(analysis, args, columns):
     """p and size, of the row over everything else that compares the two materials; the size as of --material."""
-    with open(analysis / "table1_pairs.csv", newline="", encoding="utf-8") as file:
+    table = "area_pairs.csv" if columns[0] == "p" else "table1_pairs.csv"
+    with open(analysis / table, newline="", encoding="utf-8") as file:
         for row in csv.DictReader(file):
+            if row.get("area", "head") != "head":
+                continue
             others = [row[name] for name in ("task", "object", "observer") if name in row]
             if (row["compared"] == "material" and {row["a"], row["b"]} == {args.material, args.against}
                     and all(level == "all" for level in others)):
                 size = float(row[columns[1]]) if columns[1] else None
                 return float(row[columns[0]]), size if size is None or row["a"] == args.material else -size
-    raise SystemExit(f"{analysis}/table1_pairs.csv: no row compares {args.material} with {args.against}.")
+    raise SystemExit(f"{analysis}/{table}: no row compares {args.material} with {args.against}.")
 
 
 def main():
@@ -81,7 +84,7 @@ def main():
     parser.add_argument("--json", action="store_true")
     args = parser.parse_args()
     # What is planted, what is predicted, and the column that tells whether it was found.
-    kinds = [(args.head_odds, f"head_odds = {args.head_odds}", "head", f"odds={args.head_odds}", ("head_p", "head_difference")),
+    kinds = [(args.head_odds, f"head_odds = {args.head_odds}", "head", f"odds={args.head_odds}", ("p", "difference")),
              (args.spot_share, f"spot_share = {args.spot_share}", "cc", f"share={args.spot_share}", ("maps_p", None)),
              (args.wss_ratio, f"spread = {args.spread}", "wss", f"ratio={args.wss_ratio}", ("wss_p", "wss_difference_mm2"))]
     chosen = [kind[1:] for kind in kinds if kind[0] is not None]

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "experiment/base/error.h"
+#include "experiment/base/text_number.h"
 
 namespace overt {
 
@@ -48,7 +49,41 @@ Factor factor_of_column(std::string_view name, std::size_t list, const std::vect
     return factor;
 }
 
+Factor factor_of_own(std::string_view name, const std::vector<NamedWord>& own) {
+    Factor factor{std::string(name), Factor::Source::own, 0, {}, {}};
+    for (const NamedWord& level : own)
+        if (level.name == name)
+            factor.levels.push_back({level.text, level.number});
+    std::ranges::stable_sort(factor.levels, [](const FactorLevel& one, const FactorLevel& other) {
+        return one.number && (!other.number || *one.number < *other.number);
+    });
+    factor.levels.push_back({std::string(no_level)});
+    return factor;
+}
+
 } // namespace
+
+std::string_view own_level(const Trial& trial, std::string_view factor) {
+    if (factor == correct_answer)
+        return trial.correct;
+    const auto found = std::ranges::find(trial.levels, factor, &TrialLevel::factor);
+    return found == trial.levels.end() ? std::string_view() : found->level;
+}
+
+void OwnLevels::add(std::string_view factor, std::string_view level) {
+    if (!level.empty() && known_.emplace(factor, level).second)
+        levels_.push_back({std::string(factor), std::string(level), number_in<double>(level)});
+}
+
+std::vector<NamedWord> own_levels_of(const std::vector<Trial>& trials) {
+    OwnLevels own;
+    for (const Trial& trial : trials) {
+        for (const TrialLevel& of : trial.levels)
+            own.add(of.factor, of.level);
+        own.add(correct_answer, trial.correct);
+    }
+    return own.levels();
+}
 
 Factors::Factors(const FactorSources& sources) {
     all_.push_back(factor_of_ids("task", Factor::Source::task, sources.tasks));
@@ -64,6 +99,9 @@ Factors::Factors(const FactorSources& sources) {
             for (const NamedWord& column : entry.columns)
                 if (!find(column.name))
                     all_.push_back(factor_of_column(column.name, list, sources.lists[list]));
+    for (const NamedWord& level : sources.own)
+        if (!find(level.name))
+            all_.push_back(factor_of_own(level.name, sources.own));
 }
 
 const Factor* Factors::find(std::string_view name) const {
@@ -99,6 +137,12 @@ int Factors::level_of(const Factor& factor, const Trial& trial, const Stimulus& 
     case Factor::Source::column:
         return factor.level_of_entry.at(
             static_cast<std::size_t>(stimulus.*stimulus_lists[factor.list].index));
+    case Factor::Source::own: {
+        const auto level =
+            std::ranges::find(factor.levels, own_level(trial, factor.name), &FactorLevel::name);
+        return static_cast<int>(
+            std::min(level - factor.levels.begin(), static_cast<std::ptrdiff_t>(factor.levels.size()) - 1));
+    }
     case Factor::Source::stimulus:
         break;
     }
@@ -124,9 +168,14 @@ Stimulus Factors::stimulus_at(int number) const {
 }
 
 bool is_name_of_factor(std::string_view name) {
-    constexpr std::string_view others[] = {"task",    "stimulus", "block", "trial",   "attempt", "observer",
-                                           "group",   "session",  "day",   "slot",    "step",    "side",
-                                           "correct", "phase",    "onset", "duration"};
+    // Columns that tables of trials, samples, events and studies have besides.
+    constexpr std::string_view others[] = {
+        "task",        "stimulus",   "block",    "trial",   "attempt",    "observer", "group",  "session",
+        "sitting",     "day",        "slot",     "step",    "side",       "correct",  "phase",  "onset",
+        "duration",    "status",     "counts",   "failure", "timing",     "eye",      "source", "question",
+        "answer",      "frames",     "frame",    "value",   "device",     "samples",  "part",   "area",
+        "depth",       "kind",       "pose",     "n",       "duration_s", "x_px",     "y_px",   "angle_deg",
+        "comes_again", "trial_type", "stim_file"};
     return std::ranges::find(others, name) != std::end(others) ||
            std::ranges::find(stimulus_lists, name, &StimulusList::name) != stimulus_lists.end();
 }

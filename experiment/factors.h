@@ -5,8 +5,10 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "experiment/list_entry.h"
@@ -30,7 +32,8 @@ struct Factor {
         list,     ///< the entry itself
         column,   ///< of the entries of a list
         stimulus, ///< all lists at once
-        block
+        block,
+        own ///< of the trial itself: a column of its table, its side, its correct answer
     };
     std::string name;
     Source source = Source::task;
@@ -49,7 +52,29 @@ struct Factor {
 struct FactorSources {
     std::vector<std::string> tasks, blocks; ///< ids
     std::array<std::vector<ListEntry>, stimulus_lists.size()> lists;
+    std::vector<NamedWord> own; ///< each level of each factor that trials have of their own
 };
+
+/// The name of the factor whose level is a trial's correct answer.
+inline constexpr std::string_view correct_answer = "correct";
+
+/// The level of a factor that a trial has of its own; empty where it has none.
+std::string_view own_level(const Trial& trial, std::string_view factor);
+
+/// Levels of factors that trials have of their own, each once, in the order in which they come up.
+class OwnLevels {
+  public:
+    /// Does nothing where there is no level.
+    void add(std::string_view factor, std::string_view level);
+    const std::vector<NamedWord>& levels() const { return levels_; }
+
+  private:
+    std::set<std::pair<std::string, std::string>> known_;
+    std::vector<NamedWord> levels_;
+};
+
+/// What planned trials have of their own, for FactorSources: each level once.
+std::vector<NamedWord> own_levels_of(const std::vector<Trial>& trials);
 
 /// All factors of an experiment.
 class Factors {
@@ -57,7 +82,8 @@ class Factors {
     Factors() = default;
     explicit Factors(const FactorSources& sources);
 
-    /// task, the lists, stimulus, block (where there are any), then columns, list by list.
+    /// task, the lists, stimulus, block (where there are any), then columns, list by list, then the trials'
+    /// own. The last level of an own factor is that of trials without one.
     const std::vector<Factor>& all() const { return all_; }
 
     /// Null if there is none of this name.

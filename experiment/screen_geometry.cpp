@@ -16,6 +16,13 @@ Degrees ScreenGeometry::angle_between(ScreenPoint a, ScreenPoint b) const {
     return to_degrees({std::atan2(glm::length(glm::cross(to_a, to_b)), glm::dot(to_a, to_b))});
 }
 
+glm::dvec2 ScreenGeometry::middle_deg() const {
+    const glm::dvec2 off_px = glm::dvec2(image_origin_px) + 0.5 * glm::dvec2(image_px - screen_px);
+    const glm::dvec2 off_mm = off_px * screen_mm / glm::dvec2(screen_px);
+    return {to_degrees({std::atan2(off_mm.x, viewing_distance_mm)}).value,
+            to_degrees({std::atan2(-off_mm.y, viewing_distance_mm)}).value};
+}
+
 double ScreenGeometry::px_per_deg_at_centre() const {
     return std::tan(to_radians({1.0}).value) * viewing_distance_mm * screen_px.x / screen_mm.x;
 }

@@ -24,6 +24,9 @@ struct ScreenGeometry {
 
     ScreenPoint centre() const { return {0.5 * screen_px.x, 0.5 * screen_px.y}; }
 
+    /// Angles from the middle of the screen to the middle of the image, to the right and up.
+    glm::dvec2 middle_deg() const;
+
     glm::dvec2 image_from_screen(ScreenPoint point) const {
         return {point.x_px - image_origin_px.x, point.y_px - image_origin_px.y};
     }

@@ -18,16 +18,18 @@ struct StimulusList {
     bool decides_light; ///< another entry may have other light in a pixel
     /// Tables have its column, and words its entry, though it may have one entry only; else with several.
     bool is_always_named;
+    std::string_view shown; ///< what the column of a table tells
 };
 
 /// Orders, checks, the record, tables and commands go by these rows, in their order. Where a protocol has the
 /// entries: entries_of_lists (experiment/protocol/protocol.h).
 inline constexpr std::array stimulus_lists{
-    StimulusList{"object", "objects", &Stimulus::object, true, true, true},
-    StimulusList{"material", "materials", &Stimulus::material, false, true, true},
-    StimulusList{"light", "lights", &Stimulus::light, false, true, false},
-    StimulusList{"motion", "motions", &Stimulus::motion, true, true, false},
-    StimulusList{"view", "views", &Stimulus::view, true, true, false},
+    StimulusList{"object", "objects", &Stimulus::object, true, true, true, "Which object was shown"},
+    StimulusList{"material", "materials", &Stimulus::material, false, true, true,
+                 "In which material it was shown"},
+    StimulusList{"light", "lights", &Stimulus::light, false, true, false, "Under which light it was shown"},
+    StimulusList{"motion", "motions", &Stimulus::motion, true, true, false, "In which motion it was shown"},
+    StimulusList{"view", "views", &Stimulus::view, true, true, false, "In which view it was shown"},
 };
 static_assert(stimulus_lists.size() * sizeof(int) == sizeof(Stimulus), "each index is one of a list");
 

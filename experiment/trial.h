@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "experiment/base/enum_names.h"
+
 namespace overt {
 
 /// What the observer looks at: an object in a material, under a light, in a motion, in a view. Indices into
@@ -33,6 +35,22 @@ struct PlacedStimulus {
     friend constexpr bool operator==(const PlacedStimulus&, const PlacedStimulus&) = default;
 };
 
+/// A level of a factor that a trial has by itself, whatever its stimuli: a column of a table of trials, the
+/// set size of a search.
+struct TrialLevel {
+    std::string factor;
+    std::string level; ///< a number as it is written in tables
+    friend bool operator==(const TrialLevel&, const TrialLevel&) = default;
+};
+
+/// What a trial is there for. Results are of trials proper.
+enum class TrialRole : std::uint8_t {
+    trial,
+    catch_trial, ///< checks the observer, mixed in among the others
+    practice     ///< of a block of practice: all is recorded of it
+};
+template <> inline constexpr auto names_of<TrialRole> = enum_names<TrialRole>("trial", "catch", "practice");
+
 /// What is shown under one task: most often one stimulus, else one in each of several slots. A slot of the
 /// task that has none stays empty.
 struct Trial {
@@ -42,6 +60,9 @@ struct Trial {
     int block = 0;                           ///< index into the protocol's blocks; 0 if it has none
     int slot = 0;                            ///< of `stimulus`
     std::vector<PlacedStimulus> beside = {}; ///< in further slots, each once, in the task's order
+    std::vector<TrialLevel> levels = {};     ///< of its own factors
+    std::string correct = {};                ///< the correct answer; empty: there is none, or nobody knows it
+    TrialRole role = TrialRole::trial;
     friend bool operator==(const Trial&, const Trial&) = default;
 
     std::size_t shown_count() const { return 1 + beside.size(); }

@@ -30,7 +30,7 @@ struct AnalyzeOptions {
     std::optional<std::string> compare;     ///< nothing: the usual one, where it makes groups
     std::vector<std::string> same_observer; ///< LABEL=LABEL
     std::filesystem::path areas;            ///< empty: none
-    std::string by, sigma = "1deg", kernel = "geodesic", format = "csv", shard;
+    std::string by, surface_areas, sigma = "1deg", kernel = "geodesic", format = "csv", shard;
     bool overwrite = false;
     EventOptions events;
     StudyExtras extras;
@@ -96,11 +96,12 @@ void print_summary(const StudyResults& results, const std::filesystem::path& out
                reasons.empty() ? "" : "; ", fmt::join(reasons, ", "));
     for (const std::string& remark : results.remarks)
         fmt::print("note: {}\n", remark);
-    for (const HeadFractionRow& row : results.head_fractions) {
-        // The levels of single columns; the groups are in the tables.
-        if (row.keys.size() > 1 || !row.by_count.value)
+    for (const AreaRow& row : results.area_rows) {
+        // The levels of single columns of the area of figure 4; of others all trials. The groups are in the
+        // tables.
+        if (row.keys.size() > (row.area == results.area ? 1 : 0) || !row.by_count.value)
             continue;
-        fmt::print("on the head, {}: {:.3f}",
+        fmt::print("on {}, {}: {:.3f}", row.area == head_area ? "the head" : row.area,
                    row.keys.empty() ? "all" : row.keys[0].column + " " + row.keys[0].value,
                    *row.by_count.value);
         if (row.by_count.interval)
@@ -171,9 +172,11 @@ int run_shard(const AnalyzeOptions& options) {
 }
 
 int run_analyze(AnalyzeOptions options) {
+    options.study.is_by_asked = options.by != fmt::format("{}", fmt::join(StudyOptions().by, ","));
     options.study.by = listed(options.by);
     for (std::string& column : options.study.by)
         column = todays_factor(std::move(column));
+    options.study.areas = listed(options.surface_areas);
     options.study.detect_events = options.events.detection();
     if (options.compare) {
         options.compare = todays_factor(*std::move(options.compare));
@@ -224,6 +227,10 @@ void add_study_options(CLI::App& command, AnalyzeOptions& options) {
     option(command, "--compare", options.compare, "COLUMN",
            "Column of --by whose levels are compared within observers")
         ->default_str(study.compare);
+    option(command, "--area", options.surface_areas, "NAMES",
+           "Areas of the objects, with commas: the first is that of figure 4 and the time course, and p of "
+           "differences are corrected over them")
+        ->default_str("all, the head first");
     option(command, "--sigma", options.sigma, "WIDTH",
            "Standard deviation of the maps' kernel, such as 1deg (converted at the depth of each fixation) "
            "or 30mm",

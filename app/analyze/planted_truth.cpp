@@ -9,7 +9,7 @@
 #include "devices/simulated/gaze_targets.h"
 #include "experiment/base/parallel.h"
 #include "experiment/base/random.h"
-#include "experiment/scene/making/mesh_parts.h"
+#include "experiment/scene/areas.h"
 #include "experiment/statistics/point_spread.h"
 
 namespace overt {
@@ -30,33 +30,36 @@ class Plans {
                                      screen_geometry_of(experiment.protocol))),
           turns_(turns_of(scene_)) {
         for (const ObservedObject& object : scene_.objects) {
-            spot_on_head_.emplace_back(scene_.effects.size(), false);
+            areas_.emplace_back();
             targets_.emplace_back();
             if (!object.mesh || object.mesh->triangles.empty())
                 continue;
+            areas_.back() = Areas(object.mesh->part_names);
             targets_.back() = std::make_unique<GazeTargets>(object, scene_);
-            for (std::size_t effect = 0; effect < scene_.effects.size(); ++effect)
-                spot_on_head_.back()[effect] = is_of_head(
-                    object.mesh->part_names[targets_.back()->part_of_spot(static_cast<int>(effect))]);
         }
     }
 
+    /// Whether gaze is meant for an area by itself.
+    bool plans(const std::string& area) const { return area_in(scene_, area) >= 0; }
+
     /// Nothing if the protocol does not have the trial's task, object and material.
-    std::optional<double> head_share(const StudyTrial& trial, std::uint64_t seed) const {
+    std::optional<double> share(const StudyTrial& trial, const std::string& area, std::uint64_t seed) const {
         const std::optional<Known> known = known_of(trial);
         if (!known)
             return std::nullopt;
         const Stimulus& stimulus = known->stimulus;
+        const std::size_t object = scene_.index_of(stimulus);
+        const std::optional<std::size_t> own = areas_[object].find(area);
         const GazePlan plan = gaze_plan(scene_, seed, known->task, stimulus);
-        double share = plan.head_share, elsewhere = 1.0, spots = 0.0;
+        double elsewhere = 1.0, spots = 0.0;
         for (int i = 0; i < plan.spot_count; ++i) {
             const GazePlan::Spot& spot = plan.spots[static_cast<std::size_t>(i)];
             elsewhere -= spot.share;
-            if (spot_on_head_[scene_.index_of(stimulus)][static_cast<std::size_t>(spot.effect)])
+            if (own && targets_[object] &&
+                areas_[object].holds(*own, targets_[object]->part_of_spot(spot.effect)))
                 spots += spot.share;
         }
-        share = elsewhere * share + spots;
-        return share;
+        return elsewhere * plan.shares[static_cast<std::size_t>(area_in(scene_, area))] + spots;
     }
 
     /// The places, in the object's coordinates, at which an observer means to look in presentations of a
@@ -101,7 +104,7 @@ class Plans {
     std::vector<PursuedTurn> turns_; ///< by motion
     ObserverSettings observer_;
     std::vector<std::unique_ptr<GazeTargets>> targets_; ///< as the scene has objects; null without a mesh
-    std::vector<std::vector<bool>> spot_on_head_;       ///< likewise, and by effect
+    std::vector<Areas> areas_;                          ///< likewise
 };
 
 bool is_of(const StudyTrial& trial, const std::vector<StudyKey>& keys) {
@@ -136,7 +139,9 @@ void add_planted_spreads(StudyResults& results, const Plans& plans, const Observ
 void add_planted_truth(StudyResults& results, const Experiment& experiment, const ObserverSeeds& seeds) {
     const Plans plans(experiment);
     add_planted_spreads(results, plans, seeds);
-    for (HeadFractionRow& row : results.head_fractions) {
+    for (AreaRow& row : results.area_rows) {
+        if (!plans.plans(row.area))
+            continue;
         struct Mean {
             double sum = 0.0;
             int count = 0;
@@ -144,11 +149,13 @@ void add_planted_truth(StudyResults& results, const Experiment& experiment, cons
         std::map<std::string, Mean> observers;
         bool is_known = true;
         for (const StudyTrial& trial : results.trials) {
-            if (trial.excluded || !is_of(trial, row.keys))
+            const StudyObject& object = results.objects[static_cast<std::size_t>(trial.object)];
+            if (trial.excluded || !is_of(trial, row.keys) || !object.areas.has(row.area))
                 continue;
             const std::string& label = trial.key("observer");
             const auto seed = seeds.find(label);
-            const auto share = seed == seeds.end() ? std::nullopt : plans.head_share(trial, seed->second);
+            const auto share =
+                seed == seeds.end() ? std::nullopt : plans.share(trial, row.area, seed->second);
             is_known = is_known && share;
             if (!share)
                 break;

@@ -181,7 +181,7 @@ struct Agreement {
 
 Agreement agreement_of(const StudyResults& results) {
     Agreement agreement;
-    for (const HeadFractionRow& row : results.head_fractions) {
+    for (const AreaRow& row : results.area_rows) {
         if (!row.planted || !row.corrected.interval)
             continue;
         ++agreement.intervals;
@@ -216,16 +216,17 @@ void print(const StudyResults& results, const fs::path& analysis) {
                results.glance.fixations);
     for (const std::string& remark : results.remarks)
         fmt::print("note: {}\n", remark);
-    fmt::print("share of fixations on the head; corrected: with the tracker's error taken out\n"
+    fmt::print("share of fixations on areas; corrected: with the tracker's error taken out\n"
                "{:28} {:>8} {:>8} {:>10}   interval\n",
                "", "planted", "found", "corrected");
-    for (const HeadFractionRow& row : results.head_fractions) {
+    for (const AreaRow& row : results.area_rows) {
         // The levels of single columns; the groups are in the tables.
         if (row.keys.size() > 1 || !row.by_count.value || !row.planted)
             continue;
         fmt::print("{:28} {:8.3f} {:8.3f}",
-                   row.keys.empty() ? "all" : row.keys[0].column + " " + row.keys[0].value, *row.planted,
-                   *row.by_count.value);
+                   fmt::format("{}, {}", row.area,
+                               row.keys.empty() ? "all" : row.keys[0].column + " " + row.keys[0].value),
+                   *row.planted, *row.by_count.value);
         if (row.corrected.value)
             fmt::print(" {:10.3f}", *row.corrected.value);
         if (row.corrected.interval)
@@ -269,8 +270,8 @@ void add_replicate_command(CLI::App& app, ChosenCommand& chosen) {
         app, chosen, run_replicate, "replicate",
         "Simulates a whole study through the real pipeline and analyses it beside the truth that was planted",
         "overt replicate protocols/overt_2019.toml --observers 12 --out replication\n"
-        "What observers look at is planted by simulated_head_share and [[simulated_effect]] in the protocol. "
-        "An\n"
+        "What observers look at is planted by simulated_head_share, simulated_area_shares and\n"
+        "[[simulated_effect]] in the protocol. An\n"
         "interrupted call goes on where it ended.\n"
         "Exit codes: 0 done, 1 failed, 2 bad input.");
     command.add_option("PROTOCOL", options.protocol, "Protocol file")->required()->type_name("FILE");

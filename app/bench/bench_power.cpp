@@ -33,7 +33,7 @@ BenchFigures bench_power(const BenchOptions& options) {
     const auto measure = [&](const char* what, const std::vector<std::string>& effects) {
         // From the end of the first study on: what is made once for all does not count.
         double begin = 0.0, end = 0.0;
-        simulate_power(experiment, power_effects(effects, protocol), settings,
+        simulate_power(experiment, power_effects(effects, protocol, areas_of(experiment.objects)), settings,
                        [&](std::string_view piece, int done, int) {
                            if (piece == "studies")
                                (done == 1 ? begin : end) = processor_seconds();
@@ -43,8 +43,9 @@ BenchFigures bench_power(const BenchOptions& options) {
         figures.push_back(options.mesh.empty() ? at_least(what, rate, "studies/min", 20.0)
                                                : BenchFigure{what, rate, "studies/min"});
     };
-    measure("studies of 12 observers per minute and core, head fraction", {"head:material=rough:odds=1.5"});
-    measure("the same, head fraction, WSS and CC", {"none"});
+    measure("studies of 12 observers per minute and core, share on the head",
+            {"head:material=rough:odds=1.5"});
+    measure("the same, share on the head, WSS and CC", {"none"});
     return figures;
 }
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 
@@ -77,6 +78,7 @@ class Reprojection {
     }
 
     void measure_contested_pixels();
+    void measure_side_by_side();
     void measure_exactness();
     void measure_cone();
 
@@ -190,6 +192,54 @@ void Reprojection::measure_exactness() {
     add({"interior, nearest pixel instead, error 99.9 %", centre.quantile(0.999), "LSB"});
 }
 
+/// The object twice on one screen, gaze going from one to the other: each sample is joined with both slots,
+/// and compared with a ray through its own.
+void Reprojection::measure_side_by_side() {
+    constexpr std::size_t samples_in_a_row = 400; // a fifth of a second
+    constexpr double gap_px = 100.0;
+    std::array<ScreenGeometry, 2> slots{screen_, screen_};
+    for (ScreenGeometry& slot : slots)
+        slot.screen_px.x = 2 * slot.image_px.x + static_cast<int>(gap_px);
+    slots[0].image_origin_px.x = 0;
+    slots[1].image_origin_px.x = slots[0].screen_px.x - slots[0].image_px.x;
+    const SceneView& scene = object_.scene();
+    const RayCaster rays(object_.mesh);
+    const double limit = 1e-6 * glm::length(scene.bounds.extent());
+    int compared = 0, elsewhere = 0, in_both = 0;
+    double spent_s = 0.0;
+    for (BenchRecording& recording : bench_recordings(protocol_, screen_, maps_, GazeKind::fixations, 2)) {
+        const auto in_second = [&](std::size_t sample) { return sample / samples_in_a_row % 2 == 1; };
+        for (std::size_t i = 0; i < recording.samples.size(); ++i)
+            recording.samples[i].gaze = slots[in_second(i) ? 1 : 0].screen_from_image(
+                screen_.image_from_screen(*recording.samples[i].gaze));
+        std::array<std::vector<JoinedSample>, 2> joined;
+        for (std::size_t slot = 0; slot < slots.size(); ++slot) {
+            const SampleJoin join(slots[slot], recording.clock_map, recording.history, &maps_, true);
+            joined[slot].resize(recording.samples.size());
+            const double before_s = thread_seconds();
+            join.join(recording.samples, joined[slot]);
+            spent_s += thread_seconds() - before_s;
+        }
+        for (std::size_t i = 0; i < recording.samples.size(); ++i) {
+            const std::size_t own = in_second(i) ? 1 : 0;
+            in_both += joined[1 - own][i].sight.surface.has_value() || joined[1 - own][i].shown.has_value();
+            const JoinedSample& sample = joined[own][i];
+            if (!sample.shown)
+                continue;
+            const auto hit = rays.first_hit(
+                to_object(scene.view.ray_through(*sample.image_px),
+                          scene.pose_at(poses_.angles[static_cast<std::size_t>(sample.shown->pose.value)])));
+            ++compared;
+            elsewhere += hit.has_value() != sample.sight.surface.has_value() ||
+                         (hit && glm::distance(hit->position, sample.sight.surface->position) > limit);
+        }
+    }
+    add({"two side by side, samples compared with rays", static_cast<double>(compared), ""});
+    add(at_most("two side by side, samples elsewhere than their ray", elsewhere, "", 0));
+    add(at_most("two side by side, samples in the other slot, too", in_both, "", 0));
+    add({"two side by side, samples joined per second and core", 1e-6 * compared / spent_s, "million/s"});
+}
+
 void Reprojection::measure_cone() {
     const GazeCone cone(screen_);
     RandomStream random(3, "cones");
@@ -244,6 +294,7 @@ BenchFigures bench_reproject(const BenchOptions& options) {
         reprojection.measure_contested_pixels();
         reprojection.measure_speed(GazeKind::fixations, "fixations");
         reprojection.measure_speed(GazeKind::uniform, "uniform gaze");
+        reprojection.measure_side_by_side();
         reprojection.measure_exactness();
         reprojection.measure_cone();
     }

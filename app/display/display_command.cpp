@@ -13,6 +13,7 @@
 #include "app/rig/output_verification.h"
 #include "experiment/base/error.h"
 #include "experiment/base/random.h"
+#include "experiment/protocol/all_stimuli.h"
 #include "experiment/protocol/protocol_keys.h"
 #include "render/stimulus/stimulus_library.h"
 #include "render/window/window_system.h"
@@ -213,9 +214,7 @@ void verify_stimuli(ContextKind kind, const Experiment& experiment, const Displa
     if (!options.stimulus.empty()) {
         stimuli.push_back(stimulus_called(protocol, options.stimulus));
     } else {
-        for (int i = 0; i < static_cast<int>(protocol.objects.size() * protocol.materials.size()); ++i)
-            stimuli.push_back({i / static_cast<int>(protocol.materials.size()),
-                               i % static_cast<int>(protocol.materials.size())});
+        stimuli = all_stimuli(protocol);
     }
     PagePresenter presenter(opened.context(), opened.surface(), library, geometry, protocol.display,
                             protocol.screens);
@@ -229,10 +228,8 @@ void verify_stimuli(ContextKind kind, const Experiment& experiment, const Displa
             all += page.findings;
         if (all.different > 0)
             fmt::print(stderr, "{}\n", all.first);
-        add_findings(fmt::format("{}, {}, {}/{}, {} pages", name_of(kind), name_of(protocol.display.output),
-                                 protocol.objects[static_cast<std::size_t>(stimulus.object)].id,
-                                 protocol.materials[static_cast<std::size_t>(stimulus.material)].id,
-                                 presenter.pages()),
+        add_findings(fmt::format("{}, {}, {}, {} pages", name_of(kind), name_of(protocol.display.output),
+                                 stimulus_name(protocol, stimulus), presenter.pages()),
                      all, protocol.display.dither != Dithering::none, figures);
     }
     bar.update("verifying", done, static_cast<int>(stimuli.size()));

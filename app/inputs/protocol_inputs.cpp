@@ -10,6 +10,8 @@
 #include "experiment/base/error.h"
 #include "experiment/checks/checked_protocol.h"
 #include "experiment/protocol/all_stimuli.h"
+#include "experiment/scene/areas.h"
+#include "experiment/scene/making/mesh_parts.h"
 #include "experiment/spectra/metal_table.h"
 #include "experiment/stimulus/object_size.h"
 #include "render/image/light_probe.h"
@@ -36,6 +38,26 @@ void examine(const Protocol& protocol, Place place, Diagnostics& diagnostics, co
     } catch (const InputError& error) {
         diagnostics.error(protocol.file.string(), place, as_finding(error.what()));
     }
+}
+
+/// Notes each area of an object that cannot be where it is described.
+template <class Work>
+void examine_areas(const Protocol& protocol, std::size_t object, Diagnostics& diagnostics, const Work& work) {
+    try {
+        work();
+    } catch (const AreaError& error) {
+        for (const AreaError::Fault& fault : error.faults())
+            diagnostics.error(
+                protocol.file.string(),
+                protocol.places.first_written({fmt::format("object[{}].areas.{}", object, fault.area),
+                                               fmt::format("object[{}].{}", object, fault.area)}),
+                as_finding(fault.message));
+    }
+}
+
+bool gives_head_share(const Protocol& protocol) {
+    return std::ranges::any_of(protocol.tasks,
+                               [](const Task& task) { return simulated_shares(task).front().second > 0.0; });
 }
 
 void examine_cameras(const Protocol& protocol, const Object& object, Diagnostics& diagnostics) {
@@ -65,7 +87,11 @@ std::vector<Object> examine_objects(const Protocol& protocol, const std::filesys
         const Place place = protocol.places.first_written(
             {fmt::format("object[{}].mesh", i), fmt::format("object[{}].shipped", i)});
         examine(protocol, place, diagnostics, [&] {
-            const Object& object = objects.emplace_back(load_object(settings, protocol, cache));
+            std::optional<Object> loaded;
+            examine_areas(protocol, i, diagnostics, [&] { loaded = load_object(settings, protocol, cache); });
+            if (!loaded)
+                return;
+            const Object& object = objects.emplace_back(*std::move(loaded));
             for (const std::string& remark : object.remarks)
                 diagnostics.warning(protocol.file.string(), place, as_finding(remark));
             if (!object.has_mesh())
@@ -81,6 +107,85 @@ std::vector<Object> examine_objects(const Protocol& protocol, const std::filesys
         });
     }
     return objects;
+}
+
+/// Gaze can be meant for areas that an object has, and for each place by one of them.
+void examine_simulated_areas(const Experiment& experiment, Diagnostics& diagnostics) {
+    const Protocol& protocol = experiment.protocol;
+    const std::vector<std::string> areas = areas_of(experiment.objects);
+    const auto error = [&](const std::string& key, std::string message, std::string hint) {
+        diagnostics.error(protocol.file.string(), protocol.places.of(key), std::move(message),
+                          std::move(hint));
+    };
+    const auto expect_known = [&](const std::string& key, const std::string& area) {
+        const bool is_known = std::ranges::find(areas, area) != areas.end();
+        if (!is_known)
+            error(key, fmt::format("no object has an area \"{}\"", area),
+                  areas.empty() ? std::string("areas are described by \"areas\" in [[object]]")
+                                : fmt::format("there are {}", fmt::join(areas, ", ")));
+        return is_known;
+    };
+    std::vector<std::string> meant{std::string(head_area)};
+    for (std::size_t i = 0; i < protocol.tasks.size(); ++i) {
+        const std::string key = fmt::format("task[{}].simulated_area_shares", i);
+        for (const auto& [area, share] : protocol.tasks[i].simulated_area_shares) {
+            if (!expect_known(key, area) || std::ranges::find(meant, area) != meant.end())
+                continue;
+            for (const Object& object : experiment.objects) {
+                const Areas own(object.mesh.part_names);
+                const auto overlaps = [&](const std::string& other) {
+                    const auto a = own.find(area), b = own.find(other);
+                    for (std::size_t part = 0; a && b && part < object.mesh.part_names.size(); ++part) {
+                        const auto index = static_cast<PartIndex>(part);
+                        if (own.holds(*a, index) && own.holds(*b, index))
+                            return true;
+                    }
+                    return false;
+                };
+                const auto other = std::ranges::find_if(meant, overlaps);
+                if (other != meant.end() && (*other != head_area || gives_head_share(protocol)))
+                    error(key,
+                          fmt::format(
+                              "on object \"{}\" the areas \"{}\" and \"{}\" overlap, and both have shares",
+                              object.id, area, *other),
+                          "give shares to areas that lie beside each other; the analysis tells of all");
+            }
+            meant.push_back(area);
+        }
+    }
+    for (std::size_t i = 0; i < protocol.tasks.size(); ++i) {
+        double all = 0.0;
+        for (const auto& [area, share] : simulated_shares(protocol.tasks[i]))
+            all += share;
+        for (const Object& object : experiment.objects) {
+            const Areas own(object.mesh.part_names);
+            const auto is_meant = [&](std::size_t part) {
+                return std::ranges::any_of(meant, [&](const std::string& area) {
+                    const auto found = own.find(area);
+                    return found && own.holds(*found, static_cast<PartIndex>(part));
+                });
+            };
+            bool is_whole = object.has_mesh();
+            for (std::size_t part = 0; part < object.mesh.part_names.size(); ++part)
+                is_whole = is_whole && is_meant(part);
+            if (is_whole && all < 1.0 - 1e-9 && !protocol.tasks[i].simulated_area_shares.empty())
+                diagnostics.warning(
+                    protocol.file.string(),
+                    protocol.places.of(fmt::format("task[{}].simulated_area_shares", i)),
+                    fmt::format(
+                        "areas with shares are all of object \"{}\", and their shares come to {:.3g}: what "
+                        "is left goes to the first of them",
+                        object.id, all),
+                    "let the shares come to 1");
+        }
+    }
+    for (std::size_t i = 0; i < protocol.simulated_effects.size(); ++i) {
+        const std::string &area = protocol.simulated_effects[i].area,
+                          key = fmt::format("simulated_effect[{}].area", i);
+        if (!area.empty() && expect_known(key, area) && std::ranges::find(meant, area) == meant.end())
+            error(key, fmt::format("no task says how often \"{}\" is looked at", area),
+                  fmt::format("give simulated_area_shares = {{ {} = 0.2 }} in a [[task]]", area));
+    }
 }
 
 void examine_given_maps(const Protocol& protocol, Diagnostics& diagnostics) {
@@ -169,6 +274,7 @@ std::optional<Experiment> look_into(std::optional<Protocol> protocol, const std:
     experiment.objects = examine_objects(experiment.protocol, cache, diagnostics);
     if (!diagnostics.has_errors())
         examine_waited_areas(experiment, diagnostics);
+    examine_simulated_areas(experiment, diagnostics);
     examine_surroundings(experiment.protocol, diagnostics);
     if (depth == InputDepth::everything) {
         examine_frames(experiment.protocol, diagnostics);

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "app/inputs/protocol_file.h"
+#include "experiment/protocol/all_stimuli.h"
 #include "experiment/record/read/session_record.h"
 #include "experiment/record/session_schema.h"
 
@@ -53,10 +54,10 @@ std::vector<std::string> words_of_protocol(WordKind kind, const Protocol& protoc
     for (const ObjectSettings& object : protocol.objects) {
         if (kind == WordKind::object)
             words.push_back(object.id);
-        if (kind == WordKind::stimulus)
-            for (const MaterialSettings& material : protocol.materials)
-                words.push_back(fmt::format("{}/{}", object.id, material.id));
     }
+    if (kind == WordKind::stimulus)
+        for (const Stimulus& stimulus : all_stimuli(protocol))
+            words.push_back(stimulus_name(protocol, stimulus));
     return words;
 }
 

@@ -22,24 +22,27 @@ template <class Entries> int index_of(const Entries& entries, const std::string&
     return found == entries.end() ? -1 : static_cast<int>(found - entries.begin());
 }
 
-ObservedEffect planted(const PowerEffect& effect, const Protocol& protocol) {
+ObservedEffect planted(const PowerEffect& effect, const Protocol& protocol, const ObservedScene& scene) {
     ObservedEffect planted;
+    SimulatedEffect holds;
     const auto hold_in = [&](const std::string& column, const std::string& level) {
+        const auto list = std::ranges::find(stimulus_lists, column, &StimulusList::name);
         if (column == "task")
             planted.task = index_of(protocol.tasks, level);
-        for (std::size_t list = 0; list < stimulus_lists.size(); ++list) {
-            if (column != stimulus_lists[list].name)
-                continue;
-            planted.entries[list].clear();
-            for (const ListEntry* entry : entries_of(protocol, list))
-                planted.entries[list].push_back(entry->id == level);
-        }
+        else if (list != stimulus_lists.end())
+            holds.entries[static_cast<std::size_t>(list - stimulus_lists.begin())] = level;
+        else
+            holds.where.push_back({column, level, {}});
     };
     hold_in(effect.column, effect.level);
     for (const StudyKey& key : effect.within)
         hold_in(key.column, key.value);
-    if (effect.measure == PowerMeasure::head)
-        planted.head_odds = effect.size;
+    planted.entries = chosen_by(protocol, holds);
+    if (effect.measure == PowerMeasure::area) {
+        planted.area = area_in(scene, effect.area);
+        OVERT_EXPECTS(planted.area >= 0);
+        planted.odds = effect.size;
+    }
     if (effect.measure == PowerMeasure::cc)
         planted.spot_share = effect.size;
     return planted;
@@ -56,12 +59,12 @@ ObservedScene planned_scene(const Experiment& experiment, std::span<const PowerE
     }
     ObservedScene scene = make_observed_scene(protocol, experiment.objects, screen_geometry_of(protocol));
     scene.effects.clear();
-    scene.head_share_sd = settings.head_share_sd;
+    scene.share_sd = settings.head_share_sd;
     for (const PowerEffect& effect : effects) {
-        scene.effects.push_back(planted(effect, protocol));
+        scene.effects.push_back(planted(effect, protocol, scene));
         if (effect.column == "task")
-            scene.tasks[static_cast<std::size_t>(index_of(protocol.tasks, effect.level))].head_share =
-                scene.tasks[static_cast<std::size_t>(index_of(protocol.tasks, effect.against))].head_share;
+            scene.tasks[static_cast<std::size_t>(index_of(protocol.tasks, effect.level))].shares =
+                scene.tasks[static_cast<std::size_t>(index_of(protocol.tasks, effect.against))].shares;
     }
     return scene;
 }
@@ -74,8 +77,8 @@ GazeStudySettings gaze_study_settings(const Protocol& protocol) {
 
 GazeStudies::GazeStudies(const Experiment& experiment, std::vector<PowerEffect> effects,
                          const GazeStudySettings& settings)
-    : experiment_(experiment), effects_(std::move(effects)), settings_(settings),
-      scene_(planned_scene(experiment, effects_, settings)), turns_(turns_of(scene_)),
+    : experiment_(experiment), factors_(factors_of(experiment.protocol)), effects_(std::move(effects)),
+      settings_(settings), scene_(planned_scene(experiment, effects_, settings)), turns_(turns_of(scene_)),
       spread_of_log_(effects_.size(), 0.0) {
     const Protocol& protocol = experiment.protocol;
     for (const ViewedObject& viewed : all_viewed_objects(protocol)) {
@@ -86,7 +89,7 @@ GazeStudies::GazeStudies(const Experiment& experiment, std::vector<PowerEffect> 
         StudyObject object;
         object.id = shown.id;
         object.part_names = shown.mesh.part_names;
-        object.head = HeadParts(shown.mesh.part_names);
+        object.areas = Areas(shown.mesh.part_names);
         object.camera = scene.view.camera;
         object.axis_point = scene.bounds.centre();
         object.screen = scene_.screen;
@@ -100,15 +103,9 @@ GazeStudies::GazeStudies(const Experiment& experiment, std::vector<PowerEffect> 
         frame_.objects.push_back(std::move(object));
         surfaces_.push_back(std::move(surface));
     }
-    const auto ids_of = [](const auto& entries) {
-        std::vector<std::string> ids;
-        for (const auto& entry : entries)
-            ids.push_back(entry.id);
-        return ids;
-    };
-    levels_ = {{"task", ids_of(protocol.tasks)},
-               {"object", ids_of(protocol.objects)},
-               {"material", ids_of(protocol.materials)}};
+    for (const Factor& factor : factors_.all())
+        for (const FactorLevel& level : factor.levels)
+            levels_[factor.name].push_back(level.name);
 }
 
 void GazeStudies::plant_spread(std::size_t effect, double spread, double of_log) {
@@ -124,8 +121,8 @@ ObservedScene GazeStudies::scene_of(std::uint64_t observer_seed) const {
             continue;
         const double own = effects_[i].sd * RandomStream(observer_seed, "effect on an observer", i).normal();
         ObservedEffect& effect = scene.effects[i];
-        if (effects_[i].measure == PowerMeasure::head)
-            effect.head_odds *= std::exp(own);
+        if (effects_[i].measure == PowerMeasure::area)
+            effect.odds *= std::exp(own);
         else if (effects_[i].measure == PowerMeasure::wss)
             effect.spread += own * spread_of_log_[i];
         else
@@ -167,10 +164,12 @@ void GazeStudies::add_trial(const Trial& trial, std::uint64_t seed, const Observ
     shown.object = static_cast<int>(object);
     shown.number = trial.index + 1;
     shown.presentation_s = protocol.motion_of(trial.stimulus).duration_s;
-    shown.keys = {{"observer", results.sessions.back().observer},
-                  {"task", protocol.tasks[static_cast<std::size_t>(trial.task)].id},
-                  {"object", protocol.object_of(trial.stimulus).id},
-                  {"material", protocol.materials[static_cast<std::size_t>(trial.stimulus.material)].id}};
+    shown.keys = {{"observer", results.sessions.back().observer}};
+    for (const Factor& factor : factors_.all())
+        if (!factor.levels.empty())
+            shown.keys.push_back(
+                {factor.name,
+                 factor.levels[static_cast<std::size_t>(factors_.level_of(factor, trial))].name});
     shown.first_fixation = results.fixations.size();
 
     RandomStream random(seed, "calibration offset", static_cast<std::uint64_t>(trial.index));

@@ -37,8 +37,8 @@ GazeStudySettings gaze_study_settings(const Protocol& protocol);
 class GazeStudies {
   public:
     /// `experiment` must outlive this. The protocol's own simulated effects are left out: only `effects`
-    /// hold. Where levels of `task` are compared, the head is as attractive in one as in the other but for
-    /// the effect. Effects on WSS need plant_spread() besides. Throws InputError if an object has no mesh.
+    /// hold. Where levels of `task` are compared, areas are as attractive in one as in the other but for the
+    /// effect. Effects on WSS need plant_spread() besides. Throws InputError if an object has no mesh.
     GazeStudies(const Experiment& experiment, std::vector<PowerEffect> effects,
                 const GazeStudySettings& settings);
 
@@ -70,6 +70,7 @@ class GazeStudies {
                                              Degrees angle) const;
 
     const Experiment& experiment_;
+    Factors factors_;
     std::vector<PowerEffect> effects_;
     GazeStudySettings settings_;
     ObserverSettings observer_;

@@ -43,7 +43,7 @@ void print_answers(const PowerResults& results, const std::filesystem::path& out
     fmt::print("assumed of observers:");
     for (const StudyParameter& parameter : results.parameters) {
         if (parameter.name == "head-share-sd" || parameter.name == "accuracy" ||
-            parameter.name == "head-shares")
+            parameter.name == "area-shares")
             fmt::print(" {} {}{};", parameter.name, parameter.value,
                        parameter.unit.empty() ? "" : fmt::format(" {}", parameter.unit));
     }
@@ -53,7 +53,8 @@ void print_answers(const PowerResults& results, const std::filesystem::path& out
 int run_power(PowerOptions options) {
     const Experiment experiment =
         read_experiment_or_report(options.protocol, cache_folder(), InputDepth::objects);
-    const std::vector<PowerEffect> effects = power_effects(options.effects, experiment.protocol);
+    const std::vector<PowerEffect> effects =
+        power_effects(options.effects, experiment.protocol, areas_of(experiment.objects));
     PowerSettings& settings = options.settings;
     settings.observers = observer_counts(options.observers);
     settings.gaze = gaze_study_settings(experiment.protocol);
@@ -97,9 +98,11 @@ void add_power_command(CLI::App& app, ChosenCommand& chosen) {
         "--head-share-sd 0.4\n"
         "  overt power protocols/overt_2019.toml --effect cc:material=rough:against=coated:share=0.2\n"
         "  overt power protocols/overt_2019.toml --effect none --observers 12\n"
-        "An effect is a measure (head, wss, cc), the material or task in which it is, and its size: odds of "
-        "the\n"
-        "head, ratio of WSS, share of fixations that go to one spot. It may name :against=LEVEL, :sd=… over\n"
+        "An effect is a measure (head, area=NAME, wss, cc), the material or task in which it is, and its "
+        "size: "
+        "odds of\n"
+        "the area, ratio of WSS, share of fixations that go to one spot. It may name :against=LEVEL, :sd=… "
+        "over\n"
         "observers, and :task=ID or :object=ID for trials of these only. none tests everything without "
         "an\n"
         "effect. docs/power.md says what is simulated, and what is not.\n"
@@ -119,7 +122,10 @@ void add_power_command(CLI::App& app, ChosenCommand& chosen) {
     option(command, "--power", settings.target, "", "Share of studies that is asked for",
            CLI::Range(0.05, 0.999), shown_default);
     option(command, "--head-share-sd", options.head_share_sd, "",
-           "Standard deviation over observers of the logit of their shares on the head", CLI::Range(0.0, 5.0))
+           "Standard deviation over observers of the logit of their shares on the head, and on other areas "
+           "with a "
+           "share",
+           CLI::Range(0.0, 5.0))
         ->default_str("the protocol's");
     option(command, "--accuracy", options.accuracy_deg, "DEG",
            "Standard deviation along each axis of the tracker's constant error in a trial",

@@ -14,31 +14,36 @@
 #include "experiment/base/parallel.h"
 #include "experiment/design/observer_groups.h"
 #include "experiment/design/schedule.h"
+#include "experiment/scene/areas.h"
 
 namespace overt {
 
 namespace {
 
 std::string analysis_of(const PowerEffect& effect) {
-    const bool is_material = effect.column == "material";
-    const char* const column = effect.measure == PowerMeasure::head  ? "head_p"
+    const bool is_of_stimuli = effect.column != "task";
+    const std::string place = effect.measure == PowerMeasure::area
+                                  ? fmt::format("area_pairs, area {}", effect.area)
+                                  : std::string("table1_pairs");
+    const char* const column = effect.measure == PowerMeasure::area  ? "p"
                                : effect.measure == PowerMeasure::wss ? "wss_p"
                                                                      : "maps_p";
-    std::string row = is_material ? "the row over all tasks" : "the row";
+    std::string row = is_of_stimuli ? "the row over all tasks" : "the row";
     for (const StudyKey& key : effect.within)
         row = fmt::format("the row of {} {}", key.column, key.value);
-    return fmt::format("overt analyze SESSION… --by {} --compare {}: {} of {} against {} in table1_pairs, {}",
-                       is_material ? "task,object,material" : "task,object", effect.column, row, effect.level,
-                       effect.against, column);
+    return fmt::format("overt analyze SESSION… --by {} --compare {}: {} of {} against {} in {}, {}",
+                       is_of_stimuli ? "task,object," + effect.column : std::string("task,object"),
+                       effect.column, row, effect.level, effect.against, place, column);
 }
 
 std::string planted_words(const PowerEffect& effect) {
     std::string words;
     if (effect.is_none())
         words = "No difference is planted, on average.";
-    else if (effect.measure == PowerMeasure::head)
-        words = fmt::format("In {} {} the odds of the head are multiplied by {}.", effect.column,
-                            effect.level, effect.size);
+    else if (effect.measure == PowerMeasure::area)
+        words = fmt::format("In {} {} the odds of the {} are multiplied by {}.", effect.column, effect.level,
+                            effect.area == head_area ? effect.area : fmt::format("area {}", effect.area),
+                            effect.size);
     else if (effect.measure == PowerMeasure::cc)
         words = fmt::format("In {} {} a share of {} of the fixations goes to one spot of each object.",
                             effect.column, effect.level, effect.size);
@@ -48,17 +53,24 @@ std::string planted_words(const PowerEffect& effect) {
 std::vector<StudyParameter> parameters_of(const Protocol& protocol, const PowerSettings& settings) {
     const auto text = [](auto number) { return fmt::format("{}", number); };
     std::vector<std::string> shares;
-    for (const Task& task : protocol.tasks)
-        shares.push_back(fmt::format("{} {}", task.id, task.simulated_head_share));
+    for (const Task& task : protocol.tasks) {
+        std::string of_task = task.id;
+        for (const auto& [area, share] : simulated_shares(task))
+            of_task += share > 0.0 || area == head_area ? fmt::format(" {} {}", area, share) : std::string();
+        shares.push_back(std::move(of_task));
+    }
     return {
         {"observers", fmt::format("{}", fmt::join(settings.observers, ",")), "", "Of a study."},
         {"studies", text(settings.studies), "", "That were simulated."},
         {"alpha", text(settings.alpha), "", "A study has found the effect if p is at most this."},
         {"power", text(settings.target), "", "The share of studies that is asked for."},
-        {"head-shares", fmt::format("{}", fmt::join(shares, ", ")), "",
-         "Shares of fixations on the head, of the protocol's tasks (simulated_head_share)."},
+        {"area-shares", fmt::format("{}", fmt::join(shares, ", ")), "",
+         "Shares of fixations on areas, of the protocol's tasks (simulated_head_share, "
+         "simulated_area_shares)."},
         {"head-share-sd", text(settings.gaze.head_share_sd), "",
-         "Standard deviation over observers of the logit of their shares of fixations on the head."},
+         "Standard deviation over observers of the logit of their shares of fixations on the head, and on "
+         "each other "
+         "area with a share."},
         {"accuracy", text(settings.gaze.accuracy_deg), "deg",
          "Standard deviation along each axis of the tracker's constant error in a trial."},
         {"sigma", text(settings.gaze.sigma.value), settings.gaze.sigma.is_mm ? "mm" : "deg",
@@ -161,7 +173,7 @@ void add_remarks(PowerResults& results, const Protocol& protocol, const PowerSet
                 "{} of {} studies with {} have nothing to test for {}: no observer sees an object in both "
                 "levels{}.",
                 most.without_test, settings.studies, counted(most.observers, "observer"), curve.effect.text(),
-                curve.effect.column == "material" ? " under one task" : ""));
+                curve.effect.column != "task" ? " under one task" : ""));
     }
     if (const int fewest = fewest_testable_observers(settings.alpha); settings.observers.front() < fewest)
         results.remarks.push_back(fmt::format(

@@ -56,7 +56,7 @@ std::vector<PairedMaps> paired_maps(const std::vector<std::vector<LevelCompariso
 std::vector<std::vector<LevelComparison>>
 compared_cells(const GazeStudies& studies, const StudyResults& results, const PowerEffect& effect) {
     std::vector<std::string> within;
-    if (effect.column == "material")
+    if (effect.column != "task")
         within.emplace_back("task");
     std::vector<std::vector<LevelComparison>> cells;
     for (const StudyGroup& group : make_groups(results, within, studies.levels())) {
@@ -95,8 +95,8 @@ std::vector<StudyOutcome> tested(const GazeStudies& studies, const StudyResults&
     for (const std::vector<LevelComparison>& cell : cells) {
         for (const LevelComparison& one : cell) {
             const auto& scale = studies.surfaces()[static_cast<std::size_t>(one.object)].scale;
-            values.push_back({one.observer, effect.measure == PowerMeasure::head
-                                                ? head_difference(one, results)
+            values.push_back({one.observer, effect.measure == PowerMeasure::area
+                                                ? area_difference(one, results, effect.area)
                                                 : std::optional(wss_difference_deg2(one, *scale))});
         }
     }

@@ -79,6 +79,9 @@ void add_show(CLI::App& app, ChosenCommand& chosen) {
     command.add_option("SESSION", options.sessions, sessions_help)->required();
     option(command, "--trial", options.trial, "TRIAL",
            "Trial for --picture, counted from 1 (default: the first)", above_zero());
+    option(
+        command, "--slot", options.slot, "SLOT",
+        "Of a trial that shows several stimuli: in which slot for --picture, by its id (default: the first)");
     option(command, "--picture", options.picture, "FILE",
            "Write a PNG: a frame, its map, and the gaze on the surface");
     option(command, "--plot", options.plot, "FILE",

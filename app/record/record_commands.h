@@ -45,6 +45,7 @@ int run_verify(const VerifyOptions& options);
 struct ShowOptions {
     std::vector<std::filesystem::path> sessions;
     std::optional<int> trial;
+    std::string slot; ///< of it; empty: the first that it shows something in
     std::filesystem::path picture;
     std::filesystem::path plot; ///< of the presentation's timing, SVG
     bool order = false;         ///< the order that was planned, made again from protocol and seed

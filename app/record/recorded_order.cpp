@@ -12,12 +12,24 @@ namespace overt {
 
 namespace {
 
-/// The names that a trial's indices stand for, block first.
-std::array<std::string, 4> words_of(const Trial& trial, const SessionHeader& header) {
-    const auto id = [](const auto& list, int index) { return list.at(static_cast<std::size_t>(index)).id; };
-    return {header.blocks.empty() ? "" : header.blocks.at(static_cast<std::size_t>(trial.block)),
-            id(header.tasks, trial.task), id(header.objects, trial.stimulus.object),
-            id(header.materials, trial.stimulus.material)};
+/// The names that a trial's indices stand for: the task, and the entries of lists with several, always object
+/// and material.
+std::vector<std::pair<std::string, std::string>> words_of(const Trial& trial, const SessionHeader& header) {
+    std::vector<std::pair<std::string, std::string>> words{
+        {"task", header.tasks.at(static_cast<std::size_t>(trial.task)).id}};
+    for (std::size_t list = 0; list < stimulus_lists.size(); ++list) {
+        const std::vector<ListEntry> entries = entries_of(header, list);
+        if (entries.size() > 1 || stimulus_lists[list].is_always_named)
+            words.emplace_back(
+                stimulus_lists[list].name,
+                entries.at(static_cast<std::size_t>(trial.stimulus.*stimulus_lists[list].index)).id);
+    }
+    return words;
+}
+
+/// Empty without blocks.
+std::string block_of(const Trial& trial, const SessionHeader& header) {
+    return header.blocks.empty() ? "" : header.blocks.at(static_cast<std::size_t>(trial.block));
 }
 
 } // namespace
@@ -54,10 +66,16 @@ RecordedOrder recorded_order(const SessionHeader& header) {
 std::string to_text(const RecordedOrder& order, const SessionHeader& header) {
     std::string text;
     for (const Trial& trial : order.recorded) {
-        const auto [block, task, object, material] = words_of(trial, header);
-        std::string line = fmt::format("{:>5}  {:<12} {:<12} {:<12} {}", trial.index + 1, task, object,
-                                       material, block.empty() ? "" : fmt::format("block {}", block));
+        const std::string block = block_of(trial, header);
+        std::string line = fmt::format("{:>5} ", trial.index + 1);
+        for (const auto& [name, word] : words_of(trial, header))
+            line += fmt::format(" {:<12}", word);
+        line += block.empty() ? "" : fmt::format(" block {}", block);
         line.erase(line.find_last_not_of(' ') + 1);
+        for (const auto& [stimulus, slot] : trial.beside)
+            line += fmt::format("; {}: {} {}", header.slots.at(static_cast<std::size_t>(slot)).id,
+                                header.objects.at(static_cast<std::size_t>(stimulus.object)).id,
+                                header.materials.at(static_cast<std::size_t>(stimulus.material)).id);
         text += line + "\n";
     }
     text += "\n";
@@ -73,13 +91,12 @@ std::string to_text(const RecordedOrder& order, const SessionHeader& header) {
 nlohmann::ordered_json to_json(const RecordedOrder& order, const SessionHeader& header) {
     auto trials = nlohmann::ordered_json::array();
     for (const Trial& trial : order.recorded) {
-        const auto [block, task, object, material] = words_of(trial, header);
+        const std::string block = block_of(trial, header);
         nlohmann::ordered_json item{{"trial", trial.index + 1}};
         if (!block.empty())
             item["block"] = block;
-        item["task"] = task;
-        item["object"] = object;
-        item["material"] = material;
+        for (const auto& [name, word] : words_of(trial, header))
+            item[name] = word;
         trials.push_back(std::move(item));
     }
     nlohmann::ordered_json json{{"seed", header.schedule.seed},

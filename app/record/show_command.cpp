@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/inputs/session_folders.h"
+#include "app/record/chosen_presentation.h"
 #include "app/record/plot_canvas.h"
 #include "app/record/record_commands.h"
 #include "app/record/recorded_order.h"
@@ -36,28 +37,44 @@ nlohmann::ordered_json gaze_share_of(const TrialRecord& trial) {
     return gaze ? nlohmann::ordered_json(gaze->share()) : nlohmann::ordered_json();
 }
 
+/// Lists with several entries, always object and material, and columns.
+bool is_shown(const Factor& factor) {
+    return factor.source == Factor::Source::column ||
+           (factor.source == Factor::Source::list &&
+            (factor.levels.size() > 1 || stimulus_lists[factor.list].is_always_named));
+}
+
 nlohmann::ordered_json session_json(const SessionRecord& record) {
     const SessionHeader& header = record.header();
+    const Factors factors = factors_of(header);
     auto trials = nlohmann::ordered_json::array();
     for (const TrialRecord& trial : record.trials()) {
-        const auto object = static_cast<std::size_t>(trial.trial.stimulus.object);
-        const auto material = static_cast<std::size_t>(trial.trial.stimulus.material);
-        trials.push_back({{"trial", trial.trial.index + 1},
-                          {"task", header.tasks[static_cast<std::size_t>(trial.trial.task)].id},
-                          {"object", header.objects[object].id},
-                          {"material", header.materials[material].id},
-                          {"attempt", trial.attempt},
-                          {"status", name_of(trial.status)},
-                          {"counts", trial.counts},
-                          {"failure", trial.outcome.failure},
-                          {"sitting", trial.sitting},
-                          {"shown_refreshes", trial.outcome.shown_refreshes},
-                          {"missed_refreshes", header.display.is_timing_unproven()
-                                                   ? nlohmann::ordered_json("unproven")
-                                                   : nlohmann::ordered_json(trial.outcome.missed_refreshes)},
-                          {"gaze_share", gaze_share_of(trial)},
-                          {"response_key", trial.response_key},
-                          {"answer", trial.outcome.answer}});
+        nlohmann::ordered_json item{{"trial", trial.trial.index + 1},
+                                    {"task", header.tasks[static_cast<std::size_t>(trial.trial.task)].id}};
+        for (const Factor& factor : factors.all())
+            if (is_shown(factor))
+                item[factor.name] =
+                    factor.levels[static_cast<std::size_t>(factors.level_of(factor, trial.trial))].name;
+        item.update({{"attempt", trial.attempt},
+                     {"status", name_of(trial.status)},
+                     {"counts", trial.counts},
+                     {"failure", trial.outcome.failure},
+                     {"sitting", trial.sitting},
+                     {"shown_refreshes", trial.outcome.shown_refreshes},
+                     {"missed_refreshes", header.display.is_timing_unproven()
+                                              ? nlohmann::ordered_json("unproven")
+                                              : nlohmann::ordered_json(trial.outcome.missed_refreshes)},
+                     {"gaze_share", gaze_share_of(trial)},
+                     {"response_key", trial.response_key},
+                     {"answer", trial.outcome.answer}});
+        trials.push_back(std::move(item));
+        for (std::size_t i = 0; i < trial.trial.shown_count() && !trial.trial.beside.empty(); ++i) {
+            const auto [stimulus, slot] = trial.trial.shown(i);
+            trials.back()["shown"].push_back(
+                {{"slot", header.slots[static_cast<std::size_t>(slot)].id},
+                 {"object", header.objects[static_cast<std::size_t>(stimulus.object)].id},
+                 {"material", header.materials[static_cast<std::size_t>(stimulus.material)].id}});
+        }
     }
     nlohmann::ordered_json json{{"session", record.directory().string()},
                                 {"protocol", header.protocol.name},
@@ -151,19 +168,32 @@ void print_session(const SessionRecord& record) {
                    further_record(record.directory(), id).string());
     for (const auto& [sitting, box] : record.display_boxes())
         fmt::print("display box in sitting {}: {}\n", sitting, describe(box));
-    fmt::print("\n{:>5}  {:<12} {:<12} {:<12} {:<21} {:>9} {:>8} {:>7}  {}\n", "trial", "task", "object",
-               "material", "status", "refreshes", "missed", "gaze", "answer");
+    const Factors factors = factors_of(header);
+    std::string names;
+    for (const Factor& factor : factors.all())
+        if (is_shown(factor))
+            names += fmt::format("{:<12} ", factor.name);
+    fmt::print("\n{:>5}  {:<12} {}{:<21} {:>9} {:>8} {:>7}  {}\n", "trial", "task", names, "status",
+               "refreshes", "missed", "gaze", "answer");
     for (std::size_t i = 0; i < record.trials().size(); ++i) {
         const auto& trial = json["trials"][i];
         const std::optional<GazeYield>& gaze = record.trials()[i].outcome.gaze;
-        fmt::print("{:>5}  {:<12} {:<12} {:<12} {:<21} {:>9} {:>8} {:>7}  {}\n", trial["trial"].get<int>(),
-                   trial["task"].get<std::string>(), trial["object"].get<std::string>(),
-                   trial["material"].get<std::string>(), fate_of(record.trials()[i]),
+        std::string levels;
+        for (const Factor& factor : factors.all())
+            if (is_shown(factor))
+                levels += fmt::format("{:<12} ", trial[factor.name].get<std::string>());
+        fmt::print("{:>5}  {:<12} {}{:<21} {:>9} {:>8} {:>7}  {}\n", trial["trial"].get<int>(),
+                   trial["task"].get<std::string>(), levels, fate_of(record.trials()[i]),
                    trial["shown_refreshes"].get<int>(),
                    header.display.is_timing_unproven() ? "unproven"
                                                        : std::to_string(trial["missed_refreshes"].get<int>()),
                    gaze ? fmt::format("{:.1f} %", 100.0 * gaze->share()) : "n/a",
                    trial["answer"].get<std::string>());
+        for (std::size_t k = 0; trial.contains("shown") && k < trial["shown"].size(); ++k) {
+            const auto& shown = trial["shown"][k];
+            fmt::print("{:>5}  {:<12} {:<12} {:<12} in slot {}\n", "", "", shown["object"].get<std::string>(),
+                       shown["material"].get<std::string>(), shown["slot"].get<std::string>());
+        }
     }
     if (!record.closed_in_order())
         fmt::print("\nThe session was not closed in order: it is running, or was killed.\n");
@@ -267,7 +297,10 @@ int run_show(const ShowOptions& options) {
                                      options.picture.empty() ? "plot" : "picture", sessions.size()));
     const SessionRecord record(sessions.front());
     if (!options.picture.empty())
-        write_picture(record, trial_numbered(record, options.trial.value_or(1)), options.picture);
+        write_picture(
+            record,
+            chosen_presentation(record, trial_numbered(record, options.trial.value_or(1)), options.slot),
+            options.picture);
     else
         write_plot(record, options.plot);
     return 0;

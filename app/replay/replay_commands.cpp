@@ -21,6 +21,9 @@ void add_replay_commands(CLI::App& app, ChosenCommand& chosen) {
     CLI::Option* const trial = option(
         command, "--trial", options.trial, "TRIAL",
         "Instead, draw of this trial, counted from 1, what --picture or --movie asks for", above_zero());
+    option(command, "--slot", options.slot, "SLOT",
+           "Of a trial that shows several stimuli: in which slot, by its id (default: the first)")
+        ->needs(trial);
     CLI::Option* const frame = option(
         command, "--frame", options.frame, "K",
         "Which of the frames that the trial showed, counted from 1 in the order of time", above_zero());

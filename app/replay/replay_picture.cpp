@@ -9,6 +9,7 @@
 #include "app/cli/interruption.h"
 #include "app/cli/own_folders.h"
 #include "app/cli/progress_bar.h"
+#include "app/record/chosen_presentation.h"
 #include "app/record/recorded_surface.h"
 #include "app/replay/movie_file.h"
 #include "app/replay/recorded_experiment.h"
@@ -45,8 +46,9 @@ void paint(LinearImage& image, glm::dvec2 middle, double reach, const glm::vec3&
 class TrialPictures {
   public:
     TrialPictures(const SessionRecord& record, const ReplayOptions& options)
-        : record_(record), trial_(attempt_at(record, *options.trial)), surfaces_(record),
-          frames_(record, trial_, lookup_of(record, trial_, surfaces_)),
+        : record_(record),
+          trial_(chosen_presentation(record, attempt_at(record, *options.trial), options.slot)),
+          surfaces_(record), frames_(record, trial_, lookup_of(record, trial_, surfaces_)),
           experiment_(recorded_experiment(record, options.files, cache_folder())),
           stimuli_(experiment_, cache_folder(),
                    options.context ? options.context : context_of(record.header())) {
@@ -86,7 +88,7 @@ class TrialPictures {
     }
 
     const SessionRecord& record_;
-    const TrialRecord& trial_;
+    const TrialRecord trial_;
     RecordedSurfaces surfaces_;
     ShownFrames frames_;
     Experiment experiment_;

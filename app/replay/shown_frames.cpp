@@ -35,14 +35,15 @@ ShownFrames::ShownFrames(const SessionRecord& record, const TrialRecord& trial, 
     const double lit_s = to_seconds(last - first_light_) + 1.0 / refresh_hz;
     // The last period counts if it was lit for half of its time.
     count_ = std::max(1, static_cast<int>(std::lround(lit_s / period_s_)));
-    const SampleJoin join(header.display.screen, record.clock_map(trial), record.flip_history(trial, ledger),
-                          nullptr);
+    screen_ = header.screen_of_slot(trial.trial.slot);
+    const SampleJoin join(record, trial, ledger, nullptr);
     constexpr std::size_t piece = 4096;
     record.read_samples(trial, piece, [&](std::span<const GazeSample> samples) {
         for (const GazeSample& sample : samples) {
             const JoinedSample joined = join.join(sample);
             if (joined.at)
-                gaze_.push_back({to_seconds(joined.at->time - first_light_), joined.image_px});
+                gaze_.push_back({to_seconds(joined.at->time - first_light_),
+                                 joined.is_elsewhere ? std::nullopt : joined.image_px});
         }
     });
     std::ranges::stable_sort(gaze_, {}, &TimedGaze::at_s);
@@ -50,7 +51,7 @@ ShownFrames::ShownFrames(const SessionRecord& record, const TrialRecord& trial, 
 
 ShownFrame ShownFrames::frame(int number) const {
     OVERT_EXPECTS(number >= 1 && number <= count_);
-    const ScreenGeometry& screen = record_.header().display.screen;
+    const ScreenGeometry& screen = screen_;
     ShownFrame frame;
     frame.number = number;
     frame.begin_s = (number - 1) * period_s_;

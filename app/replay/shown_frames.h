@@ -24,7 +24,8 @@ struct ShownFrame {
     std::optional<SurfacePoint> surface; ///< at the mean gaze, on the frame that was lit
 };
 
-/// Reads one attempt. `lookup`, null if there is no surface, must outlive it.
+/// Reads one attempt, as the presentation in its slot (TrialRecord::seen_in). `lookup`, null if there is no
+/// surface, must outlive it.
 class ShownFrames {
   public:
     /// Throws InputError for an attempt that showed nothing, RecordError.
@@ -43,6 +44,7 @@ class ShownFrames {
     };
     const SessionRecord& record_;
     const SurfaceLookup* lookup_;
+    ScreenGeometry screen_; ///< with the slot's image
     FlipHistory history_;
     SessionTime first_light_;
     double period_s_ = 0.0;

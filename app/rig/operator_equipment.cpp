@@ -7,6 +7,21 @@
 
 namespace overt {
 
+namespace {
+
+/// "left: vase, right: bowl": the entry of each slot's stimulus.
+template <class Entry>
+std::string in_slots(const Protocol& protocol, const Trial& trial, const std::vector<Entry>& entries,
+                     int Stimulus::*index) {
+    std::string text;
+    for (const auto& [stimulus, slot] : trial.all_shown())
+        text += (text.empty() ? "" : ", ") + protocol.slots[static_cast<std::size_t>(slot)].id + ": " +
+                entries[static_cast<std::size_t>(stimulus.*index)].id;
+    return text;
+}
+
+} // namespace
+
 OperatorServer::Options operator_view_of(const SessionHeader& header, const Protocol& protocol,
                                          const std::filesystem::path& folder, bool has_tracker, int completed,
                                          const Clock* steady) {
@@ -36,14 +51,22 @@ OperatorServer::Options operator_view_of(const SessionHeader& header, const Prot
     options.completed = completed;
     for (const Trial& trial : header.schedule.trials) {
         const Task& task = protocol.tasks[static_cast<std::size_t>(trial.task)];
-        ViewedTrial viewed{task.id, task.question,
-                           protocol.objects[static_cast<std::size_t>(trial.stimulus.object)].id,
-                           protocol.materials[static_cast<std::size_t>(trial.stimulus.material)].id,
-                           light_file(header, trial.stimulus),
-                           trial.stimulus.view,
-                           shown_pictures(header.animation_of(trial.stimulus),
-                                          header.poses.frames_of(trial.stimulus.motion))
-                               .of_frame};
+        ViewedTrial viewed{
+            task.id,
+            task.question,
+            protocol.objects[static_cast<std::size_t>(trial.stimulus.object)].id,
+            protocol.materials[static_cast<std::size_t>(trial.stimulus.material)].id,
+            light_file(header, trial.stimulus),
+            trial.stimulus.view,
+            shown_pictures(header.animation_of(trial.stimulus), header.poses.frames_of(trial.stimulus.motion))
+                .of_frame};
+        // Where gaze meets the surface is shown of one object in the place of the image: else only what is
+        // where.
+        if (!protocol.slot_entries.empty()) {
+            viewed.object = in_slots(protocol, trial, protocol.objects, &Stimulus::object);
+            viewed.material = in_slots(protocol, trial, protocol.materials, &Stimulus::material);
+            viewed.light_file.clear();
+        }
         if (!std::filesystem::exists(folder / viewed.light_file))
             viewed.light_file.clear();
         options.trials.push_back(std::move(viewed));

@@ -14,8 +14,9 @@ namespace {
 std::vector<Stimulus> distinct_stimuli(const Schedule& schedule) {
     std::vector<Stimulus> stimuli;
     for (const Trial& trial : schedule.trials) {
-        if (std::find(stimuli.begin(), stimuli.end(), trial.stimulus) == stimuli.end())
-            stimuli.push_back(trial.stimulus);
+        for (const PlacedStimulus& shown : trial.all_shown())
+            if (std::find(stimuli.begin(), stimuli.end(), shown.stimulus) == stimuli.end())
+                stimuli.push_back(shown.stimulus);
     }
     return stimuli;
 }
@@ -58,7 +59,8 @@ void record_verification(PagePresenter& presenter, const FrameSource& pages, con
                          const Schedule& schedule, const Clock& clock, SessionLog& log,
                          const StimulusProgress& progress) {
     const std::vector<Stimulus> stimuli = distinct_stimuli(schedule);
-    const ScreenGeometry geometry = screen_geometry_of(protocol);
+    // In the first slot: the others have the same bytes.
+    const ScreenGeometry geometry = slot_geometry(protocol, protocol.slots.front());
     std::string first_difference;
     int done = 0;
     for (const Stimulus& stimulus : stimuli) {

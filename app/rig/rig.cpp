@@ -89,8 +89,10 @@ std::string Rig::timing_word() const {
 
 bool Rig::maps_are_live() const {
     // Software takes a tenth of a second for a map: far longer than a refresh.
-    return request_.maps == MapTime::live ||
-           (request_.maps == MapTime::automatic && !context().description().is_software);
+    // Live maps are of the one object that is shown.
+    return protocol_->slots.size() == 1 &&
+           (request_.maps == MapTime::live ||
+            (request_.maps == MapTime::automatic && !context().description().is_software));
 }
 
 std::vector<PresentationListener*> Rig::listeners() {
@@ -113,8 +115,9 @@ void Rig::open(SimulatedFaults faults, SessionTime start) {
     if (!request_.draws_stimuli)
         undrawn_ = std::make_unique<UndrawnFrames>(library_, geometry.image_px);
     const FrameSource& frames = undrawn_ ? static_cast<const FrameSource&>(*undrawn_) : library_;
-    presenter_ = std::make_unique<PagePresenter>(display_.context(), display_.surface(), frames, geometry,
-                                                 protocol_->display, protocol_->screens);
+    presenter_ =
+        std::make_unique<PagePresenter>(display_.context(), display_.surface(), frames, geometry,
+                                        protocol_->display, protocol_->screens, slot_places(*protocol_));
     if (maps_are_live())
         live_maps_ = std::make_unique<LiveMaps>(display_.context(), objects_, library_.cache().poses(),
                                                 geometry.image_px);

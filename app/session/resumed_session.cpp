@@ -266,9 +266,7 @@ void require_same_stimuli(const ResumedSession& session, const SessionHeader& no
                 return other.stimulus == stimulus.stimulus && other.frames_sha256 == stimulus.frames_sha256;
             });
         if (same == now.stimuli.end())
-            changed.push_back(fmt::format(
-                "the frames of {}/{}", then.objects[static_cast<std::size_t>(stimulus.stimulus.object)].id,
-                then.materials[static_cast<std::size_t>(stimulus.stimulus.material)].id));
+            changed.push_back("the frames of " + stimulus_name(then, stimulus.stimulus));
     }
     const auto light_of = [](const SessionHeader& header) {
         return header.characterisation ? header.characterisation->sha256 : ContentHash();

@@ -8,6 +8,7 @@
 #include "experiment/base/counted.h"
 #include "experiment/base/error.h"
 #include "experiment/base/whole_file.h"
+#include "experiment/protocol/all_stimuli.h"
 #include "experiment/record/read/session_faults.h"
 
 namespace overt {
@@ -92,7 +93,6 @@ void TrialProgress::enter(SessionPhase phase, int trial) {
 }
 
 void TrialProgress::operator()(const Trial& trial, const TrialOutcome& outcome, int done) {
-    const auto name = [](const auto& list, int index) { return list[static_cast<std::size_t>(index)].id; };
     bar_.update("trials", done, total_);
     const std::vector<std::string> remarks =
         remarks_on(outcome, protocol_->tracker.drift_limit_deg, protocol_->repeat.gaze_lost_limit,
@@ -100,9 +100,9 @@ void TrialProgress::operator()(const Trial& trial, const TrialOutcome& outcome, 
     if (remarks.empty())
         return;
     bar_.make_room();
-    fmt::print(stderr, "trial {} ({}, {}, {}): {}\n", trial.index + 1, name(protocol_->tasks, trial.task),
-               name(protocol_->objects, trial.stimulus.object),
-               name(protocol_->materials, trial.stimulus.material), fmt::join(remarks, ", "));
+    fmt::print(stderr, "trial {} ({}, {}): {}\n", trial.index + 1,
+               protocol_->tasks[static_cast<std::size_t>(trial.task)].id,
+               stimulus_in_words(*protocol_, trial.stimulus), fmt::join(remarks, ", "));
 }
 
 namespace {

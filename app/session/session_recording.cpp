@@ -55,6 +55,7 @@ void describe_objects(SessionHeader& header, const Protocol& protocol, std::span
         recorded.mesh_sha256 = object.mesh_hash;
         recorded.part_names = object.mesh.part_names;
         recorded.unit = unit_of_lengths(protocol.objects[i]);
+        recorded.origin = object.origin;
         const bool has_given_maps = library.cache().has_given_maps(static_cast<int>(i));
         recorded.cameras.resize(protocol.views.size());
         for (std::size_t view = 0; view < protocol.views.size(); ++view) {
@@ -135,11 +136,11 @@ SessionHeader make_session_header(const Protocol& protocol, const Schedule& sche
     header.poses = library.cache().poses();
     for (const Task& task : protocol.tasks)
         header.tasks.push_back({task.id, task.question});
-    for (const MaterialSettings& material : protocol.materials)
-        header.materials.push_back({material.id, material.title});
     for (const Stimulus& stimulus : all_stimuli(protocol))
         header.stimuli.push_back({stimulus, library.source_of(stimulus), library.frames_hash(stimulus)});
     describe_objects(header, protocol, objects, library, with_prepared_maps);
+    for (std::size_t list = 0; list < stimulus_lists.size(); ++list)
+        record_entries(header, list, entries_of(protocol, list));
     return header;
 }
 

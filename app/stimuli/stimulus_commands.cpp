@@ -11,7 +11,8 @@ void add_play(CLI::App& app, ChosenCommand& chosen) {
         app, chosen, run_play, "play", "Shows one animation, or one of its frames as a picture",
         "overt play protocols/overt_2019.toml --stimulus muse/smooth --frame 15 --picture frame.png");
     command.add_option("PROTOCOL", options.protocol, "Protocol file (TOML)")->required();
-    option(command, "--stimulus", options.stimulus, "STIMULUS", "OBJECT/MATERIAL by their ids",
+    option(command, "--stimulus", options.stimulus, "STIMULUS",
+           "OBJECT/MATERIAL by their ids, then /LIGHT, /MOTION and /VIEW where there are several",
            must_be_given);
     option(command, "--frame", options.frame, "K", "Animation frame for --picture (default: 0)",
            not_negative());
@@ -62,7 +63,8 @@ void add_bake(CLI::App& app, ChosenCommand& chosen) {
     option(command, "--target-error", options.target_error_de, "DE",
            "Leave a pixel when its standard error is below this colour difference", CLI::Range(0.01, 100.0));
     option(command, "--stimulus", options.only, "STIMULUS",
-           "Only this stimulus, OBJECT/MATERIAL by their ids; may be given several times");
+           "Only this stimulus, OBJECT/MATERIAL by their ids, then /LIGHT, /MOTION and /VIEW where there are "
+           "several; may be given several times");
     option(command, "--frames", options.frames, "RANGE", "Frames of the animation: K, A-B or all",
            shown_default);
     option(command, "--shard", options.shard, "I/N",
@@ -95,7 +97,9 @@ void add_lut(CLI::App& app, ChosenCommand& chosen) {
                     "  overt lut protocols/overt_2019.toml --stimulus muse --frame all --check");
     command.add_option("PROTOCOL", options.protocol, "Protocol file (TOML)")->required();
     option(command, "--stimulus", options.stimulus, "OBJECT",
-           "OBJECT or OBJECT/MATERIAL by their ids; the map is the same for all materials", must_be_given);
+           "OBJECT or OBJECT/MATERIAL by their ids; the map is the same for all materials and lights. With "
+           "several views OBJECT/VIEW, with several motions the whole name",
+           must_be_given);
     add_frame_option(command, options.frame, "Animation frame, or all");
     option(command, "--out", options.out, "DIR",
            "Folder to write to (default: luts/OBJECT; with --check nothing is written)");
@@ -119,7 +123,9 @@ void add_reconstruct(CLI::App& app, ChosenCommand& chosen) {
         "  overt reconstruct protocols/overt_2019.toml --stimulus muse --frame all --out muse_cloud.ply");
     command.add_option("PROTOCOL", options.protocol, "Protocol file (TOML)")->required();
     option(command, "--stimulus", options.stimulus, "OBJECT",
-           "OBJECT or OBJECT/MATERIAL by their ids; the maps are the same for all materials", must_be_given);
+           "OBJECT or OBJECT/MATERIAL by their ids; the maps are the same for all materials and lights. With "
+           "several views OBJECT/VIEW",
+           must_be_given);
     add_frame_option(
         command, options.frame,
         "Animation frame: the triangles between its pixels, cut at silhouettes and where one part hides "

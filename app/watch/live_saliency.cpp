@@ -27,7 +27,8 @@ std::uint32_t nearest_corner(const Mesh& mesh, const RayHit& hit) {
 
 /// What a map is made with; of a large mesh only the coarse surface is kept.
 struct LiveSaliency::Surface {
-    explicit Surface(const WatchedObject& object) : sigma(kernel_deg * object.degree_on_surface()) {
+    explicit Surface(const WatchedObject& object)
+        : sigma(kernel_deg * object.degree_on_surface()), areas(object.mesh().part_names) {
         const SurfaceGeometry fine(object.mesh());
         const CoarseSurface coarse(fine, most_nodes);
         mesh = std::make_shared<Mesh>(coarse.mesh());
@@ -42,7 +43,7 @@ struct LiveSaliency::Surface {
         trial_s.resize(coarse.vertex_count());
     }
 
-    void add(int in_trial, std::uint32_t vertex, double seconds) {
+    void add(int in_trial, std::uint32_t vertex, PartIndex part, double seconds) {
         if (in_trial != trial) {
             std::ranges::fill(trial_s, 0.0);
             trial = in_trial;
@@ -50,11 +51,12 @@ struct LiveSaliency::Surface {
         const std::uint32_t near = vertex_near[vertex];
         session_s[near] += seconds;
         trial_s[near] += seconds;
+        areas.add(in_trial, part, seconds);
     }
 
     SaliencyMap map(Of of, const std::string& object) const {
         const std::vector<double>& seconds = of == Of::session ? session_s : trial_s;
-        SaliencyMap map{object, mesh, {}, 0.0};
+        SaliencyMap map{object, mesh, {}, 0.0, areas.shares(of == Of::trial)};
         std::vector<SurfaceWeight> weights;
         for (std::size_t v = 0; v < seconds.size(); ++v)
             if (seconds[v] > 0.0) {
@@ -79,6 +81,7 @@ struct LiveSaliency::Surface {
     std::unique_ptr<SurfaceGeometry> geometry;
     std::unique_ptr<SurfaceSmoother> smoother;
     std::vector<double> session_s, trial_s; ///< by vertex of `mesh`
+    AreaTally areas;
     int trial = -1;
 };
 
@@ -93,7 +96,8 @@ void LiveSaliency::looked(const std::shared_ptr<const WatchedObject>& object, in
                           double seconds) {
     {
         const std::lock_guard lock(lock_);
-        looks_.push_back({object, trial, nearest_corner(object->mesh(), hit), seconds});
+        looks_.push_back({object, trial, nearest_corner(object->mesh(), hit),
+                          object->mesh().triangle_parts[hit.triangle], seconds});
     }
     wakes_.notify_one();
 }
@@ -101,7 +105,7 @@ void LiveSaliency::looked(const std::shared_ptr<const WatchedObject>& object, in
 void LiveSaliency::prepare(const std::shared_ptr<const WatchedObject>& object) {
     {
         const std::lock_guard lock(lock_);
-        looks_.push_back({object, -1, 0, 0.0});
+        looks_.push_back({object, -1, 0, 0, 0.0});
     }
     wakes_.notify_one();
 }
@@ -146,7 +150,7 @@ void LiveSaliency::work(const std::stop_token& stop) {
             Surface& surface = surface_of(*look.object);
             last = look.object->id();
             if (look.seconds > 0.0)
-                surface.add(look.trial, look.vertex, look.seconds);
+                surface.add(look.trial, look.vertex, look.part, look.seconds);
         }
         if (!last.empty() && !stop.stop_requested()) {
             auto map = std::make_shared<const SaliencyMap>(surfaces_.at(last)->map(of, last));

@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "app/watch/area_tally.h"
 #include "app/watch/watched_object.h"
 
 namespace overt {
@@ -17,9 +18,10 @@ namespace overt {
 /// A surface to be drawn, with at most 8,000 nodes, and the density of gaze on it.
 struct SaliencyMap {
     std::string object;
-    std::shared_ptr<const Mesh> surface; ///< in the object's unit; the same object while it is the same
-    std::vector<float> share;            ///< by vertex: of the highest density, 0 … 1; all 0 without gaze
-    double gaze_s = 0.0;                 ///< that is in it
+    std::shared_ptr<const Mesh> surface;   ///< in the object's unit; the same object while it is the same
+    std::vector<float> share;              ///< by vertex: of the highest density, 0 … 1; all 0 without gaze
+    double gaze_s = 0.0;                   ///< that is in it
+    std::vector<AreaTally::Share> areas{}; ///< of that time
 };
 
 /// Sums up gaze on a thread of its own, where surfaces are prepared as well. The kernel is the analysis'
@@ -51,7 +53,8 @@ class LiveSaliency {
         std::shared_ptr<const WatchedObject> object;
         int trial = -1;
         std::uint32_t vertex = 0; ///< of the object's mesh
-        double seconds = 0.0;     ///< 0: the surface is to be prepared
+        PartIndex part = 0;
+        double seconds = 0.0; ///< 0: the surface is to be prepared
     };
     struct Surface;
     void work(const std::stop_token& stop);

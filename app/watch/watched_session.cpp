@@ -64,6 +64,7 @@ bool WatchedSession::read(std::chrono::milliseconds wait) {
                                       ? object_->met_at(*one.place, one.pose)
                                       : std::nullopt});
         last_gaze_ = new_gaze_.back();
+        tally(*last_gaze_);
     }
     // Gaze is told while a trial is recorded; afterwards it is old.
     if (client_.view().pose < 0) {
@@ -81,6 +82,24 @@ bool WatchedSession::read(std::chrono::milliseconds wait) {
     if (camera_ && now - camera_came_ > camera_lasts)
         camera_.reset();
     return goes_on;
+}
+
+void WatchedSession::tally(const GazeOnSurface& gaze) {
+    has_right_ = has_right_ || gaze.gaze.is_right;
+    if (!gaze.hit || gaze.gaze.is_right != has_right_)
+        return;
+    const Mesh& mesh = object_->mesh();
+    const auto at = tallies_.try_emplace(object_->id(), std::span<const std::string>(mesh.part_names)).first;
+    at->second.add(gaze.gaze.trial, mesh.triangle_parts[gaze.hit->triangle], 1.0); // points come evenly
+}
+
+std::string WatchedSession::areas_text() const {
+    const auto found = object_ ? tallies_.find(object_->id()) : tallies_.end();
+    if (found == tallies_.end())
+        return {};
+    const std::string session = words_of(found->second.shares(false)),
+                      trial = words_of(found->second.shares(true));
+    return session.empty() ? session : fmt::format("{}; this trial {}", session, trial);
 }
 
 std::string WatchedSession::surface_text() const {
@@ -101,6 +120,7 @@ ViewText WatchedSession::text() {
             camera_ ? camera_picture_ : pictures_.of(client_.facts(), client_.view()),
             client_.silence() > long_silence,
             surface_text(),
+            areas_text(),
             camera_.has_value()};
 }
 

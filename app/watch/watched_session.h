@@ -4,10 +4,12 @@
 #include <chrono>
 #include <deque>
 #include <future>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 
+#include "app/watch/area_tally.h"
 #include "app/watch/viewed_pictures.h"
 #include "app/watch/watched_object.h"
 #include "devices/operator/operator_client.h"
@@ -48,6 +50,8 @@ class WatchedSession {
   private:
     void read_object();
     std::string surface_text() const;
+    std::string areas_text() const;
+    void tally(const GazeOnSurface& gaze);
 
     OperatorClient& client_;
     std::deque<ViewedEvent> news_, events_;
@@ -66,6 +70,8 @@ class WatchedSession {
     std::optional<ViewedCamera> camera_;
     std::chrono::steady_clock::time_point camera_came_{};
     ViewedPicture camera_picture_;
+    std::map<std::string, AreaTally> tallies_; ///< by object
+    bool has_right_ = false; ///< of both eyes one is enough: their gaze would be counted twice
 };
 
 } // namespace overt

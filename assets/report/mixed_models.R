@@ -3,7 +3,7 @@
 #
 #   Rscript mixed_models.R
 #
-# 1. Fixations on the head among all counted ones of a trial: binomial, logit link.
+# 1. Fixations on the area below among all counted ones of a trial: binomial, logit link.
 # 2. Logarithm of the mean within-cluster sum of squares (WSS, mm^2) of a trial: normal.
 #
 # Fixed effects: the factors below and their interactions in pairs (sum contrasts, so that a main effect is one over
@@ -17,6 +17,7 @@
 # to the terminal.
 
 factors <- strsplit("{{FACTORS}}", ",", fixed = TRUE)[[1]]
+area <- "{{AREA}}" # of the surface; empty: there is none
 table_file <- "{{TABLE}}"
 
 arguments <- commandArgs(trailingOnly = FALSE)
@@ -93,9 +94,10 @@ fit_all <- function(what, response, data, is_binomial) {
   list(coefficients = coefficients, tests = tests)
 }
 
-head <- trials[!is.na(trials$on_head) & trials$fixations > 0, ]
+trials$on_area <- if (nzchar(area)) trials[[paste0("on_", area)]] else NA
+looks <- trials[!is.na(trials$on_area) & trials$fixations > 0, ]
 spread <- trials[!is.na(trials$wss_mm2) & trials$wss_mm2 > 0, ]
-models <- list(fit_all("head fraction", "cbind(on_head, fixations - on_head)", head, TRUE),
+models <- list(if (nzchar(area)) fit_all(paste("share on", area), "cbind(on_area, fixations - on_area)", looks, TRUE),
                fit_all("log WSS", "log(wss_mm2)", spread, FALSE))
 models <- Filter(Negate(is.null), models)
 for (what in c("coefficients", "tests")) {

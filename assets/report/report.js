@@ -29,7 +29,7 @@ const seconds_of_fixation = () => (data.knows_stimuli ? data.glance.seconds : da
   else card(g.fixations.toLocaleString('en'), 'fixations on the screen');
   card(digits(seconds_of_fixation() / 60), 'minutes of fixation');
   if (data.knows_stimuli) card(data.maps.filter(m => m.values && m.by === 'duration').length, 'maps');
-  if (data.tables.areas.length) card(new Set(data.tables.areas.map(a => a.area)).size - 1, 'areas of the screen');
+  if (data.tables.surface_areas.length) card(new Set(data.tables.surface_areas.map(a => a.area)).size - 1, 'areas of the screen');
   for (const remark of data.remarks) by_id('remarks').append(element('p', {class: 'remark'}, remark));
 }
 
@@ -48,19 +48,44 @@ function panels_of(rows, panel_of, bar_of) {
 const remark_column = (rows, of) => (rows.some(of) ? [text_column('remark', of, {long: true})] : []);
 
 // Figure 4: a panel for each factor, a bar for each of its levels; of groups one for each level of the first factor.
-{
-  const rows = data.tables.heads, single = rows.filter(r => r.keys.length === 1), full = rows.filter(r => r.keys.length === data.by.length && r.keys.length);
+function draw_figure4() {
+  const area = by_id('area4').value, rows = data.tables.surface_areas.filter(r => r.area === area);
+  const single = rows.filter(r => r.keys.length === 1), full = rows.filter(r => r.keys.length === data.by.length && r.keys.length);
   const bar_of = r => ({label: short(r.keys.length === 1 ? r.keys : r.keys.slice(1)), estimate: r.count, each: r.each});
-  if (rows.length) {
-    bars(by_id('figure4_chart'), single.length ? panels_of(single, r => r.keys[0][0], bar_of) : panels_of(full.length ? full : rows, r => (r.keys[0] || ['', 'all'])[1], bar_of),
-         {x_label: 'share of fixations on the head', most: 1, label: 'Figure 4: share of fixations on the head'});
-    by_id('figure4_table').append(table({name: 'figure_4', title: 'Where they looked: fixations on the head', rows, columns: [
-        ...factor_columns(rows, r => r.keys), number_column('by count, mean over observers', r => r.count), number_column('by duration', r => r.duration),
-        number_column('corrected for tracker error', r => r.corrected), number_column('pooled', r => r.pooled), number_column('observers', r => r.observers),
-        number_column('trials', r => r.trials), number_column('fixations', r => r.fixations)],
-        note: `Dots: single observers. In brackets the ${level} over observers. Pooled: all fixations as if they were independent, as in the paper's figure 4. The paper's numbers are raw shares (by count, pooled); corrected: the share under which the measured places are most probable, given the tracker's error.`}));
-  } else by_id('figure4_chart').append(element('p', {class: 'note'}, 'No object has a part named "head".'));
+  bars(by_id('figure4_chart'), single.length ? panels_of(single, r => r.keys[0][0], bar_of) : panels_of(full.length ? full : rows, r => (r.keys[0] || ['', 'all'])[1], bar_of),
+       {x_label: `share of fixations on the area ${area}`, most: 1, label: `Figure 4: share of fixations on the area ${area}`});
+  by_id('figure4_table').replaceChildren(table({name: 'figure_4', title: `Where they looked: fixations on the area ${area}`, rows, columns: [
+      ...factor_columns(rows, r => r.keys), number_column('by count, mean over observers', r => r.count), number_column('by duration', r => r.duration),
+      number_column('corrected for tracker error', r => r.corrected), number_column('pooled', r => r.pooled), number_column('observers', r => r.observers),
+      number_column('trials', r => r.trials), number_column('fixations', r => r.fixations)],
+      note: `Dots: single observers. In brackets the ${level} over observers. Pooled: all fixations as if they were independent, as in the paper's figure 4. The paper's numbers are raw shares (by count, pooled); corrected: the share under which the measured places are most probable, given the tracker's error.`}));
 }
+if (data.areas.length) {
+  for (const area of data.areas) by_id('area4').append(element('option', area === data.area ? {selected: ''} : {}, area));
+  by_id('area4').addEventListener('change', draw_figure4);
+  draw_figure4();
+} else by_id('figure4').hidden = true;
+
+// All areas.
+if (data.areas.length) {
+  const rows = data.tables.surface_areas.filter(r => r.keys.length < 2);
+  by_id('surface_areas_table').append(table({name: 'areas', title: 'What gaze does with each area', rows, columns: [
+      text_column('area', r => r.area), ...factor_columns(rows, r => r.keys), number_column('share by count', r => r.count), number_column('by duration', r => r.duration),
+      number_column('corrected for tracker error', r => r.corrected), number_column('of the surface', r => r.surface), number_column('of the exposure', r => r.exposure), number_column('share over exposure', r => r.over_exposure),
+      number_column('dwell / s', r => r.dwell), number_column('visits', r => r.visits), number_column('visit / s', r => r.visit), number_column('reached', r => r.reached),
+      number_column('first arrival / s', r => r.arrival), number_column('by fixation', r => r.arrival_number)],
+      note: `Of a trial, means over observers; in brackets the ${level}. The exposure is what gaze would have that is spread evenly over what is seen. First arrival: a trial in which the area was never fixated counts with its whole presentation. Groups are in the table areas.`}));
+  const moves = data.tables.surface_transitions.filter(r => !r.keys.length && r.p.v !== null);
+  if (moves.length) by_id('surface_transitions_table').append(table({name: 'area_transitions', title: 'From area to area', rows: moves, columns: [
+      text_column('from', r => r.from), text_column('to', r => r.to), number_column('probability', r => r.p), number_column('by shares alone', r => r.chance), number_column('difference', r => r.over),
+      number_column('transitions', r => r.count), number_column('observers', r => r.observers)],
+      note: `Probability that the next fixation is on the second area after one on the first, and the second's share of all next fixations. In brackets the ${level} over observers. Levels of factors are in the table area_transitions.`}));
+  const pairs = data.tables.area_pairs.filter(r => r.difference.v !== null);
+  if (pairs.length) by_id('area_pairs_table').append(table({name: 'area_pairs', title: `Do levels of ${pairs[0].column} differ in where gaze goes?`, rows: pairs, columns: [
+      text_column('area', r => r.area), ...factor_columns(pairs, r => r.keys), text_column('a', r => r.a), text_column('b', r => r.b), number_column('share, a − b', r => r.difference), p_column('p', r => r.p),
+      p_column('p after Holm', r => r.holm), p_column('over all areas, too', r => r.holm_areas), number_column('observers', r => r.observers), number_column('comparisons', r => r.comparisons)],
+      note: `Within observers and objects. In brackets the ${level} over observers; p by flipping the signs of observers' differences. Holm: over the rows of an area, and over those of all areas.`}));
+} else by_id('surface_areas').hidden = true;
 
 // Figure 5.
 function draw_figure5() {
@@ -130,9 +155,9 @@ draw_figure5();
     if (rows.length) by_id(id).append(table({name: id.replace('_body', ''), title: by_id(id).previousElementSibling.textContent, rows, ...make()}));
   };
   put('exposure_body', t.exposures, () => ({columns: [
-      title, text_column('part', e => e.part), number_column('area / mm²', e => e.area), share_column('of the area', e => e.share_of_area), share_column('of the exposure', e => e.share),
+      title, text_column('area', e => e.area_name), number_column('area / mm²', e => e.area), share_column('of the area', e => e.share_of_area), share_column('of the exposure', e => e.share),
       share_column('of the fixations', e => e.fixations), number_column('visible / s', e => e.seconds), share_column('never visible', e => e.never), number_column('mean cosine of view', e => e.foreshortening)],
-      note: 'What one presentation shows of each part: the exposure is the share of time and picture area that a part fills among all that shows the object. Gaze that looks at all of the picture alike has the same share of fixations.'}));
+      note: 'What one presentation shows of each area: the exposure is the share of time and picture area that it fills among all that shows the object. Gaze that looks at all of the picture alike has the same share of fixations.'}));
   put('predictions_body', t.predictions, () => ({columns: [
       ...conditions(t.predictions), text_column('predicted by', r => r.by + (r.level ? ': ' + r.level : '')), number_column('KL / nat', r => r.kl), number_column('NSS', r => r.nss),
       number_column('AUC (Judd)', r => r.auc), number_column('AUC (Borji)', r => r.borji), number_column('gain over exposure / bit', r => r.gain),
@@ -160,7 +185,7 @@ draw_figure5();
             text_column('measure', r => r.measure), text_column('effect', r => r.effect.replace(':', ' × ')), p_column('p', r => r.p), p_column('p after Holm', r => r.holm),
             number_column('observers', r => r.observers), ...remark_column(rows, r => r.absent || (r.least > alpha + 1e-9 ? `so many observers can give no p below ${digits(r.least)}` : ''))],
             note:
-            'Of trials: the share of counted fixations on the head, and the logarithm of WSS. Permutations within observers: of a factor the levels are exchanged, of two together (×) the signs of whole observers. ' +
+            'Of trials: the share of counted fixations on an area, and the logarithm of WSS. Permutations within observers: of a factor the levels are exchanged, of two together (×) the signs of whole observers. ' +
             'Holm: corrected over the rows of the same measure. Mixed models (lme4): run mixed_models.R beside this page.'}));
   else by_id('effects').hidden = true;
 }
@@ -192,31 +217,37 @@ draw_figure5();
 }
 
 // Time course.
-{
-  const rows = data.tables.course.filter(r => r.head.v !== null);
+function draw_course() {
+  const area = by_id('area_course').value, rows = data.tables.course.filter(r => r.area === area && r.share.v !== null);
+  by_id('course_chart').replaceChildren();
   if (rows.length) {
     const end = Math.max(...rows.map(r => r.to)), step = Math.max(...rows.map(r => r.to - r.from)), names = [...new Set(rows.map(r => r.key[1]))];
     const chart = element('div');
     by_id('course_chart').append(curve_names(names), chart, element('p', {class: 'note'}, `${rows[0].key[0]}; bars: ${level} over observers.`));
     responsive(chart, width => {
-      const frame = plot({width: Math.min(width, 1100), height: names.length > 8 ? 460 : 340, x: [0, end], y: [0, 1], x_label: 'time since onset / s', y_label: 'share of fixation time on the head'});
+      const frame = plot({width: Math.min(width, 1100), height: names.length > 8 ? 460 : 340, x: [0, end], y: [0, 1], x_label: 'time since onset / s', y_label: `share of fixation time on the area ${area}`});
       // Side by side, so that intervals do not hide each other, but within their stretch of time.
       const aside = Math.min(3, 0.7 * (frame.px(step) - frame.px(0)) / names.length);
       names.forEach((name, i) => {
         const mine = rows.filter(r => r.key[1] === name), at = r => frame.px((r.from + r.to) / 2) + aside * (i - (names.length - 1) / 2);
-        frame.svg.append(curve(i, mine.map(r => [at(r), frame.py(r.head.v)])));
+        frame.svg.append(curve(i, mine.map(r => [at(r), frame.py(r.share.v)])));
         for (const r of mine) {
-          if (r.head.lo !== undefined)
-            frame.svg.append(shape('line', {x1: at(r), x2: at(r), y1: frame.py(Math.max(0, r.head.lo)), y2: frame.py(Math.min(1, r.head.hi)), stroke: colour_of(i)}));
-          const point = marker(i, at(r), frame.py(r.head.v));
-          point.append(shape('title', {}, `${name}, ${r.from} to ${r.to} s: ${estimate_text(r.head)}`));
+          if (r.share.lo !== undefined)
+            frame.svg.append(shape('line', {x1: at(r), x2: at(r), y1: frame.py(Math.max(0, r.share.lo)), y2: frame.py(Math.min(1, r.share.hi)), stroke: colour_of(i)}));
+          const point = marker(i, at(r), frame.py(r.share.v));
+          point.append(shape('title', {}, `${name}, ${r.from} to ${r.to} s: ${estimate_text(r.share)}`));
           frame.svg.append(point);
         }
       });
       chart.replaceChildren(frame.svg);
     });
-  } else by_id('course_chart').append(element('p', {class: 'note'}, 'There is no time course of the head.'));
+  } else by_id('course_chart').append(element('p', {class: 'note'}, 'There is no time course of this area.'));
 }
+if (data.areas.length) {
+  for (const area of data.areas) by_id('area_course').append(element('option', area === data.area ? {selected: ''} : {}, area));
+  by_id('area_course').addEventListener('change', draw_course);
+  draw_course();
+} else by_id('course').hidden = true;
 
 // Data quality.
 {

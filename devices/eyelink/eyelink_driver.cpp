@@ -4,7 +4,6 @@
 #include <array>
 #include <chrono>
 #include <cmath>
-#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -38,25 +37,6 @@ std::optional<RecordingState> state_of(std::int16_t code) noexcept {
         return RecordingState::abort;
     default:
         return std::nullopt;
-    }
-}
-
-/// The library's report of a transfer is told nothing of whom it works for.
-const EyeTracker::FileProgress* active_progress = nullptr;
-
-/// Where a file of the host goes: a place at which there is none yet, so that nothing is ever replaced.
-std::filesystem::path free_place(const std::filesystem::path& folder, const std::string& name) {
-    std::filesystem::path file = folder / (name + ".edf");
-    for (int number = 2; std::filesystem::exists(std::filesystem::symlink_status(file)); ++number)
-        file = folder / fmt::format("{}-{}.edf", name, number);
-    return file;
-}
-
-extern "C" void overt_el_progress(unsigned size, unsigned received) {
-    try {
-        if (active_progress && *active_progress)
-            (*active_progress)(received, size);
-    } catch (...) { // what cannot be shown must not break the transfer off
     }
 }
 
@@ -376,67 +356,6 @@ std::optional<ClockPair> EyelinkDriver::exchange_times() const noexcept {
     pair.before -= 500us;
     pair.other = tracker_time(std::int64_t{ms} * 1000 + 500);
     return pair;
-}
-
-void EyelinkDriver::fetch(const std::string& name, const std::string& folder,
-                          const EyeTracker::FileProgress& progress, std::vector<std::string>& said) {
-    std::string from = name + ".EDF";
-    const std::filesystem::path file = free_place(folder, name),
-                                part = std::filesystem::path(file) += ".part";
-    std::string to = part.string();
-    active_progress = &progress;
-    const std::int32_t result =
-        library_->receive_data_file_feedback
-            ? library_->receive_data_file_feedback(from.data(), to.data(), 0, overt_el_progress)
-            : library_->receive_data_file(from.data(), to.data(), 0);
-    active_progress = nullptr;
-    std::optional<std::string> problem = eyelink_transfer_problem(result);
-    std::error_code none;
-    const auto size = std::filesystem::file_size(part, none);
-    if (!problem && (none || size != static_cast<std::uintmax_t>(result)))
-        problem = none ? "it is not there afterwards"
-                       : fmt::format("{} bytes are there and {} were sent", size, result);
-    if (!problem) {
-        std::filesystem::rename(part, file, none);
-        if (none)
-            problem = none.message();
-    }
-    if (problem)
-        said.push_back(
-            fmt::format("The EyeLink's file {} could not be fetched: {}. It is on the host, where it can be "
-                        "copied from; what arrived is in {}.",
-                        from, *problem, to));
-    else
-        said.push_back(fmt::format("The EyeLink's file {}, {} bytes", file.string(), size));
-}
-
-std::vector<std::string> EyelinkDriver::finish(const std::string& folder,
-                                               const EyeTracker::FileProgress& progress) {
-    std::vector<std::string> said;
-    if (settings_.is_dummy || files_.empty()) {
-        close();
-        return said;
-    }
-    stop();
-    try {
-        if (library_->eyelink_is_connected() != 1) {
-            close();
-            open_connection(); // the host has kept the file
-        }
-        library_->set_offline_mode();
-        clock_->wait_until(clock_->now() + 500ms);
-        if (is_file_open_)
-            library_->close_data_file();
-        is_file_open_ = false;
-        for (const std::string& name : files_)
-            fetch(name, folder, progress, said);
-    } catch (const std::exception& error) {
-        said.push_back(fmt::format("The EyeLink's recording stays on its host, as {}.EDF: {}",
-                                   fmt::join(files_, ".EDF, "), error.what()));
-    }
-    close();
-    files_.clear();
-    return said;
 }
 
 template <> TrackerDevice tracker_device_of<kind_called<TrackerKind>("eyelink")>() {

@@ -236,7 +236,8 @@ PupilSettings pupil_settings_of(const Protocol& protocol) {
     settings.remote = parse_network_address(protocol.tracker.address, settings.remote);
     settings.surface = protocol.tracker.surface;
     settings.least_confidence = protocol.tracker.least_confidence;
-    const std::vector<TagPlace> tags = gaze_tags_of(screen_geometry_of(protocol), protocol.display);
+    const std::vector<TagPlace> tags =
+        gaze_tags_of(screen_geometry_of(protocol), protocol.display, slot_places(protocol));
     if (!tags.empty()) {
         const TaggedArea area = tagged_area(tags);
         settings.surface_place = {{area.origin_px.x, area.origin_px.y}, area.size_px.x, area.size_px.y};

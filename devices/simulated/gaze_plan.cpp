@@ -1,6 +1,8 @@
 #include "devices/simulated/gaze_plan.h"
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "experiment/base/random.h"
 
@@ -8,22 +10,39 @@ namespace overt {
 
 GazePlan gaze_plan(const ObservedScene& scene, std::uint64_t seed, int task, Stimulus stimulus) noexcept {
     GazePlan plan;
-    double odds = 1.0;
+    plan.area_count = std::min(scene.areas.size(), most_observed_areas);
+    std::array<double, most_observed_areas> odds;
+    odds.fill(1.0);
     for (std::size_t i = 0; i < scene.effects.size(); ++i) {
         const ObservedEffect& effect = scene.effects[i];
         if (!effect.holds_in(task, stimulus))
             continue;
-        odds *= effect.head_odds;
+        odds[static_cast<std::size_t>(effect.area)] *= effect.odds;
         plan.spread += effect.spread;
         if (effect.spot_share > 0.0 && plan.spot_count < most_simulated_spots)
             plan.spots[static_cast<std::size_t>(plan.spot_count++)] = {static_cast<int>(i),
                                                                        effect.spot_share};
     }
-    if (scene.head_share_sd > 0.0)
-        odds *= std::exp(scene.head_share_sd * RandomStream(seed, "inclination to heads").normal());
-    const double share = scene.tasks[static_cast<std::size_t>(task)].head_share;
-    // Shares of 0 and 1 are no odds, and stay what they are.
-    plan.head_share = odds == 1.0 ? share : share * odds / (1.0 - share + share * odds);
+    if (scene.share_sd > 0.0) {
+        odds[0] *= std::exp(scene.share_sd * RandomStream(seed, "inclination to heads").normal());
+        for (std::size_t area = 1; area < plan.area_count; ++area)
+            odds[area] *=
+                std::exp(scene.share_sd * RandomStream(seed, "inclination to an area", area).normal());
+    }
+    const std::vector<double>& shares = scene.tasks[static_cast<std::size_t>(task)].shares;
+    double elsewhere = 1.0, multiplied = 0.0;
+    bool is_changed = false;
+    for (std::size_t area = 0; area < plan.area_count; ++area) {
+        elsewhere -= shares[area];
+        multiplied += shares[area] * odds[area];
+        is_changed = is_changed || odds[area] != 1.0;
+    }
+    // What is rounded off sums must not become a share; and shares of 0 and 1 are no odds, and stay.
+    elsewhere = std::max(elsewhere, 0.0);
+    for (std::size_t area = 0; area < plan.area_count; ++area)
+        plan.shares[area] = is_changed && elsewhere + multiplied > 0.0
+                                ? shares[area] * odds[area] / (elsewhere + multiplied)
+                                : shares[area];
     return plan;
 }
 

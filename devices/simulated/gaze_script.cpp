@@ -96,7 +96,7 @@ struct Composer {
         return true;
     }
 
-    bool find_target(const Departure& before, ScriptedFixation& next, double duration_s, Region region) {
+    bool find_target(const Departure& before, ScriptedFixation& next, double duration_s, std::size_t region) {
         const auto& [targets, screen, plan, turn] = shown[next.shown];
         return find_target(before, next, duration_s,
                            [&] { return targets->draw(random, region, plan.spread); });
@@ -116,6 +116,24 @@ struct Composer {
         return -1;
     }
 
+    /// An area of the scene, or elsewhere.
+    std::size_t choose_region(const GazePlan& plan) {
+        double chance = random.uniform();
+        std::size_t area = 0;
+        for (; area < plan.area_count && chance >= plan.shares[area]; ++area)
+            chance -= plan.shares[area];
+        return area;
+    }
+
+    bool find_in_another(const Departure& before, ScriptedFixation& next, double duration_s,
+                         std::size_t region) {
+        for (std::size_t other = shown[next.shown].targets->elsewhere() + 1; other-- > 0;) {
+            if (other != region && find_target(before, next, duration_s, other))
+                return true;
+        }
+        return false;
+    }
+
     ScriptedFixation next_fixation(const ScriptedFixation& last) {
         ScriptedFixation next;
         if (shown.size() > 1)
@@ -126,14 +144,13 @@ struct Composer {
             log_normal_within(random, settings.fixation_median_s, settings.fixation_log_sd,
                               settings.shortest_fixation_s, settings.longest_fixation_s);
         const int spot = choose_spot(plan);
-        const Region region = random.uniform() < plan.head_share ? Region::head : Region::elsewhere;
-        const Region other = region == Region::head ? Region::elsewhere : Region::head;
+        const std::size_t region = choose_region(plan);
         if (targets) {
             const bool found_spot = spot >= 0 && find_target(before, next, duration_s, [&, on = targets] {
                                         return on->draw_from_spot(random, spot);
                                     });
             if (found_spot || find_target(before, next, duration_s, region) ||
-                find_target(before, next, duration_s, other))
+                find_in_another(before, next, duration_s, region))
                 return next;
             next.target.reset();
             next.place = scene.screen.centre();

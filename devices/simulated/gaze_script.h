@@ -84,7 +84,7 @@ class GazeScript {
     /// Writes the script of a trial: a function of its arguments alone. `targets` is nullptr for an object
     /// without a mesh. Allocates nothing; some thousand rays are cast.
     ///
-    /// Each fixation goes where the plan says, by chance: to a spot, to the head or elsewhere, at a point
+    /// Each fixation goes where the plan says, by chance: to a spot, to an area or elsewhere, at a point
     /// that is visible in every frame lit from the saccade's start to the fixation's end, and at least the
     /// shortest saccade away or, if none of 200 is, the farthest of them. If 200 points of a spot are not
     /// visible, head or elsewhere is tried; if 200 of these, the other of the two, and at last the middle of

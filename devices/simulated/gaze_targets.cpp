@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "experiment/scene/making/mesh_parts.h"
+#include "experiment/scene/areas.h"
 
 namespace overt {
 
@@ -32,13 +32,21 @@ glm::dvec3 turned_back(glm::dvec3 world_point, const TurntablePose& pose) {
 } // namespace
 
 GazeTargets::GazeTargets(const ObservedObject& object, const ObservedScene& scene)
-    : mesh_(object.mesh), scene_(object.scene), caster_(*object.mesh) {
+    : mesh_(object.mesh), scene_(object.scene), caster_(*object.mesh), regions_(scene.areas.size() + 1) {
+    const Areas areas(mesh_->part_names);
+    std::vector<std::size_t> region_of_part(mesh_->part_names.size(), elsewhere());
+    for (std::size_t part = 0; part < region_of_part.size(); ++part) {
+        for (std::size_t area = scene.areas.size(); area-- > 0;) {
+            const auto own = areas.find(scene.areas[area]);
+            if (own && areas.holds(*own, static_cast<PartIndex>(part)))
+                region_of_part[part] = area;
+        }
+    }
     for (std::uint32_t i = 0; i < mesh_->triangles.size(); ++i) {
         const std::string_view part = mesh_->part_names[mesh_->triangle_parts[i]];
         const double area = glm::length(corners_of(*mesh_, i).normal_times_area());
         const double weight = part == "plinth" ? plinth_weight * area : area;
-        WeightedTriangles& region = is_of_head(part) ? head_ : elsewhere_;
-        region.add(i, weight);
+        regions_[region_of_part[mesh_->triangle_parts[i]]].add(i, weight);
     }
     find_middle();
     for (const Animation& motion : scene.animations) {
@@ -49,7 +57,7 @@ GazeTargets::GazeTargets(const ObservedObject& object, const ObservedScene& scen
     }
     for (std::size_t effect = 0; effect < scene.effects.size(); ++effect) {
         RandomStream random(effect, "spot of an effect");
-        const Region region = random.uniform() < 0.5 ? Region::head : Region::elsewhere;
+        const std::size_t region = random.uniform() < 0.5 ? 0 : elsewhere();
         SurfacePoint middle;
         for (int tries = 0; tries < most_tries; ++tries) {
             middle = draw(random, region);
@@ -84,12 +92,12 @@ void GazeTargets::find_middle() {
     double all = 0.0, squares = 0.0;
     glm::dvec3 sum(0.0);
     const auto for_each = [&](const auto& visit) {
-        for (const WeightedTriangles* region : {&head_, &elsewhere_}) {
+        for (const WeightedTriangles& region : regions_) {
             double before = 0.0;
-            for (std::size_t i = 0; i < region->triangles.size(); ++i) {
-                const Corners corners = corners_of(*mesh_, region->triangles[i]);
-                visit((corners.a + corners.b + corners.c) / 3.0, region->cumulative[i] - before);
-                before = region->cumulative[i];
+            for (std::size_t i = 0; i < region.triangles.size(); ++i) {
+                const Corners corners = corners_of(*mesh_, region.triangles[i]);
+                visit((corners.a + corners.b + corners.c) / 3.0, region.cumulative[i] - before);
+                before = region.cumulative[i];
             }
         }
     };
@@ -112,10 +120,18 @@ void GazeTargets::find_middle() {
     most_square_ = most / usual_square_;
 }
 
-SurfacePoint GazeTargets::draw(RandomStream& random, Region region, double spread) const noexcept {
-    const bool wants_head = region == Region::head;
-    const WeightedTriangles& wanted = wants_head ? head_ : elsewhere_;
-    const WeightedTriangles& from = wanted.triangles.empty() ? (wants_head ? elsewhere_ : head_) : wanted;
+const GazeTargets::WeightedTriangles& GazeTargets::region_or_other(std::size_t region) const noexcept {
+    if (regions_[region].triangles.empty())
+        region = elsewhere();
+    if (regions_[region].triangles.empty())
+        region = 0;
+    while (regions_[region].triangles.empty()) // the mesh has triangles
+        ++region;
+    return regions_[region];
+}
+
+SurfacePoint GazeTargets::draw(RandomStream& random, std::size_t region, double spread) const noexcept {
+    const WeightedTriangles& from = region_or_other(region);
     SurfacePoint point = draw_from(random, from);
     if (spread == 0.0)
         return point;

@@ -12,9 +12,6 @@
 
 namespace overt {
 
-/// The head, or all that is not the head.
-enum class Region : std::uint8_t { head, elsewhere };
-
 /// Draws surface points and knows what is visible of them. Constant queries allocate nothing.
 class GazeTargets {
   public:
@@ -24,10 +21,13 @@ class GazeTargets {
     GazeTargets(const ObservedObject& object, const ObservedScene& scene);
     static constexpr double spot_radius = 0.04;
 
+    /// Regions are the scene's areas, by their index, and what is in none of them.
+    std::size_t elsewhere() const noexcept { return regions_.size() - 1; }
+
     /// A point of the region, all of its area equally probable, save that the part "plinth" is looked at a
-    /// tenth as often. An object without that region gives a point of the other. `spread`: see GazePlan;
-    /// the usual distance is the root mean square one of both regions.
-    SurfacePoint draw(RandomStream& random, Region region, double spread = 0.0) const noexcept;
+    /// tenth as often. An object without that region gives a point elsewhere, or of its first region.
+    /// `spread`: see GazePlan; the usual distance is the root mean square one of all regions.
+    SurfacePoint draw(RandomStream& random, std::size_t region, double spread = 0.0) const noexcept;
 
     /// The part on which an effect's spot lies.
     PartIndex part_of_spot(int effect) const noexcept {
@@ -58,6 +58,8 @@ class GazeTargets {
         }
     };
 
+    /// A region with triangles: this one, else elsewhere, else the first that has any.
+    const WeightedTriangles& region_or_other(std::size_t region) const noexcept;
     SurfacePoint draw_from(RandomStream& random, const WeightedTriangles& from) const noexcept;
     struct Spot {
         SurfacePoint middle;
@@ -72,11 +74,11 @@ class GazeTargets {
     RayCaster caster_;
     /// The camera as the object sees it, by motion and by step of a period.
     std::vector<std::vector<glm::dvec3>> eyes_;
-    WeightedTriangles head_, elsewhere_;
-    std::vector<Spot> spots_;   ///< by effect
-    glm::dvec3 middle_{0.0};    ///< of both regions by weighted area
-    double usual_square_ = 1.0; ///< mean square distance from it
-    double most_square_ = 1.0;  ///< largest, as a multiple of that
+    std::vector<WeightedTriangles> regions_; ///< the last is elsewhere
+    std::vector<Spot> spots_;                ///< by effect
+    glm::dvec3 middle_{0.0};                 ///< of all regions by weighted area
+    double usual_square_ = 1.0;              ///< mean square distance from it
+    double most_square_ = 1.0;               ///< largest, as a multiple of that
 };
 
 } // namespace overt

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiment/base/error.h"
+
 namespace overt {
 
 SessionDuration ObservedScene::light_delay(double y_px) const {
@@ -32,20 +34,40 @@ ObservedScene make_observed_scene(const Protocol& protocol, std::span<const Obje
         for (const SceneView& view : object.scenes)
             scene.objects.push_back({object.has_mesh() ? &object.mesh : nullptr, view});
     }
-    for (const Task& task : protocol.tasks)
-        scene.tasks.push_back({task.id, task.simulated_head_share});
+    for (const Task& task : protocol.tasks) {
+        for (const auto& [area, share] : simulated_shares(task)) {
+            if (area_in(scene, area) < 0)
+                scene.areas.push_back(area);
+        }
+    }
+    OVERT_EXPECTS(scene.areas.size() <= most_observed_areas);
+    for (const Task& task : protocol.tasks) {
+        ObservedTask observed{task.id, std::vector<double>(scene.areas.size(), 0.0)};
+        for (const auto& [area, share] : simulated_shares(task))
+            observed.shares[static_cast<std::size_t>(area_in(scene, area))] = share;
+        scene.tasks.push_back(std::move(observed));
+    }
     const auto number_of = [](const std::string& id, const auto& entries) {
         const auto found = std::ranges::find(entries, id, [](const auto& entry) { return entry.id; });
         return id.empty() || found == entries.end() ? -1 : static_cast<int>(found - entries.begin());
     };
-    for (const SimulatedEffect& effect : protocol.simulated_effects)
+    for (const SimulatedEffect& effect : protocol.simulated_effects) {
+        const bool is_of_area = !effect.area.empty();
         scene.effects.push_back({number_of(effect.task, protocol.tasks), chosen_by(protocol, effect),
-                                 effect.head_odds, effect.spot_share, effect.spread});
+                                 is_of_area ? std::max(area_in(scene, effect.area), 0) : 0,
+                                 is_of_area ? effect.area_odds : effect.head_odds, effect.spot_share,
+                                 effect.spread});
+    }
     if (!protocol.slot_entries.empty())
         for (const Slot& slot : protocol.slots)
             scene.slots.push_back(slot_geometry(protocol, slot));
-    scene.head_share_sd = protocol.simulated_observers.head_share_sd;
+    scene.share_sd = protocol.simulated_observers.head_share_sd;
     return scene;
+}
+
+int area_in(const ObservedScene& scene, std::string_view area) {
+    const auto found = std::ranges::find(scene.areas, area);
+    return found == scene.areas.end() ? -1 : static_cast<int>(found - scene.areas.begin());
 }
 
 glm::dvec2 px_per_deg_at_centre(const ScreenGeometry& screen) {

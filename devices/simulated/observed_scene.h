@@ -4,10 +4,12 @@
 #include <array>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "experiment/animation.h"
 #include "experiment/protocol/protocol.h"
+#include "experiment/scene/areas.h"
 #include "experiment/scene/mesh.h"
 #include "experiment/scene/viewing.h"
 #include "experiment/screen_geometry.h"
@@ -23,9 +25,12 @@ struct ObservedObject {
     SceneView scene;
 };
 
+/// Most of ObservedScene::areas.
+inline constexpr std::size_t most_observed_areas = most_simulated_areas;
+
 struct ObservedTask {
     std::string id;
-    double head_share = 0.0; ///< share of fixations that go to the part "head", 0 … 1
+    std::vector<double> shares; ///< of fixations that go to each of ObservedScene::areas; 0 … 1 together
 };
 
 /// What the gaze depends on besides the task.
@@ -33,7 +38,8 @@ struct ObservedEffect {
     int task = -1; ///< -1: any
     /// For each list, whether it holds for each entry.
     std::array<std::vector<bool>, stimulus_lists.size()> entries;
-    double head_odds = 1.0, spot_share = 0.0;
+    int area = 0; ///< index into ObservedScene::areas
+    double odds = 1.0, spot_share = 0.0;
     double spread = 0.0; ///< see GazePlan
 
     bool holds_in(int of_task, Stimulus stimulus) const {
@@ -52,9 +58,10 @@ struct ObservedScene {
     SessionDuration display_latency{};   ///< from vertical blank to the first row's light
     std::vector<ObservedObject> objects; ///< see index_of(): each object in each view
     int views = 1;
-    std::vector<ObservedTask> tasks; ///< by Trial::task
+    std::vector<std::string> areas{std::string(head_area)}; ///< that gaze is meant for, without overlap
+    std::vector<ObservedTask> tasks;                        ///< by Trial::task
     std::vector<ObservedEffect> effects = {};
-    double head_share_sd = 0.0;             ///< of the logit, over observers
+    double share_sd = 0.0;                  ///< of the logit of each area's share, over observers
     std::vector<ScreenGeometry> slots = {}; ///< the screen with each slot's image; none: `screen` alone
 
     const ScreenGeometry& screen_of_slot(int slot) const {
@@ -81,6 +88,9 @@ struct ObservedScene {
 /// The scene of a protocol. Its meshes stay where they are: `objects` must outlive the result.
 ObservedScene make_observed_scene(const Protocol& protocol, std::span<const Object> objects,
                                   const ScreenGeometry& screen);
+
+/// Index of an area of the scene; -1 if gaze is not meant for it.
+int area_in(const ObservedScene& scene, std::string_view area);
 
 /// Pixels per degree at the middle of the screen, along each axis.
 glm::dvec2 px_per_deg_at_centre(const ScreenGeometry& screen);

@@ -51,9 +51,13 @@ std::optional<Protocol> read_text(std::string_view text, const std::filesystem::
         check_frames(examination);
         check_steps(examination);
         check_slots(examination);
+        if (diagnostics.error_count() == errors_before)
+            check_trials(examination);
         check_bake(examination);
         if (look_at_files)
             check_files(examination);
+        if (diagnostics.error_count() == errors_before)
+            check_slot_memory(examination);
         if (diagnostics.error_count() == errors_before)
             check_schedule(examination);
     }

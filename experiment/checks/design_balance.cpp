@@ -9,6 +9,7 @@
 #include "experiment/design/block_plan.h"
 #include "experiment/design/latin_square.h"
 #include "experiment/design/observer_groups.h"
+#include "experiment/design/task_trials.h"
 
 namespace overt {
 
@@ -16,6 +17,8 @@ namespace {
 
 /// Whether which trials come is a matter of the seed, too.
 bool is_drawn(const Protocol& protocol) {
+    if (draws_trials(protocol))
+        return true;
     return std::any_of(protocol.blocks.begin(), protocol.blocks.end(), [](const BlockSettings& block) {
         return block.order == OrderMethod::weighted && block.draws.has_value();
     });
@@ -78,9 +81,11 @@ Presentations count_presentations(const Protocol& protocol, ScheduleMaker& maker
             counted.parts.try_emplace({plan.block, group}, empty_part(protocol, factors, plan.scope));
         for (const Trial& trial :
              is_drawn(protocol) ? maker.make(observer, seed).trials : trials_of(protocol, observer.number)) {
-            const std::size_t cell = cell_of(factors, trial.task, trial.stimulus);
-            ++counted.cells[cell].presentations;
-            ++counted.parts.at({trial.block, group})[cell];
+            for (const PlacedStimulus& shown : trial.all_shown()) {
+                const std::size_t cell = cell_of(factors, trial.task, shown.stimulus);
+                ++counted.cells[cell].presentations;
+                ++counted.parts.at({trial.block, group})[cell];
+            }
         }
     }
     return counted;
@@ -93,19 +98,22 @@ std::vector<std::string> balance_warnings(const Protocol& protocol, const Presen
         Spread over_all;
         for (std::size_t cell = task * cells_per_task; cell < (task + 1) * cells_per_task; ++cell)
             over_all.add(presentations.cells[cell].presentations);
-        if (!over_all.is_uneven())
+        // What a rule or a table shows how often is its own business.
+        if (!over_all.is_uneven() || protocol.tasks[task].trials.has_own_trials())
             continue;
         for (const auto& [place, part] : presentations.parts) {
             const Spread spread = spread_in(part, task, cells_per_task);
-            if (!spread.is_uneven() || block_at(protocol, place.first).order == OrderMethod::weighted)
+            const BlockSettings& block = block_at(protocol, place.first);
+            if (!spread.is_uneven() || block.order == OrderMethod::weighted || block.draw.is_written())
                 continue;
             std::string warning = fmt::format(
                 "under task \"{}\" some stimuli are shown {} times and others {} times{}",
                 protocol.tasks[task].id, spread.least, spread.most, place_of_part(protocol, place));
             if (protocol.blocks.empty() && protocol.groups.empty())
-                warning += fmt::format(": let the number of observers be a multiple of {}",
-                                       rows_of_square(protocol.schedule.material_rotation,
-                                                      static_cast<int>(protocol.materials.size())));
+                warning += fmt::format(
+                    ": let the number of observers be a multiple of {}",
+                    rows_of_square(protocol.schedule.material_rotation,
+                                   static_cast<int>(ids_in_list(protocol, rotated_list(protocol)).size())));
             warnings.push_back(std::move(warning));
         }
     }

@@ -201,11 +201,12 @@ void check_fill(ProtocolExamination& examination, const AlikeObservers& observer
                   : fmt::format("{} observers{} would", rows, observers.of_group));
 }
 
-/// Rows after which the materials of a block have gone round; 1 where they do not.
-int rows_of_materials(const Protocol& protocol, int block, const BlockScope& scope) {
+/// Rows after which the rotated list has gone round in a block; 1 where it does not.
+int rows_of_rotation(const Protocol& protocol, int block, const BlockScope& scope) {
     const bool do_rotate =
-        std::ranges::any_of(scope.tasks, [&](int task) { return rotates_materials(protocol, block, task); });
-    return do_rotate ? rows_of_square(protocol.schedule.material_rotation, materials_in(scope)) : 1;
+        std::ranges::any_of(scope.tasks, [&](int task) { return rotates(protocol, block, task); });
+    return do_rotate ? rows_of_square(protocol.schedule.material_rotation, rotated_entries(protocol, scope))
+                     : 1;
 }
 
 void check_squares(ProtocolExamination& examination) {
@@ -224,10 +225,12 @@ void check_squares(ProtocolExamination& examination) {
                            fmt::format("the square of levels of block \"{}\"", block.id),
                            rows_of_square(square_of(block.levels),
                                           static_cast<int>(level_count_in(protocol, plan.scope, block.by))));
-            rotation = std::max(rotation, rows_of_materials(protocol, plan.block, plan.scope));
+            rotation = std::max(rotation, rows_of_rotation(protocol, plan.block, plan.scope));
         }
         if (!protocol.groups.empty())
-            check_fill(examination, observers, "the rotation of materials", rotation);
+            check_fill(examination, observers,
+                       fmt::format("the rotation of {}", stimulus_lists.at(rotated_list(protocol)).plural),
+                       rotation);
     }
 }
 
@@ -239,14 +242,14 @@ void check_rotation(ProtocolExamination& examination) {
     const int observers = protocol.schedule.observers;
     int rotation = 1;
     for (int index = 0; index < block_count(protocol); ++index)
-        rotation = std::max(rotation, rows_of_materials(protocol, index, scope_of(protocol, index)));
+        rotation = std::max(rotation, rows_of_rotation(protocol, index, scope_of(protocol, index)));
     if (observers % rotation != 0) {
         const int below = observers / rotation * rotation;
         examination.warning(
             {"schedule.observers"},
-            fmt::format(
-                "{} cannot see {} materials equally often under the tasks that are asked once per object",
-                counted(observers, "observer"), protocol.materials.size()),
+            fmt::format("{} cannot see {} {} equally often under the tasks that are asked once per object",
+                        counted(observers, "observer"), ids_in_list(protocol, rotated_list(protocol)).size(),
+                        stimulus_lists.at(rotated_list(protocol)).plural),
             below > 0 ? fmt::format("{} or {} observers would", below, below + rotation)
                       : fmt::format("{} observers would", rotation));
     }
@@ -322,8 +325,6 @@ void check_groups(ProtocolExamination& examination) {
 }
 
 void check_schedule(ProtocolExamination& examination) {
-    // More than anyone sits through, and a bound for all that is reckoned per trial.
-    constexpr int most_trials = 2000;
     const Protocol& protocol = examination.protocol;
     const Factors factors = factors_of(protocol);
     const int distinct = std::max(1, static_cast<int>(protocol.groups.size()));
@@ -337,10 +338,10 @@ void check_schedule(ProtocolExamination& examination) {
                 weight += weight_of(protocol, factors, trial);
             trials += (block.draws ? static_cast<double>(*block.draws) : weight) * block.repetitions;
         }
-        if (trials > most_trials) {
-            examination.error(
-                {protocol.blocks.empty() ? "task" : "block[0]"},
-                fmt::format("an observer would have {} trials; {} is the most", trials, most_trials));
+        if (trials > most_trials_of_observer) {
+            examination.error({protocol.blocks.empty() ? "task" : "block[0]"},
+                              fmt::format("an observer would have {} trials; {} is the most", trials,
+                                          most_trials_of_observer));
             return;
         }
         if (trials == 0.0) {

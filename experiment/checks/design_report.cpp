@@ -112,7 +112,8 @@ MemoryNeed memory_need(const Protocol& protocol) {
     constexpr double bytes_per_map_px = 4.0; // a triangle's number
     MemoryNeed need;
     need.pages_per_stimulus_bytes = most_pages(protocol) * page_bytes(protocol);
-    need.next_fits = 2.0 * need.pages_per_stimulus_bytes <= 1e6 * protocol.display.frame_store_mb;
+    const int at_once = protocol.slots.size() > 1 ? most_stimuli_at_once(protocol) : 1;
+    need.next_fits = 2.0 * at_once * need.pages_per_stimulus_bytes <= 1e6 * protocol.display.frame_store_mb;
     const ViewSettings& view = protocol.views.front();
     need.maps_per_object_bytes =
         bytes_per_map_px * poses_of(protocol).count() * view.width_px * view.height_px;
@@ -202,8 +203,12 @@ DesignReport make_design_report(const Protocol& protocol, const std::vector<Obse
     add_observers(report, protocol);
     report.practice_trials = static_cast<int>(protocol.practice.size());
     report.observers = protocol.schedule.observers;
+    report.slots = ids_of(protocol.slots);
     report.display = protocol.display;
     report.view = protocol.views.front();
+    for (const Slot& slot : protocol.slots)
+        if (slot.entry >= 0)
+            report.slot_places.push_back({slot.id, slot_geometry(protocol, slot)});
     for (const MotionSettings& motion : protocol.motions)
         report.motions.push_back(animation_facts(protocol, motion));
     report.angles = visual_angles(protocol);
@@ -213,6 +218,10 @@ DesignReport make_design_report(const Protocol& protocol, const std::vector<Obse
     const std::uint64_t seed = takes_seed ? example_seed : protocol.schedule.seed.value_or(example_seed);
     ScheduleMaker maker(protocol);
     report.session = longest_session(protocol, maker, seed, report.motions, assumptions);
+    const SessionLength& length = report.session;
+    report.trials = design_in_words(
+        protocol, (length.questions_s + length.drift_checks_s + length.animations_s + length.answers_s) /
+                      std::max(1, report.trials_per_observer));
     report.memory = memory_need(protocol);
     const Presentations presentations = count_presentations(protocol, maker, seed);
     report.incidence = presentations.cells;

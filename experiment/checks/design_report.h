@@ -9,6 +9,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "experiment/checks/design_words.h"
 #include "experiment/checks/recording_size.h"
 #include "experiment/checks/rotation_balance.h"
 #include "experiment/protocol/protocol.h"
@@ -107,11 +108,19 @@ struct DesignReport {
     int observers = 0;               ///< planned
     std::vector<std::string> blocks; ///< ids; empty if the protocol has none
     std::vector<BlockFacts> block_facts;
+    std::vector<std::string> slots; ///< ids
+    std::vector<TaskWords> trials;  ///< each task in each block, in plain words
     std::vector<GroupFacts> groups;
     int practice_trials = 0;
 
     DisplaySettings display;
     ViewSettings view;
+    /// A place for a stimulus, with the image in it.
+    struct SlotFacts {
+        std::string id;
+        ScreenGeometry screen;
+    };
+    std::vector<SlotFacts> slot_places; ///< none without [[slot]]
     std::vector<AnimationFacts> motions;
     VisualAngles angles;
     DesignAssumptions assumptions;

@@ -29,6 +29,19 @@ Json order_json(const DesignReport& report, std::size_t index) {
             item["block"] = report.blocks.at(static_cast<std::size_t>(trial.block));
         item["task"] = report.tasks.at(static_cast<std::size_t>(trial.task));
         add_stimulus(item, report, trial.stimulus);
+        if (report.slots.size() > 1) {
+            for (const PlacedStimulus& shown : trial.all_shown()) {
+                Json in_slot{{"slot", report.slots.at(static_cast<std::size_t>(shown.slot))}};
+                add_stimulus(in_slot, report, shown.stimulus);
+                item["shown"].push_back(std::move(in_slot));
+            }
+        }
+        for (const TrialLevel& of : trial.levels)
+            item["levels"][of.factor] = of.level;
+        if (!trial.correct.empty())
+            item["correct"] = trial.correct;
+        if (trial.role != TrialRole::trial)
+            item["role"] = name_of(trial.role);
         trials.push_back(std::move(item));
     }
     Json order{{"observer", schedule.observer.label},
@@ -123,6 +136,7 @@ Json to_json(const DesignReport& report) {
               {"practice_trials", report.practice_trials}};
     json["factors"] = factors_json(report.factors);
     json["blocks"] = blocks_json(report);
+    json["trials"] = to_json(report.trials);
     json["groups"] = groups_json(report);
     json["animation"] = motion_json(report.motions.front());
     json["motions"] = Json::array();
@@ -150,6 +164,14 @@ Json to_json(const DesignReport& report) {
         if (std::isfinite(light->contrast()))
             json["light"]["contrast"] = light->contrast();
     }
+    for (const DesignReport::SlotFacts& slot : report.slot_places)
+        json["slots"].push_back({{"id", slot.id},
+                                 {"left_px", slot.screen.image_origin_px.x},
+                                 {"top_px", slot.screen.image_origin_px.y},
+                                 {"width_px", slot.screen.image_px.x},
+                                 {"height_px", slot.screen.image_px.y},
+                                 {"right_deg", slot.screen.middle_deg().x},
+                                 {"up_deg", slot.screen.middle_deg().y}});
     json["session"] = {{"calibration_s", session.calibration_s},
                        {"questions_s", session.questions_s},
                        {"drift_checks_s", session.drift_checks_s},

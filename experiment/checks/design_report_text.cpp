@@ -82,6 +82,26 @@ void add_blocks(std::string& text, const DesignReport& report) {
     add_facts(text, "Groups", lines);
 }
 
+/// Each task in each block, in words.
+void add_trials(std::string& text, const DesignReport& report) {
+    constexpr std::size_t widest = 86;
+    std::vector<std::string> lines;
+    for (const TaskWords& words : report.trials) {
+        std::string line = fmt::format("{}{}: {}, {:.1f} min", words.block.empty() ? "" : words.block + ", ",
+                                       words.task, counted(words.trials, "trial"), words.length_s / 60.0);
+        for (const std::string& sentence : words.sentences) {
+            line += ";";
+            if (line.size() + 1 + sentence.size() > widest) {
+                lines.push_back(line);
+                line = " ";
+            }
+            line += " " + sentence;
+        }
+        lines.push_back(line);
+    }
+    add_facts(text, "Trials", lines);
+}
+
 /// Only where several factors go round, for those have to be told apart.
 void add_rotations(std::string& text, const DesignReport& report) {
     for (const RotationFacts& group : report.rotations) {
@@ -148,6 +168,7 @@ void add_overview(std::string& text, const DesignReport& report) {
                      counted(report.trials_per_observer, "trial"), counted(report.observers, "observer"))});
     add_columns(text, report);
     add_blocks(text, report);
+    add_trials(text, report);
     add_rotations(text, report);
     for (const AnimationFacts& animation : report.motions)
         add_motion(text, report, animation);
@@ -157,6 +178,16 @@ void add_overview(std::string& text, const DesignReport& report) {
                      report.display.height_px, report.display.width_mm, report.display.height_mm,
                      report.display.viewing_distance_mm, angles.screen_width_deg, angles.screen_height_deg),
          fmt::format("light leaves as {}", name_of(report.display.output))});
+    std::vector<std::string> places;
+    for (const DesignReport::SlotFacts& slot : report.slot_places) {
+        const glm::ivec2 first = slot.screen.image_origin_px, last = first + slot.screen.image_px - 1;
+        const glm::dvec2 middle = slot.screen.middle_deg();
+        places.push_back(
+            fmt::format("{}: middle {:.2f} deg to the right, {:.2f} up; columns {} to {}, rows {} to {}",
+                        slot.id, middle.x, middle.y, first.x, last.x, first.y, last.y));
+    }
+    if (!places.empty())
+        add_facts(text, "Slots", places);
     if (const auto& light = report.display.characterisation) {
         std::vector<std::string> lines = light_lines(*light);
         lines.push_back(fmt::format("measured {} with {}; background {:.4g} cd/m2",
@@ -170,7 +201,8 @@ void add_overview(std::string& text, const DesignReport& report) {
                     report.view.width_px, report.view.height_px, angles.image_width_deg,
                     angles.image_height_deg, angles.px_per_deg),
         fmt::format("rendered under {:.2f} deg", angles.camera_fov_deg)};
-    if (std::hypot(angles.image_right_deg, angles.image_up_deg) > 2.0 / angles.px_per_deg)
+    if (report.slot_places.empty() &&
+        std::hypot(angles.image_right_deg, angles.image_up_deg) > 2.0 / angles.px_per_deg)
         stimulus.push_back(fmt::format("its middle stands {:.2f} deg to the right of the screen's and {:.2f} "
                                        "deg above it",
                                        angles.image_right_deg, angles.image_up_deg));
@@ -319,12 +351,22 @@ void add_order_of_one(std::string& text, const DesignReport& report, const Sched
             text += fmt::format("  block {}\n", at(report.blocks, trial.block));
         std::string line =
             fmt::format("  {:>4}  {:<{}}", trial.index + 1, at(report.tasks, trial.task), task_width);
-        for (const StimulusList* list : named_lists(report)) {
-            std::size_t width = 0;
-            for (const FactorLevel& level : report.factors.at(list->name).levels)
-                width = std::max(width, level.name.size());
-            line += fmt::format("  {:<{}}", id_in(report, *list, trial.stimulus), width);
+        for (const PlacedStimulus& shown : trial.all_shown()) {
+            if (report.slots.size() > 1)
+                line += fmt::format("  {}:", at(report.slots, shown.slot));
+            for (const StimulusList* list : named_lists(report)) {
+                std::size_t width = 0;
+                for (const FactorLevel& level : report.factors.at(list->name).levels)
+                    width = std::max(width, level.name.size());
+                line += fmt::format("  {:<{}}", id_in(report, *list, shown.stimulus), width);
+            }
         }
+        for (const TrialLevel& of : trial.levels)
+            line += fmt::format("  {} {}", of.factor, of.level);
+        if (!trial.correct.empty())
+            line += fmt::format("  correct {}", trial.correct);
+        if (trial.role != TrialRole::trial)
+            line += fmt::format("  ({})", name_of(trial.role));
         line.erase(line.find_last_not_of(' ') + 1);
         text += line + "\n";
     }

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -203,11 +204,15 @@ void check_tags(ProtocolExamination& examination) {
     }
     const ScreenGeometry geometry = screen_geometry_of(protocol);
     const std::optional<PatchPlace> patch = photodiode_patch_of(display);
-    const std::vector<TagPlace> tags = gaze_tags_of(geometry, display);
+    std::vector<glm::ivec2> images_px = slot_places(protocol);
+    if (images_px.empty())
+        images_px.push_back(geometry.image_origin_px);
+    const std::vector<TagPlace> tags = gaze_tags_of(geometry, display, images_px);
     for (const TagPlace& tag : tags) {
         const auto place = fmt::format("the tag in columns {} to {} and rows {} to {}", tag.origin_px.x,
                                        tag.end_px().x - 1, tag.origin_px.y, tag.end_px().y - 1);
-        if (touches(tag, geometry.image_origin_px, geometry.image_px)) {
+        if (std::ranges::any_of(images_px,
+                                [&](glm::ivec2 image) { return touches(tag, image, geometry.image_px); })) {
             examination.error({"display.tags_px"},
                               fmt::format("{} is closer than {} px to the stimulus", place, tag_distance_px),
                               "take smaller tags or a smaller stimulus");

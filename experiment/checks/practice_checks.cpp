@@ -1,3 +1,5 @@
+#include <set>
+
 #include <fmt/format.h>
 
 #include "experiment/checks/protocol_checks.h"
@@ -66,9 +68,38 @@ void check_practice(ProtocolExamination& examination) {
     }
 }
 
+namespace {
+
+void check_simulated_shares(ProtocolExamination& examination) {
+    const Protocol& protocol = examination.protocol;
+    std::set<std::string> areas{"head"};
+    for (std::size_t i = 0; i < protocol.tasks.size(); ++i) {
+        const Task& task = protocol.tasks[i];
+        const auto path = [&](std::string_view key) { return fmt::format("task[{}].{}", i, key); };
+        double all = 0.0;
+        for (const auto& [area, share] : simulated_shares(task))
+            all += share;
+        for (const auto& [area, share] : task.simulated_area_shares) {
+            areas.insert(area);
+            if (area == "head" && task.simulated_head_share)
+                examination.error({path("simulated_head_share"), path("simulated_area_shares")},
+                                  "the head has two shares", "take one of them out");
+        }
+        if (all > 1.0 + 1e-9)
+            examination.error({path("simulated_area_shares"), path("simulated_head_share")},
+                              fmt::format("{:.3g} of the fixations would go to areas: 1 is all", all));
+    }
+    if (areas.size() > most_simulated_areas)
+        examination.error({"task"}, fmt::format("{} areas have shares: {} can be kept apart", areas.size(),
+                                                most_simulated_areas));
+}
+
+} // namespace
+
 void check_simulated_effects(ProtocolExamination& examination) {
     const Protocol& protocol = examination.protocol;
     const auto& effects = protocol.simulated_effects;
+    check_simulated_shares(examination);
     int spots = 0;
     double shares = 0.0;
     for (std::size_t i = 0; i < effects.size(); ++i) {
@@ -80,6 +111,12 @@ void check_simulated_effects(ProtocolExamination& examination) {
             check_id(examination, path("task"), effect.task, protocol.tasks, "task");
         check_entries_named(examination, fmt::format("simulated_effect[{}]", i), effect.entries);
         check_where(examination, fmt::format("simulated_effect[{}].where", i), effect.where);
+        if (effect.area.empty() && examination.is_written(path("area_odds")))
+            examination.error({path("area_odds")}, "\"area_odds\" without \"area\" is of nothing",
+                              "name the area, or write head_odds");
+        if (!effect.area.empty() && examination.is_written(path("head_odds")))
+            examination.error({path("head_odds"), path("area")}, "one effect has the odds of one area",
+                              "write a [[simulated_effect]] for each");
         spots += effect.spot_share > 0.0;
         // What can hold in one trial with this effect, this one included.
         shares = 0.0;

@@ -23,6 +23,8 @@ void check_dropped_limits(ProtocolExamination& examination);
 /// Blocks and groups: what they name, and what belongs together in one.
 void check_blocks(ProtocolExamination& examination);
 void check_groups(ProtocolExamination& examination);
+/// Rules and tables of trials: after check_slots().
+void check_trials(ProtocolExamination& examination);
 void check_practice(ProtocolExamination& examination);
 void check_simulated_effects(ProtocolExamination& examination);
 void check_breaks(ProtocolExamination& examination);
@@ -40,6 +42,8 @@ void check_ids(ProtocolExamination& examination);
 void check_objects(ProtocolExamination& examination, std::span<const std::string_view> shipped_sculptures);
 void check_materials(ProtocolExamination& examination);
 void check_frames(ProtocolExamination& examination);
+/// What the stimuli of a trial take of the frame store together. Of a protocol that is sound otherwise.
+void check_slot_memory(ProtocolExamination& examination);
 /// What a trial of each task does.
 void check_steps(ProtocolExamination& examination);
 /// Places on the screen, and in which of them each task shows its stimuli.

@@ -16,6 +16,8 @@ namespace {
 
 // Measured in session.sqlite: 41.4 bytes for each of 492,920 samples, 51.5 for each of 28,800 flips.
 constexpr double bytes_per_sample = 42.0, bytes_per_flip = 52.0;
+// The same of a flip's row for a further slot: key, three small numbers.
+constexpr double bytes_per_slot_flip = 16.0;
 constexpr double bytes_at_first = 300e3; ///< of a record without rows, protocol and manifest
 constexpr double bytes_per_px = 0.5;
 // Binary PLY: three float32; a count, three numbers of 32 bits and a part.
@@ -31,7 +33,11 @@ RecordingSize recording_size(const Protocol& protocol, std::span<const Object> o
     const double recorded_s =
         cycle.total_refreshes / protocol.display.refresh_hz + 2.0 * protocol.screens.recording_lead_s;
     // Each tracker's record has the flips as well.
-    const double flip_bytes = cycle.total_refreshes * bytes_per_flip;
+    std::size_t slots = 1;
+    for (int task = 0; task < static_cast<int>(protocol.tasks.size()); ++task)
+        slots = std::max(slots, slots_of_task(protocol, task).size());
+    const double flip_bytes =
+        cycle.total_refreshes * (bytes_per_flip + bytes_per_slot_flip * static_cast<double>(slots - 1));
     const auto bytes_of = [&](const TrackerSettings& tracker) {
         return recorded_s * (row_of(tracker.kind).measures_gaze ? tracker.rate_hz : 0.0) * bytes_per_sample +
                flip_bytes;

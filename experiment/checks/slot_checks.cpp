@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "experiment/checks/protocol_checks.h"
+#include "experiment/design/block_plan.h"
 #include "experiment/protocol/entry_ids.h"
 #include "experiment/stimulus/frame_memory.h"
 #include "experiment/stimulus/photodiode_patch.h"
@@ -181,6 +182,23 @@ void check_slots(ProtocolExamination& examination) {
     }
     for (std::size_t i = 0; i < protocol.tasks.size() && are_all_places; ++i)
         check_slots_of_task(examination, i);
+}
+
+void check_slot_memory(ProtocolExamination& examination) {
+    const Protocol& protocol = examination.protocol;
+    if (protocol.slots.size() == 1)
+        return;
+    const int stimuli = most_stimuli_at_once(protocol);
+    const double trial_mb = 1e-6 * stimuli * most_pages(protocol) * page_bytes(protocol);
+    if (trial_mb > protocol.display.frame_store_mb)
+        examination.error(
+            {"display.frame_store_mb", "slot"},
+            fmt::format("the {} stimuli of a trial take {:.4g} MB of the frame store, which may take {}",
+                        stimuli, trial_mb, protocol.display.frame_store_mb),
+            fmt::format(
+                "write frame_store_mb = {:.0f}, if the graphics card has as much ({:.0f} with the next "
+                "trial's), or show fewer or smaller frames",
+                std::ceil(trial_mb), std::ceil(2.0 * trial_mb)));
 }
 
 } // namespace overt

@@ -1,5 +1,4 @@
 #include "experiment/checks/protocol_checks.h"
-#include "experiment/spectra/metal_table.h"
 
 #include <algorithm>
 #include <array>
@@ -13,6 +12,9 @@
 #include "experiment/protocol/all_stimuli.h"
 #include "experiment/protocol/entry_ids.h"
 #include "experiment/protocol/protocol_keys.h"
+#include "experiment/scene/areas.h"
+#include "experiment/spectra/metal_table.h"
+#include "experiment/stimulus/object.h"
 
 namespace overt {
 
@@ -183,6 +185,40 @@ void check_frame_colours(ProtocolExamination& examination, std::size_t index) {
                             "\"background_tolerance\" has no effect without \"background_colour\"");
 }
 
+/// The path of an area's key, under whichever name of the table it was written.
+std::string area_path(const ProtocolExamination& examination, std::size_t object, const std::string& area) {
+    const std::string path = entry_path("object", object, fmt::format("areas.{}", area));
+    return examination.is_written(path) ? path : entry_path("object", object, area);
+}
+
+void check_areas(ProtocolExamination& examination, std::size_t index) {
+    const ObjectSettings& object = examination.protocol.objects[index];
+    const std::string areas = entry_path("object", index, "areas"),
+                      head = entry_path("object", index, "head");
+    for (std::size_t i = 0; i < object.areas.size(); ++i) {
+        const AreaSettings& area = object.areas[i];
+        const std::string path = area_path(examination, index, area.name);
+        for (std::size_t before = 0; before < i; ++before) {
+            if (object.areas[before].name == area.name)
+                examination.error({head, path}, fmt::format("\"{}\" is described twice", area.name),
+                                  "write it either as \"head\" or in \"areas\"");
+        }
+        const bool is_anywhere = !area.spheres.empty() || !area.boxes.empty() || !area.groups.empty();
+        if (!is_anywhere && area.planes.empty())
+            examination.error({path}, fmt::format("nothing says where \"{}\" is", area.name),
+                              "give it \"spheres\", \"boxes\", \"groups\" or \"planes\"");
+        else if (!is_anywhere && area.name == head_area)
+            examination.warning({path}, "\"planes\" alone make no head", "give \"spheres\" that hold it");
+        if (!object.lut.empty() && !area.groups.empty())
+            examination.error({path}, "ready-made maps have no groups", "give spheres, boxes or planes");
+    }
+    if (!object.lut.empty() && object.areas.size() > most_map_areas)
+        examination.error({areas},
+                          fmt::format("{} areas are described, and maps take {} at most", object.areas.size(),
+                                      most_map_areas),
+                          "take some out, or give the object's mesh in place of \"lut\"");
+}
+
 } // namespace
 
 void check_ids(ProtocolExamination& examination) {
@@ -229,11 +265,10 @@ void check_objects(ProtocolExamination& examination, std::span<const std::string
             check_idle_keys(examination, i, {"lut_first_number", "lut_scale", "lut_min", "lut_max"},
                             "\"lut\"", "it describes ready-made maps");
         if (!has_mesh && !has_lut)
-            check_idle_keys(examination, i, {"head"}, "\"mesh\"",
-                            "it describes the coordinates of a mesh file");
-        else if (object.head_spheres.empty() && !object.head_planes.empty())
-            examination.warning({entry_path("object", i, "head")}, "\"planes\" alone make no head",
-                                "give \"spheres\" that hold it");
+            check_idle_keys(examination, i, {"head", "areas"}, "\"mesh\"",
+                            "it describes places in a mesh file");
+        else
+            check_areas(examination, i);
     }
 }
 

@@ -29,8 +29,10 @@ struct BlockScope {
     std::array<std::vector<int>, stimulus_lists.size()> lists; ///< by row of stimulus_lists
 };
 
-/// The number of materials, which may go round over the observers.
-int materials_in(const BlockScope& scope);
+/// The list whose entries go round over the observers in tasks that are asked once per object, as a row of
+/// stimulus_lists, and how many of them a scope has.
+std::size_t rotated_list(const Protocol& protocol);
+int rotated_entries(const Protocol& protocol, const BlockScope& scope);
 
 /// All stimuli of a scope, list by list, the last running fastest.
 std::vector<Stimulus> stimuli_in(const BlockScope& scope);
@@ -48,8 +50,9 @@ struct BlockScopeOf {
 /// leaves without trials are among them.
 std::vector<BlockScopeOf> blocks_of_group(const Protocol& protocol, int number);
 
-/// Whether a task is asked once per object in a block, the material going round over the observers.
-bool rotates_materials(const Protocol& protocol, int block, int task);
+/// Whether a task is asked once per object in a block, an entry of the rotated list going round over the
+/// observers.
+bool rotates(const Protocol& protocol, int block, int task);
 
 /// A block as one observer has it.
 struct BlockPlan {
@@ -66,6 +69,12 @@ std::vector<BlockPlan> block_plans(const Protocol& protocol, int observer_number
 
 /// Puts the trial's stimulus into each of its task's slots: what a task without a rule of its own shows.
 void fill_slots(const Protocol& protocol, Trial& trial);
+
+/// The most stimuli that a trial of an observer shows at once, each counted once.
+int most_stimuli_at_once(const Protocol& protocol);
+
+/// More than anyone sits through, and a bound for all that is reckoned per trial.
+inline constexpr int most_trials_of_observer = 2000;
 
 /// How many trials a block has: its trials with their repetitions or weights, or its draws.
 int length_of(const Protocol& protocol, const BlockPlan& plan);

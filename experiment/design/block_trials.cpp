@@ -1,12 +1,15 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <set>
 
 #include "experiment/base/random.h"
 #include "experiment/design/block_plan.h"
+#include "experiment/design/drawn_lists.h"
 #include "experiment/design/latin_square.h"
 #include "experiment/design/observer_groups.h"
 #include "experiment/design/schedule.h"
+#include "experiment/design/task_trials.h"
 #include "experiment/protocol/entry_ids.h"
 
 namespace overt {
@@ -48,28 +51,42 @@ BlockScope scope_for(const Protocol& protocol, int block, const GroupSettings* g
     return scope;
 }
 
-constexpr std::size_t object_list = 0, material_list = 1;
-static_assert(stimulus_lists[object_list].name == "object" &&
-              stimulus_lists[material_list].name == "material");
+constexpr std::size_t object_list = 0;
+static_assert(stimulus_lists[object_list].index == &Stimulus::object);
 
-/// The material of a cell, c = task * S + object with the task's place among the rotated ones: column (c +
-/// floor(c / L)) mod M of the row, with L the least common multiple of S and M. So the M rows of a square
-/// fill all M materials of a cell once; each row has all materials equally often, to one; and an object
-/// changes its material from task to task.
+/// The rotated list's entry of a cell, c = task * S + object with the task's place among the rotated ones:
+/// column (c + floor(c / L)) mod M of the row, with L the least common multiple of S and M. So the M rows of
+/// a square fill all M entries of a cell once; each row has all entries equally often, to one; and an object
+/// changes its entry from task to task.
 int rotated(const Protocol& protocol, int row, int cell, const BlockScope& scope) {
-    const int objects = count_of(scope.lists[object_list]), materials = count_of(scope.lists[material_list]);
-    const int round = std::lcm(objects, materials);
-    const int column = (cell + cell / round) % materials;
-    return row_of_square(protocol.schedule.material_rotation, materials, row,
+    const int objects = count_of(scope.lists[object_list]), entries = rotated_entries(protocol, scope);
+    const int round = std::lcm(objects, entries);
+    const int column = (cell + cell / round) % entries;
+    return row_of_square(protocol.schedule.material_rotation, entries, row,
                          static_cast<std::uint64_t>(protocol.schedule.rotation_seed),
-                         "material rotation")[static_cast<std::size_t>(column)];
+                         std::string(protocol.schedule.rotated_list) +
+                             " rotation")[static_cast<std::size_t>(column)];
 }
 
-std::vector<Trial> trials_in(const Protocol& protocol, int block, const BlockScope& scope, int row) {
+/// Whose trials are asked for.
+struct ForObserver {
+    int number = 1;
+    std::uint64_t seed = 0;
+};
+
+std::vector<Trial> trials_in(const Protocol& protocol, int block, const BlockScope& scope, int row,
+                             const ForObserver& observer) {
     std::vector<Trial> trials;
     for (const int task : scope.tasks) {
+        if (protocol.tasks[static_cast<std::size_t>(task)].trials.has_own_trials()) {
+            for (Trial& trial :
+                 own_trials(protocol, task, block, stimuli_in(scope), observer.number, observer.seed))
+                trials.push_back(std::move(trial));
+            continue;
+        }
+        const std::size_t first = trials.size();
         const TaskCoverage own = protocol.tasks[static_cast<std::size_t>(task)].stimuli;
-        const bool rotates = rotates_materials(protocol, block, task);
+        const bool is_rotated = rotates(protocol, block, task);
         // A rotated task's cells are numbered by its place among the rotated tasks, whatever block it is in.
         int rotating_task = task;
         if (own == TaskCoverage::once_per_object)
@@ -77,22 +94,32 @@ std::vector<Trial> trials_in(const Protocol& protocol, int block, const BlockSco
                 std::count_if(protocol.tasks.begin(), protocol.tasks.begin() + task, [](const Task& earlier) {
                     return earlier.stimuli == TaskCoverage::once_per_object;
                 }));
-        // Of a rotated task, an object has one material in all that the other lists make of it.
-        std::vector<int> material_of_object(protocol.objects.size(), -1);
+        // Of a rotated task, an object has one entry of the list in all that the other lists make of it.
+        const std::size_t list = rotated_list(protocol);
+        std::vector<int> entry_of_object(protocol.objects.size(), -1);
         const std::vector<int>& objects = scope.lists[object_list];
-        for (int i = 0; rotates && !scope.lists[material_list].empty() && i < count_of(objects); ++i) {
+        for (int i = 0; is_rotated && !scope.lists[list].empty() && i < count_of(objects); ++i) {
             const int cell = rotating_task * count_of(objects) + i;
-            material_of_object[static_cast<std::size_t>(objects[static_cast<std::size_t>(i)])] =
-                scope.lists[material_list][static_cast<std::size_t>(rotated(protocol, row, cell, scope))];
+            entry_of_object[static_cast<std::size_t>(objects[static_cast<std::size_t>(i)])] =
+                scope.lists[list][static_cast<std::size_t>(rotated(protocol, row, cell, scope))];
         }
         for (const Stimulus& stimulus : stimuli_in(scope)) {
-            if (!rotates ||
-                material_of_object[static_cast<std::size_t>(stimulus.object)] == stimulus.material)
+            if (!is_rotated || entry_of_object[static_cast<std::size_t>(stimulus.object)] ==
+                                   stimulus.*stimulus_lists[list].index)
                 trials.push_back({count_of(trials), task, stimulus, block});
         }
+        std::for_each(trials.begin() + static_cast<std::ptrdiff_t>(first), trials.end(),
+                      [&](Trial& trial) { fill_slots(protocol, trial); });
+        const std::vector<Trial> once(trials.begin() + static_cast<std::ptrdiff_t>(first), trials.end());
+        for (int i = 1; i < protocol.tasks[static_cast<std::size_t>(task)].repetitions; ++i)
+            trials.insert(trials.end(), once.begin(), once.end());
     }
-    for (Trial& trial : trials)
-        fill_slots(protocol, trial);
+    for (const int task : scope.tasks)
+        for (Trial& trial :
+             catch_trials(protocol, task, block, stimuli_in(scope), trials, observer.number, observer.seed))
+            trials.push_back(std::move(trial));
+    for (std::size_t i = 0; i < trials.size(); ++i)
+        trials[i].index = static_cast<int>(i);
     return trials;
 }
 
@@ -119,7 +146,15 @@ std::vector<int> order_of_blocks(const Protocol& protocol, const std::vector<int
 
 BlockScope scope_of(const Protocol& protocol, int block) { return scope_for(protocol, block, nullptr); }
 
-int materials_in(const BlockScope& scope) { return count_of(scope.lists[material_list]); }
+std::size_t rotated_list(const Protocol& protocol) {
+    return static_cast<std::size_t>(
+        std::ranges::find(stimulus_lists, protocol.schedule.rotated_list, &StimulusList::name) -
+        stimulus_lists.begin());
+}
+
+int rotated_entries(const Protocol& protocol, const BlockScope& scope) {
+    return count_of(scope.lists.at(rotated_list(protocol)));
+}
 
 std::vector<Stimulus> stimuli_in(const BlockScope& scope) {
     std::vector<Stimulus> stimuli{{}};
@@ -151,6 +186,19 @@ void fill_slots(const Protocol& protocol, Trial& trial) {
         trial.beside.push_back({trial.stimulus, slots[i]});
 }
 
+int most_stimuli_at_once(const Protocol& protocol) {
+    std::size_t most = 1;
+    for (const BlockPlan& plan : block_plans(protocol, 1, 0)) {
+        for (const Trial& trial : plan.trials) {
+            std::set<Stimulus> stimuli{trial.stimulus};
+            for (const PlacedStimulus& placed : trial.beside)
+                stimuli.insert(placed.stimulus);
+            most = std::max(most, stimuli.size());
+        }
+    }
+    return static_cast<int>(most);
+}
+
 std::vector<int> levels_in(const Factors& factors, const BlockScope& scope, const Factor& factor) {
     if (factor.source == Factor::Source::task)
         return scope.tasks;
@@ -158,6 +206,11 @@ std::vector<int> levels_in(const Factors& factors, const BlockScope& scope, cons
     if (factor.source == Factor::Source::stimulus) {
         for (const Stimulus& stimulus : stimuli_in(scope))
             levels.push_back(factors.level_of(factor, {}, stimulus));
+        return levels;
+    }
+    if (factor.source == Factor::Source::own) {
+        levels.resize(factor.levels.size());
+        std::iota(levels.begin(), levels.end(), 0);
         return levels;
     }
     for (const int entry : scope.lists[factor.list]) {
@@ -193,7 +246,7 @@ int length_of(const Protocol& protocol, const BlockPlan& plan) {
     return static_cast<int>(std::lround(length)) * block.repetitions;
 }
 
-bool rotates_materials(const Protocol& protocol, int block, int task) {
+bool rotates(const Protocol& protocol, int block, int task) {
     return block_at(protocol, block)
                .stimuli.value_or(protocol.tasks.at(static_cast<std::size_t>(task)).stimuli) ==
            TaskCoverage::once_per_object;
@@ -224,8 +277,16 @@ std::vector<BlockPlan> block_plans(const Protocol& protocol, int observer_number
          order_of_blocks(protocol, blocks, rotations.row_of(Kind::blocks, -1, place.row), seed)) {
         BlockPlan plan{block, {}, {}, rotations.row_of(Kind::levels, block, place.row)};
         plan.scope = std::ranges::find(scopes, block, &BlockScopeOf::block)->scope;
-        plan.trials =
-            trials_in(protocol, block, plan.scope, rotations.row_of(Kind::materials, -1, place.row));
+        const auto drawn = drawn_list(protocol, scopes, block, observer_number, seed);
+        if (drawn)
+            plan.scope.lists[drawn->list] = drawn->entries;
+        plan.trials = trials_in(protocol, block, plan.scope, rotations.row_of(Kind::entries, -1, place.row),
+                                {observer_number, seed});
+        if (drawn)
+            mark_old_and_new(*drawn, plan.trials);
+        if (block_at(protocol, block).practice)
+            for (Trial& trial : plan.trials)
+                trial.role = TrialRole::practice;
         if (!plan.trials.empty())
             plans.push_back(std::move(plan));
     }

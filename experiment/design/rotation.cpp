@@ -11,14 +11,14 @@ namespace overt {
 
 namespace {
 
-/// Rows of the materials' square that all blocks of a group have in common.
-int material_rows(const Protocol& protocol, const std::vector<BlockScopeOf>& blocks) {
+/// Rows of the square of the rotated list that all blocks of a group have in common.
+int rotated_rows(const Protocol& protocol, const std::vector<BlockScopeOf>& blocks) {
     int rows = 1;
     for (const auto& [block, scope] : blocks) {
         for (const int task : scope.tasks)
-            if (rotates_materials(protocol, block, task) && materials_in(scope) > 1)
-                rows =
-                    std::lcm(rows, rows_of_square(protocol.schedule.material_rotation, materials_in(scope)));
+            if (rotates(protocol, block, task) && rotated_entries(protocol, scope) > 1)
+                rows = std::lcm(rows, rows_of_square(protocol.schedule.material_rotation,
+                                                     rotated_entries(protocol, scope)));
     }
     return rows;
 }
@@ -32,7 +32,7 @@ Rotations::Rotations(const Protocol& protocol, int group, RotationRule rule) : r
         if (rows > 1)
             factors_.push_back({kind, block, rows});
     };
-    add(Kind::materials, -1, material_rows(protocol, blocks));
+    add(Kind::entries, -1, rotated_rows(protocol, blocks));
     if (const LevelOrder by = protocol.schedule.block_order; by >= LevelOrder::cyclic && blocks.size() > 1)
         add(Kind::blocks, -1, rows_of_square(square_of(by), static_cast<int>(blocks.size())));
     for (const auto& [block, scope] : blocks) {
@@ -69,8 +69,8 @@ int Rotations::row_of(RotatedFactor::Kind kind, int block, int row) const {
 
 std::string describe(const RotatedFactor& factor, const Protocol& protocol) {
     switch (factor.kind) {
-    case RotatedFactor::Kind::materials:
-        return "materials";
+    case RotatedFactor::Kind::entries:
+        return std::string(stimulus_lists.at(rotated_list(protocol)).plural);
     case RotatedFactor::Kind::blocks:
         return "order of blocks";
     case RotatedFactor::Kind::levels:

@@ -13,11 +13,11 @@ namespace overt {
 /// One thing that goes by the rows of a square.
 struct RotatedFactor {
     enum class Kind : std::uint8_t {
-        materials, ///< of tasks that are asked once per object
-        blocks,    ///< their order
-        levels,    ///< their order in a block
+        entries, ///< of the rotated list, in tasks that are asked once per object
+        blocks,  ///< their order
+        levels,  ///< their order in a block
     };
-    Kind kind = Kind::materials;
+    Kind kind = Kind::entries;
     int block = -1; ///< of levels
     int rows = 1;   ///< after which every level has stood everywhere equally often; at least 2
     bool operator==(const RotatedFactor&) const = default;
@@ -38,7 +38,7 @@ class Rotations {
   public:
     Rotations(const Protocol& protocol, int group, RotationRule rule = RotationRule::crossed);
 
-    /// In a fixed order: materials, blocks, then the levels of blocks as listed.
+    /// In a fixed order: the rotated list, blocks, then the levels of blocks as listed.
     const std::vector<RotatedFactor>& factors() const { return factors_; }
 
     /// Observers after which every combination of rows has come equally often; 1 without factors.
@@ -57,7 +57,7 @@ class Rotations {
     RotationRule rule_;
 };
 
-/// "materials", "order of blocks", "levels of block "questions"".
+/// "materials" or another list, "order of blocks", "levels of block "questions"".
 std::string describe(const RotatedFactor& factor, const Protocol& protocol);
 
 } // namespace overt

@@ -7,6 +7,8 @@
 
 #include "experiment/base/counted.h"
 #include "experiment/base/random.h"
+#include "experiment/base/text_number.h"
+#include "experiment/factors.h"
 #include "experiment/protocol/all_stimuli.h"
 
 namespace overt {
@@ -85,6 +87,8 @@ TrialPlan plan_trial(const Protocol& protocol, std::uint64_t seed, const Trial& 
                                 static_cast<std::uint64_t>(trial.index));
             step.drawn_s = drawn_s(*settings.duration, stream.uniform());
         }
+        if (const auto own_s = number_in<double>(own_level(trial, seconds_column(settings))))
+            step.drawn_s = own_s;
         if (step.drawn_s)
             step.refreshes = refreshes_in(*step.drawn_s, refresh_hz);
         if (settings.gaze && settings.gaze->patience_s)

@@ -38,9 +38,9 @@ struct TrialPlan {
 int refreshes_in(double seconds, double refresh_hz);
 
 /// The steps of a trial's task. Durations are drawn from streams of their own by the session's seed, the
-/// trial and the step: every attempt at a trial has the same. A task without steps is a question, a drift
-/// check, the stimulus and an answer. Of a practice trial numbers are drawn apart. The protocol must outlive
-/// the plan.
+/// trial and the step, or are the trial's own (seconds_column): every attempt at a trial has the same. A task
+/// without steps is a question, a drift check, the stimulus and an answer. Of a practice trial numbers are
+/// drawn apart. The protocol must outlive the plan.
 TrialPlan plan_trial(const Protocol& protocol, std::uint64_t seed, const Trial& trial, bool is_practice);
 
 /// The steps of a task around the one that shows its stimulus during which gaze is recorded without a break:

@@ -14,8 +14,10 @@ namespace {
 void expect_members_of(const void* its_struct, const Section& section) {
     for (const Key& key : section.keys)
         OVERT_EXPECTS(key.place.left_out_struct() == its_struct);
-    for (const Section& table : section.tables)
-        expect_members_of(its_struct, table);
+    for (const Section& table : section.tables) {
+        OVERT_EXPECTS(!table.home.has_struct() || table.home.left_out_root() == its_struct);
+        expect_members_of(table.home.has_struct() ? table.home.left_out_struct() : its_struct, table);
+    }
 }
 
 } // namespace

@@ -5,8 +5,10 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "experiment/keys/key_rule.h"
@@ -92,9 +94,9 @@ struct Key {
 /// Where the structs of a section lie in the struct that a whole file becomes.
 class SectionHome {
   public:
-    /// Of a table within a section: its keys are members of the section's struct.
+    /// Of a table within a section whose keys are members of the section's struct.
     SectionHome() = default;
-    /// Of a [section], and of a [[list]].
+    /// Of a [section], of a [[list]], and of a table within one that has a struct of its own there.
     template <class Root, class Struct>
     SectionHome(Struct Root::*one) : place_(one), left_out_(&as_left_out<Struct>()) {}
     template <class Root, class Struct>
@@ -103,6 +105,21 @@ class SectionHome {
               return &static_cast<std::vector<Struct>*>(entries)->emplace_back();
           }),
           clear_([](void* entries) { static_cast<std::vector<Struct>*>(entries)->clear(); }) {}
+    /// Of a table within a section whose keys are names, such as `areas = { rim = { … }, base = { … } }`:
+    /// each is an entry of a list in the section's struct, which has its name in `name`.
+    template <class Struct, class Entry>
+    static SectionHome by_name(std::vector<Entry> Struct::*list, std::string Entry::*name) {
+        SectionHome home(list);
+        home.name_.emplace(name);
+        return home;
+    }
+    /// Of a table within a section that is one such entry, called as the table is.
+    template <class Struct, class Entry>
+    static SectionHome one_by_name(std::vector<Entry> Struct::*list, std::string Entry::*name) {
+        SectionHome home = by_name(list, name);
+        home.is_one_ = true;
+        return home;
+    }
     /// Of a section whose keys are members of the whole file's struct itself.
     template <class Root> static SectionHome root() {
         SectionHome home;
@@ -111,7 +128,16 @@ class SectionHome {
         return home;
     }
 
-    bool is_list() const { return add_ != nullptr; }
+    bool has_struct() const { return place_.has_value(); }
+    bool is_list() const { return add_ != nullptr && !name_; }
+    bool is_by_name() const { return name_ && !is_one_; }
+    bool is_one_by_name() const { return name_ && is_one_; }
+    /// A new entry of a list by names, in an object of the section's struct.
+    void* open_named(void* object, std::string name) const {
+        void* const entry = add_(place_->in(object));
+        *static_cast<std::string*>(name_->in(entry)) = std::move(name);
+        return entry;
+    }
     /// The section's struct in `root`; of a list, a new entry of it.
     void* open(void* root) const { return is_list() ? add_(place_->in(root)) : place_->in(root); }
     /// Takes out the entries of a list.
@@ -124,13 +150,15 @@ class SectionHome {
     std::optional<MemberPlace> place_;
     const void* left_out_ = nullptr;
     void* (*add_)(void* list) = nullptr;
+    std::optional<MemberPlace> name_; ///< of entries by name
+    bool is_one_ = false;
     void (*clear_)(void* list) = nullptr;
 };
 
 /// A [section], the entries of a [[list]], or a table within one of them (`head = { … }` of an object).
 struct Section {
     std::string_view name;
-    SectionHome home; ///< of a table within a section: none
+    SectionHome home; ///< of a table within a section: of its struct, if that is not the section's
     std::vector<Key> keys;
     std::string_view explanation = {};
     std::vector<Section> tables = {};

@@ -148,9 +148,11 @@ void KeyWalk::read_keys(const Section& section, std::string_view heading, const 
         const Key* const key = section.find_key(entry.key);
         const auto inner = std::ranges::find(section.tables, entry.key, &Section::name);
         const std::string entry_path = path + "." + entry.key;
-        if (key)
+        // A key may be written as a value, or as a table of its own.
+        const bool is_inner = inner != section.tables.end() && (!key || entry.value.table());
+        if (key && !is_inner)
             read_key(*key, entry.value, entry_path, out);
-        else if (inner != section.tables.end())
+        else if (is_inner)
             read_inner(*inner, entry, entry_path, out);
         else
             error(entry.key_place, fmt::format("unknown key \"{}\" in [{}]", entry.key, heading),
@@ -165,12 +167,36 @@ void KeyWalk::read_keys(const Section& section, std::string_view heading, const 
 
 void KeyWalk::read_inner(const Section& section, const TomlEntry& entry, const std::string& path, void* out) {
     places_.note(path, entry.value.place);
-    if (entry.value.table()) {
-        read_keys(section, section.name, *entry.value.table(), path, out);
+    const SectionHome& home = section.home;
+    if (!entry.value.table()) {
+        error(entry.value.place,
+              fmt::format("{}: expected a table, found {}", section.name, entry.value.kind()),
+              fmt::format(fmt::runtime(home.is_by_name() ? "write {} = {{ NAME = {{ {} = … }} }}"
+                                                         : "write {} = {{ {} = … }}"),
+                          section.name, section.keys.front().rule.name));
+    } else if (home.is_by_name()) {
+        for (const TomlEntry& named : *entry.value.table())
+            read_named(section, named, fmt::format("{}.{}", path, named.key), out);
+    } else {
+        void* const inner = home.is_one_by_name() ? home.open_named(out, entry.key)
+                            : home.has_struct()   ? home.open(out)
+                                                  : out;
+        read_keys(section, section.name, *entry.value.table(), path, inner);
+    }
+}
+
+void KeyWalk::read_named(const Section& section, const TomlEntry& entry, const std::string& path, void* out) {
+    places_.note(path, entry.key_place);
+    if (const ValueResult fault = check_name(entry.key, entry.key_place, section.name)) {
+        error(fault->place, fault->message, fault->hint);
+    } else if (!entry.value.table()) {
+        error(entry.value.place, fmt::format("{}: expected a table, found {}", entry.key, entry.value.kind()),
+              fmt::format("write {} = {{ {} = … }}", entry.key, section.keys.front().rule.name));
+    } else {
+        read_keys(section, entry.key, *entry.value.table(), path, section.home.open_named(out, entry.key));
         return;
     }
-    error(entry.value.place, fmt::format("{}: expected a table, found {}", section.name, entry.value.kind()),
-          fmt::format("write {} = {{ {} = … }}", section.name, section.keys.front().rule.name));
+    faulty_.insert(path);
 }
 
 void KeyWalk::read_key(const Key& key, const TomlValue& value, const std::string& path, void* out) {

@@ -83,24 +83,13 @@ ValueResult read_value(const TomlValue& value, const KeyRule& rule, Degrees& out
 }
 
 /// A point stands within, as in a number.
-bool has_points_within(const std::string& text) {
-    return text.front() != '.' && text.back() != '.' && text.find("..") == std::string::npos;
+bool has_points_within(std::string_view text) {
+    return text.front() != '.' && text.back() != '.' && text.find("..") == std::string_view::npos;
 }
 
 bool is_identifier_character(char character) {
     return (character >= 'a' && character <= 'z') || (character >= 'A' && character <= 'Z') ||
            (character >= '0' && character <= '9') || character == '-' || character == '_' || character == '.';
-}
-
-ValueResult check_identifier(const TomlValue& value, const KeyRule& rule, const std::string& text) {
-    constexpr std::size_t longest = 40;
-    if (!text.empty() && text.size() <= longest &&
-        std::all_of(text.begin(), text.end(), is_identifier_character) && has_points_within(text))
-        return std::nullopt;
-    return ValueFault{
-        value.place, fmt::format("{}: \"{}\" cannot be used in file names", rule.name, text),
-        fmt::format("take 1 to {} of the letters a to z and A to Z, digits, - and _, with points within",
-                    longest)};
 }
 
 ValueResult read_value(const TomlValue& value, const KeyRule& rule, std::string& out) {
@@ -113,7 +102,7 @@ ValueResult read_value(const TomlValue& value, const KeyRule& rule, std::string&
                           suggest_name(*text, rule.choices)};
     }
     if (rule.is_identifier) {
-        if (ValueResult fault = check_identifier(value, rule, *text))
+        if (ValueResult fault = check_name(*text, value.place, rule.name))
             return fault;
     }
     if (rule.is_required && text->find_first_not_of(" \t\r\n") == std::string::npos)
@@ -249,6 +238,48 @@ ValueResult read_value(const TomlValue& value, const KeyRule& rule, std::vector<
     return std::nullopt;
 }
 
+using Boxes = std::vector<std::array<glm::dvec3, 2>>;
+
+ValueResult read_value(const TomlValue& value, const KeyRule& rule, Boxes& out) {
+    if (!value.list())
+        return wrong_kind<Boxes>(value, rule);
+    for (const TomlValue& item : *value.list()) {
+        const TomlList* pair = item.list();
+        if (!pair || pair->size() != 2)
+            return ValueFault{item.place,
+                              fmt::format("{}: expected two corners, [[x, y, z], [x, y, z]]", rule.name)};
+        auto& [low, high] = out.emplace_back();
+        for (const auto& [corner, written] : {std::pair{&low, &(*pair)[0]}, {&high, &(*pair)[1]}}) {
+            if (ValueResult fault = read_numbers<Boxes>(*written, rule, 3, &corner->x))
+                return fault;
+        }
+        for (int axis = 0; axis < 3; ++axis) {
+            if (!(low[axis] < high[axis]))
+                return ValueFault{item.place,
+                                  fmt::format("{}: the box reaches from {} to {} along {}", rule.name,
+                                              low[axis], high[axis], "xyz"[axis]),
+                                  "give the corner with the smallest coordinates first"};
+        }
+    }
+    return std::nullopt;
+}
+
+using NamedShares = std::vector<std::pair<std::string, double>>;
+
+ValueResult read_value(const TomlValue& value, const KeyRule& rule, NamedShares& out) {
+    if (!value.table())
+        return wrong_kind<NamedShares>(value, rule);
+    for (const TomlEntry& entry : *value.table()) {
+        if (ValueResult fault = check_name(entry.key, entry.key_place, rule.name))
+            return fault;
+        double number = 0.0;
+        if (ValueResult fault = read_value(entry.value, rule, number))
+            return fault;
+        out.emplace_back(entry.key, number);
+    }
+    return std::nullopt;
+}
+
 /// A word that goes into the cells of tables.
 ValueResult check_word(const TomlValue& value, const KeyRule& rule, std::string_view name,
                        const std::string& word) {
@@ -311,6 +342,8 @@ ValueResult read_value(const TomlValue& value, const KeyRule& rule, Series& out)
 
 using Json = nlohmann::ordered_json;
 
+constexpr const char* identifier_pattern = "^(?=.{1,40}$)[A-Za-z0-9_-]+(\\.[A-Za-z0-9_-]+)*$";
+
 /// A bound without a point where it has none, as whole numbers have to be written.
 Json bound(double value) {
     if (value == std::floor(value) && std::abs(value) < 1e15)
@@ -344,6 +377,11 @@ Json planes(const KeyRule& rule) { return list_of(list_of(three(rule), 2, 2), 0,
 Json named_numbers(const KeyRule& rule) {
     return {{"type", "object"}, {"additionalProperties", whole(rule)}};
 }
+Json named_shares(const KeyRule& rule) {
+    return {{"type", "object"},
+            {"propertyNames", {{"pattern", identifier_pattern}}},
+            {"additionalProperties", number(rule)}};
+}
 Json named_words(const KeyRule& rule) {
     return {{"type", "object"},
             {"additionalProperties", {{"anyOf", {Json{{"type", "string"}}, number(rule)}}}}};
@@ -358,7 +396,7 @@ Json text(const KeyRule& rule) {
     if (!rule.choices.empty())
         schema["enum"] = rule.choices;
     else if (rule.is_identifier)
-        schema["pattern"] = "^(?=.{1,40}$)[A-Za-z0-9_-]+(\\.[A-Za-z0-9_-]+)*$";
+        schema["pattern"] = identifier_pattern;
     else if (rule.is_required)
         schema["pattern"] = "[^ \\t\\r\\n]";
     return schema;
@@ -423,6 +461,9 @@ constexpr ValueType truth_type = plain<bool>("true or false", truth), whole_type
                         "a list of spheres [x, y, z, radius]", spheres),
                     planes_type = optional<std::vector<std::array<double, 6>>>(
                         "a list of planes [[x, y, z], [nx, ny, nz]]", planes),
+                    boxes_type = optional<Boxes>("a list of boxes [[x, y, z], [x, y, z]]", planes),
+                    named_shares_type =
+                        optional<NamedShares>("a table of names with a number each", named_shares),
                     named_numbers_type =
                         optional<NamedNumbers>("a table of names with a whole number each", named_numbers),
                     named_words_type =
@@ -446,6 +487,19 @@ const ValueType& value_type(TypeTag<std::vector<double>>) { return numbers_type;
 const ValueType& value_type(TypeTag<std::vector<std::string>>) { return texts_type; }
 const ValueType& value_type(TypeTag<std::vector<std::array<double, 4>>>) { return spheres_type; }
 const ValueType& value_type(TypeTag<std::vector<std::array<double, 6>>>) { return planes_type; }
+const ValueType& value_type(TypeTag<Boxes>) { return boxes_type; }
+const ValueType& value_type(TypeTag<NamedShares>) { return named_shares_type; }
+
+ValueResult check_name(const std::string& name, Place place, std::string_view what) {
+    constexpr std::size_t longest = 40;
+    if (!name.empty() && name.size() <= longest &&
+        std::all_of(name.begin(), name.end(), is_identifier_character) && has_points_within(name))
+        return std::nullopt;
+    return ValueFault{
+        place, fmt::format("{}: \"{}\" cannot be used in file names", what, name),
+        fmt::format("take 1 to {} of the letters a to z and A to Z, digits, - and _, with points within",
+                    longest)};
+}
 
 const ValueType& value_type(TypeTag<NamedNumbers>) { return named_numbers_type; }
 const ValueType& value_type(TypeTag<NamedWords>) { return named_words_type; }

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -59,6 +60,12 @@ const ValueType& value_type(TypeTag<std::vector<double>>); ///< one number is a 
 const ValueType& value_type(TypeTag<std::vector<std::string>>);
 const ValueType& value_type(TypeTag<std::vector<std::array<double, 4>>>);
 const ValueType& value_type(TypeTag<std::vector<std::array<double, 6>>>);
+const ValueType& value_type(TypeTag<std::vector<std::array<glm::dvec3, 2>>>); ///< corners of boxes
+/// Numbers by names, in the order of the file: { rim = 0.2, base = 0.3 }. The rule holds for each number.
+const ValueType& value_type(TypeTag<std::vector<std::pair<std::string, double>>>);
+
+/// A name that the file gives to something: letters, digits, - and _, 40 at most. `what`: of which it is.
+ValueResult check_name(const std::string& name, Place place, std::string_view what);
 /// Tables of names that no table of keys knows. The rule holds for each value.
 const ValueType& value_type(TypeTag<NamedNumbers>);
 const ValueType& value_type(TypeTag<NamedWords>);

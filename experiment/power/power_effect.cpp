@@ -11,6 +11,7 @@
 
 #include "experiment/base/error.h"
 #include "experiment/protocol/old_words.h"
+#include "experiment/scene/areas.h"
 
 namespace overt {
 
@@ -21,7 +22,7 @@ struct MeasureWords {
     double least, most; ///< of the size
 };
 
-constexpr MeasureWords measures[] = {{"head", "odds", "share of fixations on the head", 0.01, 100.0},
+constexpr MeasureWords measures[] = {{"area", "odds", "share of fixations on an area", 0.01, 100.0},
                                      {"wss", "ratio", "spread of fixations (WSS)", 0.05, 20.0},
                                      {"cc", "share", "maps of all observers (CC)", 0.0, 0.95}};
 
@@ -49,31 +50,66 @@ template <class Number> std::optional<Number> number_in(const std::string& text)
     return read.ec == std::errc() && read.ptr == end ? std::optional(number) : std::nullopt;
 }
 
+/// Names of levels; none where the protocol has no such factor.
 std::vector<std::string> levels_of_column(const Protocol& protocol, const std::string& column) {
-    std::vector<std::string> ids;
-    const auto take = [&](const auto& entries) {
-        for (const auto& entry : entries)
-            ids.push_back(entry.id);
-    };
-    if (column == "task")
-        take(protocol.tasks);
-    else if (column == "material")
-        take(protocol.materials);
-    else
-        take(protocol.objects);
-    return ids;
+    std::vector<std::string> names;
+    const Factors factors = factors_of(protocol);
+    if (const Factor* factor = factors.find(column))
+        for (const FactorLevel& level : factor->levels)
+            names.push_back(level.name);
+    return names;
+}
+
+/// Factors that can be named: all with levels, but for the block, in which trials are no other.
+std::vector<std::string> factors_of_effects(const Protocol& protocol) {
+    std::vector<std::string> names;
+    const Factors factors = factors_of(protocol);
+    for (const Factor& factor : factors.all())
+        if (!factor.levels.empty() && factor.source != Factor::Source::block)
+            names.push_back(factor.name);
+    return names;
+}
+
+/// Surfaces of two objects are not compared: their factors say only in which trials an effect is.
+bool is_of_objects(const Protocol& protocol, const std::string& column) {
+    const Factors factors = factors_of(protocol);
+    const Factor* factor = factors.find(column);
+    return factor && factor->is_of_list(0);
+}
+
+/// Areas of the objects of which some task says how often they are looked at.
+std::vector<std::string> planned_areas(const Protocol& protocol, std::span<const std::string> areas) {
+    std::vector<std::string> planned;
+    for (const std::string& area : areas) {
+        const bool is_looked_at = std::ranges::any_of(protocol.tasks, [&](const Task& task) {
+            return std::ranges::any_of(simulated_shares(task), [&](const auto& share) {
+                return share.first == area && share.second > 0.0;
+            });
+        });
+        if (is_looked_at)
+            planned.push_back(area);
+    }
+    return planned;
 }
 
 class EffectReader {
   public:
-    EffectReader(const std::string& text, const Protocol& protocol) : text_(text), protocol_(protocol) {}
+    EffectReader(const std::string& text, const Protocol& protocol, std::span<const std::string> areas)
+        : text_(text), protocol_(protocol), areas_(areas) {}
 
     PowerEffect read() {
         const std::vector<std::string> parts = parts_of(text_, ':');
+        const std::size_t equals = parts[0].find('=');
+        const std::string name = parts[0] == head_area ? "area" : parts[0].substr(0, equals);
         const auto found = std::find_if(std::begin(measures), std::end(measures),
-                                        [&](const MeasureWords& one) { return one.name == parts[0]; });
-        if (found == std::end(measures))
-            fail(fmt::format("it begins with a measure, which is head, wss or cc, and not \"{}\"", parts[0]));
+                                        [&](const MeasureWords& one) { return one.name == name; });
+        const bool is_area = name == "area";
+        if (found == std::end(measures) || (is_area && parts[0] == "area") ||
+            (!is_area && equals != std::string::npos))
+            fail(fmt::format("it begins with a measure, which is head, area=NAME, wss or cc, and not \"{}\"",
+                             parts[0]));
+        if (is_area)
+            take_area(equals == std::string::npos ? parts[0] : parts[0].substr(equals + 1));
         effect_.measure = static_cast<PowerMeasure>(found - std::begin(measures));
         for (std::size_t i = 1; i < parts.size(); ++i)
             take(parts[i]);
@@ -87,10 +123,24 @@ class EffectReader {
 
   private:
     [[noreturn]] void fail(const std::string& what) const {
-        throw InputError(fmt::format(
-            "--effect {}: {}. An example: head:material=rough:odds=1.5, wss:material=rough:ratio=1.2 or "
-            "cc:material=rough:share=0.2.",
-            text_, what));
+        throw InputError(fmt::format("--effect {}: {}. An example: head:material=rough:odds=1.5, "
+                                     "area=rim:task=free:odds=2, wss:material=rough:ratio=1.2 or "
+                                     "cc:material=rough:share=0.2.",
+                                     text_, what));
+    }
+
+    void take_area(const std::string& area) {
+        if (std::ranges::find(areas_, area) == areas_.end())
+            fail(areas_.empty() ? fmt::format("no object has an area \"{}\": none has any", area)
+                                : fmt::format("no object has an area \"{}\"; there are {}", area,
+                                              fmt::join(areas_, ", ")));
+        const std::vector<std::string> planned = planned_areas(protocol_, areas_);
+        if (std::ranges::find(planned, area) == planned.end())
+            fail(fmt::format(
+                "no task says how often \"{0}\" is looked at; simulated_area_shares = {{ {0} = 0.2 }} "
+                "in a [[task]] does",
+                area));
+        effect_.area = area;
     }
 
     void take(const std::string& part) {
@@ -109,18 +159,18 @@ class EffectReader {
             effect_.sd = number(key, value, 0.0, most_sd);
         } else if (key == "against") {
             effect_.against = value;
-        } else if (key == "task" || key == "material" || key == "object") {
+        } else if (const auto known = factors_of_effects(protocol_);
+                   std::ranges::find(known, key) != known.end()) {
             check_level(key, value);
-            if (effect_.column.empty() && key != "object") {
+            if (effect_.column.empty() && !is_of_objects(protocol_, key)) {
                 effect_.column = key;
                 effect_.level = value;
             } else {
                 effect_.within.push_back({key, value});
             }
         } else {
-            fail(fmt::format("\"{}\" is no key of {}, whose keys are task, material, object, {}, against "
-                             "and sd",
-                             key, measure.name, measure.size_key));
+            fail(fmt::format("\"{}\" is no key of {}, whose keys are {}, {}, against and sd", key,
+                             measure.name, fmt::join(known, ", "), measure.size_key));
         }
     }
 
@@ -151,6 +201,7 @@ class EffectReader {
 
     const std::string& text_;
     const Protocol& protocol_;
+    std::span<const std::string> areas_;
     PowerEffect effect_;
     bool has_size_ = false;
     std::vector<std::string> seen_;
@@ -171,8 +222,11 @@ PowerEffect no_effect(PowerMeasure measure, const std::string& column,
 
 std::string PowerEffect::text() const {
     const MeasureWords& of = words_of(measure);
-    std::string text =
-        fmt::format("{}:{}={}:{}={}:against={}", of.name, column, level, of.size_key, size, against);
+    std::string text = fmt::format("{}:{}={}:{}={}:against={}",
+                                   measure != PowerMeasure::area ? std::string(of.name)
+                                   : area == head_area           ? area
+                                                                 : fmt::format("area={}", area),
+                                   column, level, of.size_key, size, against);
     for (const StudyKey& key : within)
         text += fmt::format(":{}={}", key.column, key.value);
     if (sd > 0.0)
@@ -181,29 +235,40 @@ std::string PowerEffect::text() const {
 }
 
 std::string PowerEffect::words() const {
-    std::string words = fmt::format("{}, {} {} against {}", words_of(measure).words, column, level, against);
+    std::string words =
+        fmt::format("{}, {} {} against {}",
+                    measure != PowerMeasure::area ? std::string(words_of(measure).words)
+                    : area == head_area           ? "share of fixations on the head"
+                                                  : fmt::format("share of fixations on the area {}", area),
+                    column, level, against);
     for (const StudyKey& key : within)
         words += fmt::format(", {} {}", key.column, key.value);
     return words;
 }
 
-std::vector<PowerEffect> power_effects(const std::vector<std::string>& texts, const Protocol& protocol) {
+std::vector<PowerEffect> power_effects(const std::vector<std::string>& texts, const Protocol& protocol,
+                                       std::span<const std::string> areas) {
     std::vector<PowerEffect> effects;
     for (const std::string& text : texts) {
         if (text != "none") {
-            effects.push_back(EffectReader(text, protocol).read());
+            effects.push_back(EffectReader(text, protocol, areas).read());
             continue;
         }
         if (texts.size() > 1)
             throw InputError("--effect none stands alone: another effect would not leave it none.");
         const std::vector<std::string> materials = levels_of_column(protocol, "material"),
                                        tasks = levels_of_column(protocol, "task");
+        const std::string area(usual_area(planned_areas(protocol, areas)));
         if (materials.size() > 1) {
-            for (const PowerMeasure measure : {PowerMeasure::head, PowerMeasure::wss, PowerMeasure::cc})
-                effects.push_back(no_effect(measure, "material", materials));
+            for (const PowerMeasure measure : {PowerMeasure::area, PowerMeasure::wss, PowerMeasure::cc}) {
+                if (measure != PowerMeasure::area || !area.empty())
+                    effects.push_back(no_effect(measure, "material", materials));
+            }
         }
-        if (tasks.size() > 1)
-            effects.push_back(no_effect(PowerMeasure::head, "task", tasks));
+        if (tasks.size() > 1 && !area.empty())
+            effects.push_back(no_effect(PowerMeasure::area, "task", tasks));
+        for (PowerEffect& effect : effects)
+            effect.area = effect.measure == PowerMeasure::area ? area : std::string();
         if (effects.empty())
             throw InputError("--effect none: the protocol has one material and one task, and nothing to "
                              "compare.");

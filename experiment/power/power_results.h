@@ -15,7 +15,7 @@ namespace overt {
 /// The test of one effect in one simulated study with so many observers.
 struct StudyOutcome {
     std::optional<double> p; ///< nothing: there was nothing to test
-    /// Mean over observers of the difference of head fractions; the same of WSS in deg^2; CC of the maps.
+    /// Mean over observers of the difference of shares; the same of WSS in deg^2; CC of the maps.
     std::optional<double> estimate;
 };
 

@@ -50,7 +50,7 @@ RowLayout<CurveRow> curve_layout() {
     to.number("power_high", "Upper end of its interval of 95 % (Wilson)", "",
               of_point([](auto& point) { return point.interval.high; }), share_digits);
     to.number("median_estimate",
-              "Median over studies of the estimated difference of head fractions, difference of WSS in "
+              "Median over studies of the estimated difference of shares of fixations, difference of WSS in "
               "deg^2, or CC",
               "", of_point(&PowerPoint::median_estimate));
     return to;
@@ -62,7 +62,7 @@ RowLayout<OutcomeRow> outcome_layout() {
     to.count("study", "Number of the study; one with fewer observers has the first of those of one with more",
              &OutcomeRow::study);
     to.number("p", "Of the test", "", [](const OutcomeRow& row) { return row.outcome.p; });
-    to.number("estimate", "Difference of head fractions, difference of WSS in deg^2, or CC", "",
+    to.number("estimate", "Difference of shares of fixations, difference of WSS in deg^2, or CC", "",
               [](const OutcomeRow& row) { return row.outcome.estimate; });
     return to;
 }

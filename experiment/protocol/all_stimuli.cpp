@@ -56,8 +56,7 @@ std::vector<ViewedObject> all_viewed_objects(const Protocol& protocol) {
 }
 
 bool is_named(std::size_t list, std::size_t entries) {
-    constexpr std::size_t always_named = 2;
-    return list < always_named || entries > 1;
+    return stimulus_lists.at(list).is_always_named || entries > 1;
 }
 
 namespace {
@@ -80,6 +79,10 @@ std::string joined(const Protocol& protocol, const Stimulus& stimulus, std::stri
 
 std::string stimulus_name(const Protocol& protocol, const Stimulus& stimulus, char between) {
     return joined(protocol, stimulus, &ListEntry::id, std::string_view(&between, 1));
+}
+
+std::string stimulus_in_words(const Protocol& protocol, const Stimulus& stimulus) {
+    return joined(protocol, stimulus, &ListEntry::id, ", ");
 }
 
 std::string stimulus_title(const Protocol& protocol, const Stimulus& stimulus) {

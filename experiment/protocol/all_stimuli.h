@@ -31,7 +31,10 @@ bool is_named(std::size_t list, std::size_t entries);
 /// OBJECT/MATERIAL, and the ids of what else there is a choice of: "muse/gold/hall/turn".
 std::string stimulus_name(const Protocol& protocol, const Stimulus& stimulus, char between = '/');
 
-/// The same with titles, and commas between them.
+/// The same for sentences: "muse, gold".
+std::string stimulus_in_words(const Protocol& protocol, const Stimulus& stimulus);
+
+/// The same with titles.
 std::string stimulus_title(const Protocol& protocol, const Stimulus& stimulus);
 
 /// "[view]", or "[[view]] ID" where there are several: for messages.

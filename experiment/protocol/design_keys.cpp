@@ -2,6 +2,19 @@
 
 namespace overt::key_rows {
 
+namespace {
+
+/// All but that of the objects, for each of which the task is asked.
+constexpr auto lists_to_rotate = [] {
+    std::array<std::string_view, stimulus_lists.size() - 1> names{};
+    for (std::size_t list = 0; list < names.size(); ++list)
+        names[list] = stimulus_lists[list + 1].name;
+    return names;
+}();
+static_assert(stimulus_lists[0].index == &Stimulus::object);
+
+} // namespace
+
 std::vector<Key> protocol() {
     using P = Protocol;
     return {
@@ -47,8 +60,11 @@ std::vector<Key> schedule() {
          "and the stimulus."},
         {"min_distance", &S::min_distance, range(0, 1000).left_out("no further limits"),
          "Least distance of trials with the same level, for any factors: { gloss = 2 }; 0 for no limit."},
+        {"rotated_list", &S::rotated_list, one_of(lists_to_rotate),
+         "Which list goes round over the observers in tasks that are asked once per object; of the others "
+         "each entry is shown."},
         {"material_rotation", &S::material_rotation,
-         "How the materials of tasks that are asked once per object go round over the observers: shifted "
+         "How the materials, or the entries of `rotated_list`, go round over the observers: shifted "
          "by one from observer to observer; by the rows of a balanced (Williams) square, in which each "
          "material also follows each other one equally often; or by random squares, a new one for each round "
          "of observers. A balanced square of an odd number of materials takes twice as many observers."},
@@ -77,8 +93,17 @@ std::vector<Key> task() {
         {"slots", &T::slots, identifier().left_out("the only slot there is"),
          "Ids of the `[[slot]]`s in which the task's stimuli are shown, all at once; of a circle or a grid, "
          "all its places. Each shows the stimulus that the trial has for it."},
-        {"simulated_head_share", &T::simulated_head_share, range(0, 1),
+        {"trials", &T::trials_file, left_out("every stimulus"),
+         "Which trials the task has: a rule, or the path of a table (CSV, TSV) with a row for each; see "
+         "[design.md](design.md)."},
+        {"repetitions", &T::repetitions, range(1, 1000), "How often each of its trials comes."},
+        {"simulated_head_share", &T::simulated_head_share,
+         range(0, 1).left_out("0.4; 0 with `simulated_area_shares`"),
          "Share of a simulated observer's fixations that go to the head."},
+        {"simulated_area_shares", &T::simulated_area_shares,
+         range(0, 1).left_out("none but the head has one"),
+         "Shares that go to other areas, such as { rim = 0.2, base = 0.3 }: the rest goes to the rest of the "
+         "surface. Areas that have shares must not overlap."},
     };
 }
 

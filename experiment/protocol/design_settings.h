@@ -4,13 +4,16 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "experiment/base/enum_names.h"
 #include "experiment/base/named_words.h"
 #include "experiment/protocol/step_settings.h"
+#include "experiment/protocol/trials_settings.h"
 #include "experiment/stimulus_lists.h"
 
 namespace overt {
@@ -20,17 +23,34 @@ enum class TaskCoverage : std::uint8_t { every_stimulus, once_per_object };
 template <>
 inline constexpr auto names_of<TaskCoverage> = enum_names<TaskCoverage>("every-stimulus", "once-per-object");
 
+/// Shares by the names of areas.
+using AreaShares = std::vector<std::pair<std::string, double>>;
+
 /// [[task]]
 struct Task {
     std::string id;
     std::string question;
     TaskCoverage stimuli = TaskCoverage::every_stimulus;
-    double simulated_head_share =
-        0.4; ///< share of a simulated observer's fixations that go to the part "head"
+    // Shares of a simulated observer's fixations: see simulated_shares().
+    std::optional<double> simulated_head_share{};
+    AreaShares simulated_area_shares{};
     std::vector<std::string> slots = {}; ///< see slots_of_task()
     /// None: the question, a drift check, the stimulus, the answer.
     std::vector<StepSettings> steps = {};
+    TrialsSettings trials = {};             ///< neither a rule nor a file: every stimulus, by `stimuli`
+    std::filesystem::path trials_file = {}; ///< of a table; resolved against the protocol's folder
+    CatchSettings catch_trials = {};
+    int repetitions = 1; ///< how often each of its trials comes
 };
+
+/// Where simulated observers look for a task: the shares that go to areas, each once, the head first. A task
+/// that says nothing gives the head usual_head_share; what the areas leave goes to the rest of the surface,
+/// by area.
+AreaShares simulated_shares(const Task& task);
+inline constexpr double usual_head_share = 0.4;
+
+/// Most areas with shares, of all tasks together, and the head.
+inline constexpr std::size_t most_simulated_areas = 32;
 
 /// For each of `stimulus_lists`, the ids of the entries that are chosen; none: all.
 using ChosenEntries = std::array<std::vector<std::string>, stimulus_lists.size()>;
@@ -80,6 +100,7 @@ struct ScheduleSettings {
     int min_stimulus_distance = 0;
     // The same by name, for any factor.
     NamedNumbers max_run, min_distance;
+    std::string rotated_list = "material"; ///< of tasks that are asked once per object
     SquareKind material_rotation = SquareKind::cyclic;
     LevelOrder block_order = LevelOrder::fixed;
     int rotation_seed = 1; ///< of random squares, which all observers share
@@ -100,6 +121,8 @@ struct BlockSettings {
     RepetitionOrder repetition_order = RepetitionOrder::in_turn;
     std::string instructions; ///< shown before it; empty: nothing
     bool continues = false;   ///< limits count the trials of the block before, too
+    DrawSettings draw = {};
+    bool practice = false; ///< all is recorded of its trials, and results are not of them
     NamedNumbers max_run, min_distance;
     std::optional<int> max_task_run, max_object_run, max_material_run, max_stimulus_run;
     std::optional<int> min_task_distance, min_object_distance, min_material_distance, min_stimulus_distance;
@@ -115,7 +138,9 @@ struct GroupSettings {
 
 /// [simulated_observers]: how they differ from one another.
 struct SimulatedObserverSettings {
-    double head_share_sd = 0.0; ///< standard deviation of the logit of their shares of fixations on the head
+    /// Standard deviation of the logit of their shares of fixations on the head, and on each other area that
+    /// has a share.
+    double head_share_sd = 0.0;
 };
 
 /// [[simulated_effect]]: what the gaze of simulated observers depends on, for a study to find.
@@ -123,11 +148,13 @@ struct SimulatedEffect {
     std::string task;        ///< an id; empty: any
     EntryOfEach entries;     ///< ids; empty: any
     NamedWords where;        ///< levels of other factors
-    double head_odds = 1.0;  ///< times the odds of the task's simulated_head_share
+    double head_odds = 1.0;  ///< times the odds of the task's share of the head
     double spot_share = 0.0; ///< share of fixations that go to the effect's own spot
     /// How far from the object's middle the other fixations lie: places at r times the usual distance are
     /// looked at exp(spread r^2) times as often; 0: by area alone.
     double spread = 0.0;
+    std::string area{};     ///< of area_odds
+    double area_odds = 1.0; ///< times the odds of the task's share of the area
 };
 /// Effects with a spot that one trial can have.
 inline constexpr int most_simulated_spots = 8;

@@ -11,13 +11,15 @@ namespace overt::key_rows {
 // What the experiment runs on (rig_keys.cpp).
 std::vector<Key> display(), tracker(), further_tracker(), calibration(), events(), screens();
 // What is shown (stimulus_keys.cpp).
-std::vector<Key> view(), light(), motion(), object(), head(), material();
+std::vector<Key> view(), light(), motion(), object(), area(), material();
 // Where on the screen (slot_keys.cpp).
 std::vector<Key> slot();
 // How it becomes pictures (frame_keys.cpp).
 std::vector<Key> bake(), frames();
 // What is asked, and in which order (design_keys.cpp).
 std::vector<Key> protocol(), schedule(), task();
+// Where trials come from (trials_keys.cpp).
+std::vector<Key> trials(), catch_trials(), draw();
 // The order of trials and of observers (order_keys.cpp).
 std::vector<Key> block(), group();
 // How a session goes besides its trials (practice_keys.cpp).

@@ -51,6 +51,9 @@ std::vector<Key> block() {
          "One repetition is over before the next begins, or all are mixed."},
         {"instructions", &B::instructions, left_out("none"),
          "What the observer reads before the block, until a key is pressed."},
+        {"practice", &B::practice,
+         "Its trials are practice: all is recorded of them as of others, and marked, and no result is of "
+         "them. Practice of which nothing is recorded is `[[practice]]`."},
         {"continues", &B::continues,
          "The limits count the trials of the block before, too, and both are drawn together; otherwise each "
          "block begins afresh, and its order does not depend on any other block."},

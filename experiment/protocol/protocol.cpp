@@ -60,18 +60,8 @@ Factors factors_of(const Protocol& protocol) {
     for (std::size_t list = 0; list < stimulus_lists.size(); ++list)
         for (const ListEntry* entry : entries_of(protocol, list))
             sources.lists[list].push_back(*entry);
+    sources.own = own_levels_of(protocol);
     return Factors(sources);
-}
-
-std::string stimulus_in_words(const Protocol& protocol, const Stimulus& stimulus) {
-    std::string words;
-    for (std::size_t list = 0; list < stimulus_lists.size(); ++list) {
-        const std::vector<std::string_view> ids = ids_in_list(protocol, list);
-        if (ids.size() > 1 || stimulus_lists[list].is_always_named)
-            words += fmt::format("{}{}", words.empty() ? "" : ", ",
-                                 ids.at(static_cast<std::size_t>(stimulus.*stimulus_lists[list].index)));
-    }
-    return words;
 }
 
 std::array<std::vector<bool>, stimulus_lists.size()> chosen_by(const Protocol& protocol,

@@ -25,6 +25,7 @@
 #include "experiment/list_entry.h"
 #include "experiment/ports/observer_field.h"
 #include "experiment/ports/tracker_kinds.h"
+#include "experiment/protocol/area_settings.h"
 #include "experiment/protocol/design_settings.h"
 #include "experiment/protocol/device_settings.h"
 #include "experiment/protocol/material_kind.h"
@@ -32,6 +33,7 @@
 #include "experiment/protocol/protocol_sources.h"
 #include "experiment/protocol/sitting_settings.h"
 #include "experiment/protocol/slot.h"
+#include "experiment/protocol/trial_table.h"
 #include "experiment/screen_geometry.h"
 #include "experiment/stimulus_lists.h"
 #include "experiment/units.h"
@@ -258,9 +260,7 @@ struct ObjectSettings : ListEntry {
     int lut_first_number = 0;                   ///< number of animation frame 0
     std::optional<int> lut_scale;               ///< of 16-bit codes; left out: a file beside each map says it
     std::optional<glm::dvec3> lut_min, lut_max; ///< the box that they are coded by, likewise
-    // The part "head" in the file's coordinates: inside any sphere and on the positive side of all planes.
-    std::vector<std::array<double, 4>> head_spheres; ///< x, y, z, radius
-    std::vector<std::array<double, 6>> head_planes;  ///< point and normal
+    std::vector<AreaSettings> areas;            ///< beside those that the mesh file and `labels` name
 };
 
 /// [[material]]
@@ -375,6 +375,7 @@ struct Protocol {
     std::vector<MotionSettings> motions = std::vector<MotionSettings>(1);
     std::vector<ViewSettings> views = std::vector<ViewSettings>(1);
     std::vector<FrameSequenceSettings> frames;
+    std::vector<TrialTable> trial_tables; ///< of the tasks that name one
     std::vector<SlotSettings> slot_entries;    ///< as they are written
     std::vector<Slot> slots = written_out({}); ///< the places that they are; never empty
 
@@ -416,8 +417,8 @@ std::vector<std::string_view> ids_in_list(const Protocol& protocol, std::size_t 
 /// All factors of a protocol's trials.
 Factors factors_of(const Protocol& protocol);
 
-/// "muse, gold": the ids of a stimulus' entries, of lists with several, and always of object and material.
-std::string stimulus_in_words(const Protocol& protocol, const Stimulus& stimulus);
+/// The levels that its trials have of their own, by its tables and rules (own_factors.cpp).
+std::vector<NamedWord> own_levels_of(const Protocol& protocol);
 
 /// For each list: whether a simulated effect holds for each of its entries.
 std::array<std::vector<bool>, stimulus_lists.size()> chosen_by(const Protocol& protocol,

@@ -86,14 +86,28 @@ const KeyTable& protocol_keys() {
              "Spoken answers: a WAV file for each trial that counts, from the end of the animation to the "
              "key that ends the answer, with the sample at the response screen's onset, the onset of the "
              "voice, clipping and silence in the record."},
-            {"task", &Protocol::tasks, task(),
-             "A question that observers are asked about what they see. At least one."},
-            {"block", &Protocol::blocks, block(),
-             "A part of the session with an order of its own. Without any block, all trials are one, in "
+            {"task",
+             &Protocol::tasks,
+             task(),
+             "A question that observers are asked about what they see. At least one.",
+             {{"trials", &Task::trials, trials(),
+               "A rule that makes the task's trials of the levels of factors. `overt check` says how many it "
+               "gives."},
+              {"catch", &Task::catch_trials, catch_trials(),
+               "Trials that check whether the observer attends, mixed in by chance among the task's in each "
+               "block. The record and all tables mark them."}}},
+            {"block",
+             &Protocol::blocks,
+             block(),
+             "A part of the session with an order of its own, and, with `draw`, a list of its own: phases "
+             "such "
+             "as study and test are blocks. Without any block, all trials are one, in "
              "random order. The limits of `[schedule]` hold in each block that does not set them itself, but "
              "for two cases, in which they would contradict what the block says: a sequential order has only "
              "limits of its own, and one blocked by a factor has none from there on this factor (by "
-             "stimulus: none on stimulus, object and material)."},
+             "stimulus: none on stimulus, object and material).",
+             {{"draw", &BlockSettings::draw, draw(),
+               "A list of entries drawn for the block, such as the objects that an observer learns."}}},
             {"group", &Protocol::groups, group(),
              "A group of observers, for what differs between observers. Observers are assigned by their "
              "number: in turn, first to the first group, a group that is full being passed over. Squares and "
@@ -119,11 +133,16 @@ const KeyTable& protocol_keys() {
              object(),
              "A thing to look at: one of the objects that overt makes itself (`shipped`), or one of yours "
              "(`mesh`, or ready-made maps, `lut`). At least one.",
-             {{"head",
-               {},
-               head(),
-               "Which part of a mesh is the head: inside any of the spheres, and in front of all of the "
-               "planes. Coordinates are those of the mesh file; with `lut`, those of the maps."}}},
+             {{"areas", SectionHome::by_name(&ObjectSettings::areas, &AreaSettings::name), area(),
+               "Named areas of the object, any number of them: the measures of gaze are given for each. An "
+               "area "
+               "is what lies in any of its spheres, boxes and groups, and in front of all of its planes. "
+               "Areas "
+               "may lie in one another or overlap. Coordinates are those of the mesh file; with `lut`, those "
+               "of "
+               "the maps."},
+              {"head", SectionHome::one_by_name(&ObjectSettings::areas, &AreaSettings::name), area(),
+               "The same as `areas = { head = { … } }`."}}},
             {"material", &Protocol::materials, material(),
              "What every object is made of in turn. At least one."},
             {"slot", &Protocol::slot_entries, slot(),

@@ -78,6 +78,39 @@ void complete(Protocol& protocol) {
     }
 }
 
+/// Reads the table that a key of a task names; its text stands beside those of included files. -1 where there
+/// is none.
+int read_trial_table(ProtocolExamination& examination, const IncludeReader& reader, int task,
+                     std::string_view key, const std::filesystem::path& file) {
+    Protocol& protocol = examination.protocol;
+    const std::string path = fmt::format("task[{}].{}", task, key);
+    UnreadFile why_not;
+    const IncludedText* const text =
+        file.empty() ? nullptr
+                     : text_beside(protocol.included, protocol.file, folder_of(protocol, path) / file, reader,
+                                   examination.diagnostics(), why_not);
+    if (!text) {
+        if (!file.empty())
+            examination.error({path}, fmt::format("trials \"{}\": {}", file.string(), why_not.message),
+                              why_not.hint);
+        return -1;
+    }
+    const std::string name = text->file.string();
+    const auto table = parse_delimited(text->text, name, text->number, examination.diagnostics());
+    protocol.trial_tables.push_back(
+        table ? trial_table_of(*table, protocol, task, name, examination.diagnostics()) : TrialTable{});
+    return static_cast<int>(protocol.trial_tables.size()) - 1;
+}
+
+void read_trial_tables(ProtocolExamination& examination, const IncludeReader& reader) {
+    for (int i = 0; i < static_cast<int>(examination.protocol.tasks.size()); ++i) {
+        Task& task = examination.protocol.tasks[static_cast<std::size_t>(i)];
+        task.trials.table = read_trial_table(examination, reader, i, "trials", task.trials_file);
+        task.catch_trials.table =
+            read_trial_table(examination, reader, i, "catch.trials", task.catch_trials.trials_file);
+    }
+}
+
 } // namespace
 
 bool read_written_keys(ProtocolExamination& examination, std::string_view text, const IncludeReader& reader) {
@@ -92,6 +125,8 @@ bool read_written_keys(ProtocolExamination& examination, std::string_view text, 
     KeyWalk(protocol_keys(), protocol.file.string(), protocol.places, examination.faulty, diagnostics)
         .read(joined.toml, protocol);
     complete(protocol);
+    if (joined.toml.is_whole)
+        read_trial_tables(examination, reader);
     return joined.toml.is_whole;
 }
 

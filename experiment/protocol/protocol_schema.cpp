@@ -28,8 +28,15 @@ Json section_schema(const Section& section) {
         if (rule.is_required)
             required.push_back(rule.name);
     }
-    for (const Section& table : section.tables)
-        schema["properties"][std::string(table.name)] = section_schema(table);
+    for (const Section& table : section.tables) {
+        Json inner = section_schema(table);
+        if (table.home.is_by_name())
+            inner = {{"type", "object"},
+                     {"propertyNames", {{"pattern", "^[A-Za-z0-9_-]{1,40}$"}}},
+                     {"additionalProperties", std::move(inner)}};
+        Json& property = schema["properties"][std::string(table.name)];
+        property = property.is_null() ? std::move(inner) : Json{{"anyOf", {property, std::move(inner)}}};
+    }
     schema["description"] = without_links(section.explanation);
     if (!required.empty())
         schema["required"] = std::move(required);

@@ -42,7 +42,7 @@ bool is_list_of_tables(const TomlValue& value) {
 class Joiner {
   public:
     Joiner(const std::filesystem::path& protocol, const IncludeReader& reader, Diagnostics& diagnostics)
-        : folder_(protocol.parent_path()), reader_(reader), diagnostics_(diagnostics) {}
+        : protocol_(protocol), reader_(reader), diagnostics_(diagnostics) {}
 
     TomlFile load(std::string_view text, const std::filesystem::path& file, int number) {
         TomlFile own = parse_toml(text, file.string(), diagnostics_);
@@ -95,13 +95,6 @@ class Joiner {
             return false;
         }
         const std::filesystem::path wanted = (file.parent_path() / *name).lexically_normal();
-        // What is included is printed in messages and kept in records, which leave the machine.
-        if (!stays_inside(wanted.lexically_proximate(folder_.lexically_normal()).string())) {
-            diagnostics_.error(file.string(), value.place,
-                               fmt::format("include \"{}\": leads out of the protocol's folder", *name),
-                               "put the file, or a link to it, into the protocol's folder or one within");
-            return false;
-        }
         if (std::find(open_.begin(), open_.end(), wanted) != open_.end()) {
             std::string way;
             for (const std::filesystem::path& open : open_)
@@ -113,16 +106,17 @@ class Joiner {
         }
         if (std::ranges::find(included, wanted, &IncludedText::file) != included.end())
             return true;
-        std::string why_not;
-        std::optional<std::string> text = reader_(wanted, why_not);
-        if (!text) {
-            diagnostics_.error(file.string(), value.place, fmt::format("include \"{}\": {}", *name, why_not));
+        UnreadFile why_not;
+        const IncludedText* const found =
+            text_beside(included, protocol_, wanted, reader_, diagnostics_, why_not);
+        if (!found) {
+            diagnostics_.error(file.string(), value.place,
+                               fmt::format("include \"{}\": {}", *name, why_not.message), why_not.hint);
             return false;
         }
-        const int number = diagnostics_.number_of_file(wanted.string());
-        diagnostics_.quote_from(wanted.string(), *text);
-        included.push_back({wanted.lexically_proximate(folder_).string(), wanted, *text, number});
-        TomlFile read = load(*text, wanted, number);
+        const int number = found->number;
+        const std::string text = found->text; // the list may grow meanwhile
+        TomlFile read = load(text, wanted, number);
         put_beside(into, std::move(read.root));
         return read.is_whole;
     }
@@ -180,13 +174,37 @@ class Joiner {
         return below;
     }
 
-    std::filesystem::path folder_;
+    std::filesystem::path protocol_;
     const IncludeReader& reader_;
     Diagnostics& diagnostics_;
     std::vector<std::filesystem::path> open_; ///< files whose includes are being read, outermost first
 };
 
 } // namespace
+
+const IncludedText* text_beside(std::vector<IncludedText>& included, const std::filesystem::path& protocol,
+                                const std::filesystem::path& file, const IncludeReader& reader,
+                                Diagnostics& diagnostics, UnreadFile& why_not) {
+    const std::filesystem::path wanted = file.lexically_normal(),
+                                folder = protocol.parent_path().lexically_normal();
+    // What is read beside a protocol is printed in messages and kept in records, which leave the machine.
+    if (!stays_inside(wanted.lexically_proximate(folder).string())) {
+        why_not = {"leads out of the protocol's folder",
+                   "put the file, or a link to it, into the protocol's folder or one within"};
+        return nullptr;
+    }
+    const auto known = std::ranges::find(included, wanted, &IncludedText::file);
+    if (known != included.end())
+        return &*known;
+    std::optional<std::string> text = reader(wanted, why_not.message);
+    if (!text)
+        return nullptr;
+    const int number = diagnostics.number_of_file(wanted.string());
+    diagnostics.quote_from(wanted.string(), *text);
+    // Its name is what a record knows it by.
+    return &included.emplace_back(IncludedText{wanted.lexically_proximate(protocol.parent_path()).string(),
+                                               wanted, *std::move(text), number});
+}
 
 JoinedToml read_joined_toml(std::string_view text, const std::filesystem::path& file,
                             const IncludeReader& reader, Diagnostics& diagnostics) {

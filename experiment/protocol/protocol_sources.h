@@ -31,6 +31,18 @@ struct JoinedToml {
     std::vector<IncludedText> included;
 };
 
+/// Why a file's text is not to be had.
+struct UnreadFile {
+    std::string message;
+    std::string hint;
+};
+
+/// The text of a file that a protocol names, read where it is not among `included` yet. Null with the reason
+/// in `why_not`. `protocol` is the protocol's file.
+const IncludedText* text_beside(std::vector<IncludedText>& included, const std::filesystem::path& protocol,
+                                const std::filesystem::path& file, const IncludeReader& reader,
+                                Diagnostics& diagnostics, UnreadFile& why_not);
+
 /// Reads a text and what it includes: `include = "FILE"`, or a list of files, before the first section; paths
 /// count from the folder of the file that names them. Of a [section] in several files the keys are put
 /// together, and the including file's hold; two files that are included side by side may not set the same

@@ -6,7 +6,7 @@ std::vector<Key> simulated_observers() {
     using S = SimulatedObserverSettings;
     return {{"head_share_sd", &S::head_share_sd, range(0, 5),
              "Standard deviation, over simulated observers, of the logit of their shares of fixations on the "
-             "head; 0: all have the task's."}};
+             "head, and on each other area that has a share; 0: all have the task's."}};
 }
 
 std::vector<Key> simulated_effect() {
@@ -17,9 +17,14 @@ std::vector<Key> simulated_effect() {
         {"head_odds", &E::head_odds, range(0.001, 1000),
          "How many times the odds of the task's `simulated_head_share` those of a fixation on the head are; "
          "1: the same."},
+        {"area", &E::area, identifier().left_out("see `head_odds`"), "The area that `area_odds` is of."},
+        {"area_odds", &E::area_odds, range(0.001, 1000),
+         "How many times the odds of the task's share of the area (`simulated_area_shares`) those of a "
+         "fixation "
+         "on it are; what the area gains all else loses in proportion."},
         {"spot_share", &E::spot_share, range(0, 1),
          "Share of the fixations that go to one spot of each object, the effect's own and the same for "
-         "all observers, instead of to its head or elsewhere."},
+         "all observers, instead of to its areas or elsewhere."},
         {"spread", &E::spread, range(-4, 1.2),
          "How widely the fixations that go to no spot lie, and so their WSS: places at r times the usual "
          "distance from the object's middle are looked at exp(spread * r^2) times as often as their area "

@@ -61,14 +61,14 @@ std::vector<Slot> written_out(const std::vector<SlotSettings>& entries) {
 
 ScreenGeometry slot_geometry(const Protocol& protocol, const Slot& slot) {
     ScreenGeometry geometry = screen_geometry_of(protocol);
+    if (slot.entry < 0)
+        return geometry;
     const glm::dvec2 px_per_mm = glm::dvec2(geometry.screen_px) / geometry.screen_mm;
     const auto px_of = [&](double deg, int axis) {
         return std::tan(to_radians({deg}).value) * geometry.viewing_distance_mm * px_per_mm[axis];
     };
     const glm::dvec2 own_middle = glm::dvec2(geometry.image_origin_px) + 0.5 * glm::dvec2(geometry.image_px);
     const auto place = [&](std::optional<double> middle_px, std::optional<double> size_deg, int axis) {
-        if (!middle_px && !size_deg)
-            return;
         const int step = axis == 0 ? 2 : 1;
         if (size_deg)
             geometry.image_px[axis] = std::max(
@@ -85,6 +85,14 @@ ScreenGeometry slot_geometry(const Protocol& protocol, const Slot& slot) {
     place(column, slot.width_deg, 0);
     place(row, slot.height_deg, 1);
     return geometry;
+}
+
+std::vector<glm::ivec2> slot_places(const Protocol& protocol) {
+    std::vector<glm::ivec2> places;
+    for (const Slot& slot : protocol.slots)
+        if (slot.entry >= 0)
+            places.push_back(slot_geometry(protocol, slot).image_origin_px);
+    return places;
 }
 
 void fit_view_to_slots(Protocol& protocol) {

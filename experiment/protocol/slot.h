@@ -41,6 +41,9 @@ std::vector<Slot> written_out(const std::vector<SlotSettings>& entries);
 /// even, since some outputs join pixels in pairs.
 ScreenGeometry slot_geometry(const Protocol& protocol, const Slot& slot);
 
+/// The top left pixel of each slot's image; none without [[slot]], where the only one is the image's.
+std::vector<glm::ivec2> slot_places(const Protocol& protocol);
+
 /// Gives the images of [view] the size of the slots, which all have the same. Where the camera is fitted to
 /// an object, and where its field of view is written, the object takes the same share of the image as before;
 /// a camera whose place alone is written gets the field of view that it had.

@@ -27,10 +27,11 @@ double time_constant_s(double from_s, double to_s, double mean_s) {
     return std::sqrt(low * high);
 }
 
-namespace {
+std::string seconds_column(const StepSettings& step) {
+    return fmt::format("{}_s", step.id.empty() ? name_of(step.kind) : std::string_view(step.id));
+}
 
-/// An hour: nobody looks at a step for longer, and refreshes can be counted.
-constexpr double longest_step_s = 3600.0;
+namespace {
 
 /// Reads entries and collects all that is wrong with them.
 class StepReader {

@@ -120,6 +120,13 @@ struct StepSettings {
     std::string answered, missed; ///< words of a feedback
 };
 
+/// An hour: nobody looks at a step for longer, and refreshes can be counted.
+inline constexpr double longest_step_s = 3600.0;
+
+/// The column of a table of trials that says how long the step lasts: its id, or its kind where it has none,
+/// and "_s".
+std::string seconds_column(const StepSettings& step);
+
 /// A list of steps. All that is wrong with it is found at once.
 const ValueType& value_type(TypeTag<std::vector<StepSettings>>);
 

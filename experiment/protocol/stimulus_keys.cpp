@@ -32,12 +32,17 @@ template <class Entry> std::vector<Key> entry_keys(std::vector<Key> own, bool is
 
 } // namespace
 
-std::vector<Key> head() {
-    using S = ObjectSettings;
+std::vector<Key> area() {
+    using A = AreaSettings;
     return {
-        {"spheres", &S::head_spheres, left_out("the mesh has no head"), "Middle and radius of each sphere."},
-        {"planes", &S::head_planes, left_out("nothing is cut off"),
-         "A point of each plane, and the direction in which the head lies."},
+        {"spheres", &A::spheres, left_out("none"), "Middle and radius of each sphere."},
+        {"boxes", &A::boxes, left_out("none"),
+         "Two corners of each box: the one with the smallest coordinates, and the one with the largest."},
+        {"groups", &A::groups, left_out("none"),
+         "Names of parts that the mesh file labels, such as the groups of an OBJ file, or that `labels` "
+         "names."},
+        {"planes", &A::planes, left_out("nothing is cut off"),
+         "A point of each plane, and the direction in which the area lies."},
     };
 }
 
@@ -128,7 +133,8 @@ std::vector<Key> object() {
     using S = ObjectSettings;
     return entry_keys<S>({
         {"shipped", &S::shipped, left_out("see `mesh` and `lut`"),
-         "An object that overt makes itself, its head being known: \"muse\", \"runner\" or \"scholar\"."},
+         "An object that overt makes itself, with the areas head, body and plinth: \"muse\", \"runner\" or "
+         "\"scholar\"."},
         {"mesh", &S::mesh, left_out("see `shipped` and `lut`"),
          "A PLY, OBJ or STL file of triangles, by its path from the protocol's folder."},
         {"up", &S::up, one_of(axes), "The axis of the mesh file that points up."},
@@ -139,10 +145,9 @@ std::vector<Key> object() {
          "every export says so."},
         {"labels", &S::labels, left_out("the labels of the mesh file, if it has any"),
          "A text file with a whole number for each triangle of the mesh, or for each vertex: which part it "
-         "belongs to. Lines `# part 1 head` name parts. Beside `head` both hold: a part that lies in the "
-         "head as "
-         "a whole stays a part, called head/NAME, and counts as head; of one that reaches beyond it the head "
-         "takes what it contains."},
+         "belongs to. Lines `# part 1 rim` name parts. Each part is an area, as are the groups of a mesh "
+         "file; "
+         "beside `areas` both hold, and a triangle may belong to several."},
         {"weld_tolerance", &S::weld_tolerance, range(0, 0.01),
          "Vertices of the mesh that are no farther apart than this share of the diagonal of its box are one: "
          "what some programs write for a corner differs by rounding. 0: only those at the very same place."},

@@ -67,10 +67,10 @@ class SeriesWriter {
         if (keys.empty())
             return fault(series.value.place, "series: names no key",
                          "such as series = { roughness = [0.05, 0.1] }");
-        bool is_sound = true;
+        bool are_sound = true;
         for (const TomlEntry& entry : keys)
-            is_sound = is_key_sound(table, entry) && is_sound;
-        if (!is_sound)
+            are_sound = is_key_sound(table, entry) && are_sound;
+        if (!are_sound)
             return false;
         const std::size_t length = keys.front().value.list()->size();
         for (const TomlEntry& entry : keys)

@@ -1,6 +1,7 @@
 #include "experiment/record/header_checks.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <span>
@@ -60,9 +61,14 @@ template <class Items> bool is_index(int index, const Items& items) {
     return index >= 0 && static_cast<std::size_t>(index) < items.size();
 }
 
-bool is_stimulus(const Stimulus& stimulus, const SessionHeader& header) {
-    return is_index(stimulus.object, header.objects) && is_index(stimulus.material, header.materials) &&
-           is_index(stimulus.motion, header.animations) && stimulus.light >= 0 &&
+/// `entries`: how many each list has.
+bool is_stimulus(const Stimulus& stimulus, const SessionHeader& header,
+                 const std::array<std::size_t, stimulus_lists.size()>& entries) {
+    for (std::size_t list = 0; list < stimulus_lists.size(); ++list)
+        if (const int index = stimulus.*stimulus_lists[list].index;
+            index < 0 || static_cast<std::size_t>(index) >= entries[list])
+            return false;
+    return is_index(stimulus.motion, header.animations) && is_index(stimulus.object, header.objects) &&
            is_index(stimulus.view, header.objects[static_cast<std::size_t>(stimulus.object)].cameras);
 }
 
@@ -76,6 +82,7 @@ bool is_label(const std::string& label) {
 
 void check_header(const SessionHeader& header, const std::filesystem::path& file) {
     constexpr std::chrono::hours longest_latency{1};
+    const auto counts = entry_counts(header);
     const auto demand = [&](bool holds, std::string_view what) {
         if (!holds)
             throw RecordError(fmt::format("{}: {} of the session cannot be right: the file is damaged.",
@@ -104,9 +111,9 @@ void check_header(const SessionHeader& header, const std::filesystem::path& file
                fmt::format("the object or the pose of map \"{}\"", map.file));
     }
     for (const RecordedStimulus& stimulus : header.stimuli)
-        demand(is_stimulus(stimulus.stimulus, header), "the object or the material of a stimulus");
+        demand(is_stimulus(stimulus.stimulus, header, counts), "the object or the material of a stimulus");
     for (const Trial& trial : header.schedule.trials)
-        demand(is_index(trial.task, header.tasks) && is_stimulus(trial.stimulus, header) &&
+        demand(is_index(trial.task, header.tasks) && is_stimulus(trial.stimulus, header, counts) &&
                    (header.blocks.empty() || is_index(trial.block, header.blocks)),
                fmt::format("the task, object, material or block of planned trial {}", trial.index + 1));
     for (const RecordedSlot& slot : header.slots) {
@@ -120,13 +127,19 @@ void check_header(const SessionHeader& header, const std::filesystem::path& file
     for (const Trial& trial : header.schedule.trials)
         for (std::size_t i = 0; i < trial.shown_count(); ++i)
             demand(is_index(trial.shown(i).slot, header.slots) &&
-                       is_stimulus(trial.shown(i).stimulus, header),
+                       is_stimulus(trial.shown(i).stimulus, header, counts),
                    fmt::format("a slot, or what is in it, of planned trial {}", trial.index + 1));
     const auto have_plain_names = [](const auto& entries) {
         return std::ranges::all_of(entries, [](const auto& entry) { return is_plain_name(entry.id); });
     };
     demand(have_plain_names(header.tasks), "the id of a task");
-    demand(have_plain_names(header.materials), "the id of a material");
+    for (std::size_t list = 0; list < stimulus_lists.size(); ++list) {
+        demand(have_plain_names(entries_of(header, list)),
+               fmt::format("the id of a {}", stimulus_lists[list].name));
+        for (const ListEntry& entry : entries_of(header, list))
+            for (const NamedWord& column : entry.columns)
+                demand(is_plain_name(column.name), fmt::format("a column of {}", entry.id));
+    }
 }
 
 } // namespace overt

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <tuple>
+#include <type_traits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -8,6 +10,7 @@
 #include "experiment/record/header_tables.h"
 #include "experiment/record/no_stimulus.h"
 #include "experiment/record/sql.h"
+#include "experiment/record/stimulus_columns.h"
 
 namespace overt {
 namespace {
@@ -49,13 +52,15 @@ void read_slots(const SQLite::Database& database, SessionHeader& header) {
              row.step();)
             header.slots.push_back(
                 {row.text(), row.text(), {row.small(), row.small()}, {row.small(), row.small()}});
-        for (Query row(database, "SELECT trial, place, slot, object, material, light, motion, view FROM "
-                                 "schedule_slot ORDER BY trial, place");
+        for (Query row(database,
+                       fmt::format("SELECT trial, place, slot, {} FROM schedule_slot ORDER BY trial, "
+                                   "place",
+                                   stimulus_columns_of(database, "schedule_slot"))
+                           .c_str());
              row.step();) {
             const int index = row.small(), place = row.small();
             PlacedStimulus shown;
-            row.read(shown.slot, shown.stimulus.object, shown.stimulus.material, shown.stimulus.light,
-                     shown.stimulus.motion, shown.stimulus.view);
+            row.read(shown.slot, shown.stimulus);
             const auto trial = std::ranges::find(header.schedule.trials, index, &Trial::index);
             if (trial == header.schedule.trials.end())
                 throw RecordError(fmt::format("table schedule_slot: there is no trial {}", index));
@@ -70,20 +75,38 @@ void read_slots(const SQLite::Database& database, SessionHeader& header) {
         header.slots.push_back({"centre", "centre", screen.image_origin_px, screen.image_px});
 }
 
+/// What planned trials have besides their stimuli.
+void read_own_levels(const SQLite::Database& database, SessionHeader& header) {
+    if (!has_table(database, "schedule_level"))
+        return;
+    const auto trial_at = [&](int index) -> Trial& {
+        const auto trial = std::ranges::find(header.schedule.trials, index, &Trial::index);
+        if (trial == header.schedule.trials.end())
+            throw RecordError(
+                fmt::format("table schedule_level or schedule_answer: there is no trial {}", index));
+        return *trial;
+    };
+    for (Query row(database, "SELECT trial, factor, level FROM schedule_level ORDER BY trial, n");
+         row.step();) {
+        Trial& trial = trial_at(row.small());
+        std::string factor = row.text();
+        trial.levels.push_back({std::move(factor), row.text()});
+    }
+    for (Query row(database, "SELECT trial, correct, role FROM schedule_answer"); row.step();) {
+        Trial& trial = trial_at(row.small());
+        trial.correct = row.text();
+        const auto role = std::ranges::find(names_of<TrialRole>, row.text());
+        if (role == names_of<TrialRole>.end())
+            throw RecordError("table schedule_answer: there is no such role of a trial");
+        trial.role = static_cast<TrialRole>(role - names_of<TrialRole>.begin());
+    }
+}
+
 void read_dataset(const SQLite::Database& database, SessionHeader& header) {
     if (!has_table(database, "dataset_entry"))
         return;
     for (Query row(database, "SELECT key, value FROM dataset_entry ORDER BY n"); row.step();)
         header.dataset.push_back({row.text(), row.text()});
-}
-
-Stimulus read_stimulus(Query& row) {
-    return {row.small(), row.small(), row.small(), row.small(), row.small()};
-}
-
-/// The columns of light, motion and view. Sessions of earlier formats have one of each.
-const char* further_indices(const SQLite::Database& database, const char* table) {
-    return has_column(database, table, "light") ? "light, motion, view" : "0, 0, 0";
 }
 
 /// Sessions of earlier formats have one motion, which the session's own row tells, and one view.
@@ -124,19 +147,19 @@ void read_cameras(const SQLite::Database& database, SessionHeader& header) {
 }
 
 void read_design(const SQLite::Database& database, SessionHeader& header) {
-    for (Query row(database,
-                   fmt::format("SELECT trial, task, object, material, {} FROM schedule ORDER BY trial",
-                               further_indices(database, "schedule"))
-                       .c_str());
-         row.step();)
-        header.schedule.trials.push_back({row.small(), row.small(), read_stimulus(row)});
+    for (Query row(database, fmt::format("SELECT trial, task, {} FROM schedule ORDER BY trial",
+                                         stimulus_columns_of(database, "schedule"))
+                                 .c_str());
+         row.step();) {
+        Trial& trial = header.schedule.trials.emplace_back();
+        row.read(trial.index, trial.task, trial.stimulus);
+    }
     read_blocks(database, header);
     read_slots(database, header);
+    read_own_levels(database, header);
     read_dataset(database, header);
     for (Query row(database, "SELECT id, question FROM task ORDER BY task"); row.step();)
         header.tasks.push_back({row.text(), row.text()});
-    for (Query row(database, "SELECT id, title FROM material ORDER BY material"); row.step();)
-        header.materials.push_back({row.text(), row.text()});
     for (Query row(database, "SELECT angle_deg FROM pose ORDER BY pose"); row.step();)
         header.poses.angles.push_back({row.real()});
     read_motions(database, header);
@@ -151,11 +174,13 @@ void read_objects(const SQLite::Database& database, SessionHeader& header) {
         header.objects[object].part_names.push_back(row.text());
     }
     read_cameras(database, header);
-    for (Query row(database, fmt::format("SELECT object, material, {}, source, frames_sha256 FROM stimulus",
-                                         further_indices(database, "stimulus"))
+    for (Query row(database, fmt::format("SELECT {}, source, frames_sha256 FROM stimulus",
+                                         stimulus_columns_of(database, "stimulus"))
                                  .c_str());
-         row.step();)
-        header.stimuli.push_back({read_stimulus(row), row.text(), row.text()});
+         row.step();) {
+        RecordedStimulus& stimulus = header.stimuli.emplace_back();
+        row.read(stimulus.stimulus, stimulus.source, stimulus.frames_sha256);
+    }
     // In version 1 all maps were of triangles.
     Query version(database, "PRAGMA user_version");
     const bool has_kind = version.step() && version.small() >= 2;
@@ -173,6 +198,41 @@ void read_objects(const SQLite::Database& database, SessionHeader& header) {
              row.text() == "triangles" ? RecordedMap::Kind::triangles : RecordedMap::Kind::coordinates});
 }
 
+/// Sessions of earlier formats have one light, one motion and one view, and no columns.
+void read_lists(const SQLite::Database& database, SessionHeader& header) {
+    for (std::size_t list = 0; list < stimulus_lists.size(); ++list) {
+        const std::string name(stimulus_lists[list].name);
+        std::size_t at = 0;
+        const auto read = [&](auto of_list) {
+            if (at++ != list)
+                return;
+            auto& entries = header.*of_list;
+            if constexpr (std::is_same_v<std::remove_reference_t<decltype(entries)>, std::vector<ListEntry>>)
+                if (has_table(database, name.c_str()))
+                    for (Query row(database,
+                                   fmt::format("SELECT id, title FROM {0} ORDER BY {0}", name).c_str());
+                         row.step();) {
+                        ListEntry& entry = entries.emplace_back();
+                        row.read(entry.id, entry.title);
+                    }
+            if (!has_table(database, "entry_column"))
+                return;
+            for (Query row(database, fmt::format("SELECT entry, name, text, number FROM entry_column WHERE "
+                                                 "list = '{}' ORDER BY entry, n",
+                                                 name)
+                                         .c_str());
+                 row.step();) {
+                const auto entry = static_cast<std::size_t>(row.small());
+                if (entry >= entries.size())
+                    throw RecordError(fmt::format("table entry_column: there is no {} {}", name, entry));
+                NamedWord& column = entries[entry].columns.emplace_back();
+                row.read(column.name, column.text, column.number);
+            }
+        };
+        std::apply([&](auto... of_list) { (read(of_list), ...); }, recorded_lists);
+    }
+}
+
 } // namespace
 
 SessionHeader read_session_header(const SQLite::Database& database) {
@@ -184,6 +244,7 @@ SessionHeader read_session_header(const SQLite::Database& database) {
     read_characterisation(database, header);
     read_design(database, header);
     read_objects(database, header);
+    read_lists(database, header);
     // Imports of earlier programs have the motion of a protocol, which nothing went through, and one pose.
     if (knows_no_stimulus(header) && header.animations.size() == 1 &&
         header.poses.of_motion.front().size() == 1)

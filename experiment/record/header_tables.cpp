@@ -150,6 +150,14 @@ constexpr RowColumn<RecordedObject> object_columns[] = {
                           "of all lengths of the object: `mm`; `own` if that of its mesh is "
                           "unknown; empty if not recorded",
                           "''"),
+    column<&Object::origin, 0>(
+        "origin_x",
+        "of the object's coordinates in those of its mesh's file, turned and scaled as the "
+        "protocol says: what has to be added to a place; 0 unless the mesh lies far from its "
+        "file's origin",
+        "0"),
+    column<&Object::origin, 1>("origin_y", "likewise", "0"),
+    column<&Object::origin, 2>("origin_z", "likewise", "0"),
 };
 
 } // namespace

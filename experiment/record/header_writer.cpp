@@ -6,6 +6,7 @@
 #include "experiment/record/seal_chain.h"
 #include "experiment/record/session_schema.h"
 #include "experiment/record/sql.h"
+#include "experiment/record/stimulus_columns.h"
 
 namespace overt {
 namespace {
@@ -19,16 +20,24 @@ void insert_characterisation(SQLite::Database& database, const RecordedCharacter
 
 void insert_design(SQLite::Database& database, const SessionHeader& header) {
     for (const Trial& trial : header.schedule.trials)
-        insert_values(database, "INTO schedule", trial.index, trial.task, trial.stimulus.object,
-                      trial.stimulus.material, trial.block, trial.stimulus.light, trial.stimulus.motion,
-                      trial.stimulus.view);
+        insert_values(database, fmt::format("INTO schedule (trial, task, {}, block)", stimulus_columns()),
+                      trial.index, trial.task, trial.stimulus, trial.block);
     int index = 0;
     for (const Trial& trial : header.schedule.trials) {
         for (std::size_t i = 0; i < trial.shown_count() && (trial.slot != 0 || !trial.beside.empty()); ++i) {
             const auto [stimulus, slot] = trial.shown(i);
-            insert_values(database, "INTO schedule_slot", trial.index, static_cast<int>(i), slot,
-                          stimulus.object, stimulus.material, stimulus.light, stimulus.motion, stimulus.view);
+            insert_values(database,
+                          fmt::format("INTO schedule_slot (trial, place, slot, {})", stimulus_columns()),
+                          trial.index, static_cast<int>(i), slot, stimulus);
         }
+    }
+    for (const Trial& trial : header.schedule.trials) {
+        int level = 0;
+        for (const TrialLevel& of : trial.levels)
+            insert_values(database, "INTO schedule_level", trial.index, level++, of.factor, of.level);
+        if (!trial.correct.empty() || trial.role != TrialRole::trial)
+            insert_values(database, "INTO schedule_answer", trial.index, trial.correct,
+                          std::string(name_of(trial.role)));
     }
     for (const std::string& block : header.blocks)
         insert_values(database, "INTO block", index++, block);
@@ -42,9 +51,6 @@ void insert_design(SQLite::Database& database, const SessionHeader& header) {
     for (const RecordedTask& task : header.tasks)
         insert_values(database, "INTO task", index++, task.id, task.question);
     index = 0;
-    for (const RecordedMaterial& material : header.materials)
-        insert_values(database, "INTO material", index++, material.id, material.title);
-    index = 0;
     for (const Degrees angle : header.poses.angles)
         insert_values(database, "INTO pose", index++, angle.value);
     int motion = 0;
@@ -54,6 +60,23 @@ void insert_design(SQLite::Database& database, const SessionHeader& header) {
         for (const PoseIndex pose : header.poses.frames_of(motion))
             insert_values(database, "INTO animation_frame", motion, index++, pose.value);
         ++motion;
+    }
+}
+
+/// Ids and titles of each list, but for the objects', and the columns of all.
+void insert_lists(SQLite::Database& database, const SessionHeader& header) {
+    for (std::size_t list = 0; list < stimulus_lists.size(); ++list) {
+        const std::string name(stimulus_lists[list].name);
+        int index = 0;
+        for (const ListEntry& entry : entries_of(header, list)) {
+            if (name != object_table().name)
+                insert_values(database, "INTO " + name, index, entry.id, entry.title);
+            int n = 0;
+            for (const NamedWord& column : entry.columns)
+                insert_values(database, "INTO entry_column", name, index, n++, column.name, column.text,
+                              column.number);
+            ++index;
+        }
     }
 }
 
@@ -78,9 +101,8 @@ void insert_objects(SQLite::Database& database, const SessionHeader& header) {
         ++index;
     }
     for (const RecordedStimulus& stimulus : header.stimuli)
-        insert_values(database, "INTO stimulus", stimulus.stimulus.object, stimulus.stimulus.material,
-                      stimulus.stimulus.light, stimulus.stimulus.motion, stimulus.stimulus.view,
-                      stimulus.source, stimulus.frames_sha256);
+        insert_values(database, fmt::format("INTO stimulus ({}, source, frames_sha256)", stimulus_columns()),
+                      stimulus.stimulus, stimulus.source, stimulus.frames_sha256);
     for (const RecordedMap& map : header.maps)
         insert_values(database, "INTO map", map.viewed.object, map.viewed.view, map.pose.value, map.file,
                       map.sha256, map.made == RecordedMap::Made::prepared ? "prepared" : "live",
@@ -104,6 +126,7 @@ void create_session_file(const std::filesystem::path& file, const SessionHeader&
         if (header.characterisation)
             insert_characterisation(database, *header.characterisation);
         insert_design(database, header);
+        insert_lists(database, header);
         insert_slots(database, header);
         insert_objects(database, header);
         SealWriter(database).begin(0);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <string_view>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -11,19 +10,7 @@ namespace overt {
 namespace {
 
 std::string stimulus_file(const SessionHeader& header, const Stimulus& stimulus, std::string_view ending) {
-    std::string name =
-        fmt::format("stimuli/{}_{}", header.objects[static_cast<std::size_t>(stimulus.object)].id,
-                    header.materials[static_cast<std::size_t>(stimulus.material)].id);
-    // What else stimuli of the session differ in, by its number.
-    constexpr std::pair<std::string_view, int Stimulus::*> further[] = {
-        {"light", &Stimulus::light}, {"motion", &Stimulus::motion}, {"view", &Stimulus::view}};
-    for (const auto& [word, index] : further) {
-        const auto differs = [&, of = index](const RecordedStimulus& other) {
-            return other.stimulus.*of != stimulus.*of;
-        };
-        if (std::ranges::any_of(header.stimuli, differs))
-            name += fmt::format("_{}{}", word, stimulus.*index + 1);
-    }
+    std::string name = fmt::format("stimuli/{}", stimulus_name(header, stimulus, "_"));
     return name += ending;
 }
 

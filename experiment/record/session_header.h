@@ -6,17 +6,22 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <tuple>
 #include <vector>
 
 #include <glm/glm.hpp>
 
 #include "experiment/animation.h"
 #include "experiment/base/content_hash.h"
+#include "experiment/factors.h"
+#include "experiment/list_entry.h"
 #include "experiment/ports/eye_tracker.h"
 #include "experiment/scene/mesh.h"
 #include "experiment/scene/viewing.h"
 #include "experiment/screen_geometry.h"
 #include "experiment/session_time.h"
+#include "experiment/stimulus_lists.h"
 #include "experiment/trial.h"
 
 namespace overt {
@@ -109,13 +114,12 @@ struct RecordedObject {
     /// Of all its lengths: "mm"; "own" if the protocol does not know it, or if maps came without a mesh and
     /// do not say it; empty in sessions of earlier programs, which did not write it down.
     std::string unit = "mm";
+    NamedWords columns = {}; ///< said of it in the protocol
+    /// Added to a place on the object, it gives the place in the coordinates of the mesh's file, turned and
+    /// scaled as the protocol says. Not 0 for a mesh far from its file's origin only (import_mesh).
+    glm::dvec3 origin{0.0};
 
     const Camera& camera(int view) const { return cameras.at(static_cast<std::size_t>(view)); }
-};
-
-struct RecordedMaterial {
-    std::string id;
-    std::string title;
 };
 
 struct RecordedStimulus {
@@ -172,7 +176,9 @@ struct SessionHeader {
     std::vector<std::string> blocks; ///< ids; none: the protocol has no blocks
     std::vector<RecordedTask> tasks;
     std::vector<RecordedObject> objects;
-    std::vector<RecordedMaterial> materials;
+    std::vector<ListEntry> materials;
+    std::vector<ListEntry> lights = {}, motions = {},
+                           views = {}; ///< none: there is one, with the list's name
     std::vector<RecordedStimulus> stimuli;
     std::vector<RecordedMap> maps;
     std::vector<RecordedSlot> slots = {}; ///< as read: one at least, that of the image where none is recorded
@@ -198,5 +204,27 @@ struct SessionHeader {
         return screen;
     }
 };
+
+/// Where the entries of each of `stimulus_lists` are, in their order.
+inline constexpr std::tuple recorded_lists{&SessionHeader::objects, &SessionHeader::materials,
+                                           &SessionHeader::lights, &SessionHeader::motions,
+                                           &SessionHeader::views};
+static_assert(std::tuple_size_v<decltype(recorded_lists)> == stimulus_lists.size());
+
+/// The entries of a list, at least one; of objects what all lists have. `list`: index into `stimulus_lists`.
+std::vector<ListEntry> entries_of(const SessionHeader& header, std::size_t list);
+
+/// Puts the entries of a list into the header; of objects, which are described there already, the columns.
+void record_entries(SessionHeader& header, std::size_t list, const std::vector<const ListEntry*>& entries);
+
+/// How many entries each list has.
+std::array<std::size_t, stimulus_lists.size()> entry_counts(const SessionHeader& header);
+
+/// All factors of a session's trials.
+Factors factors_of(const SessionHeader& header);
+
+/// The ids of a stimulus' entries, of lists with several, and always of object and material: "muse/gold".
+std::string stimulus_name(const SessionHeader& header, const Stimulus& stimulus,
+                          std::string_view between = "/");
 
 } // namespace overt

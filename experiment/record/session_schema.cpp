@@ -3,6 +3,7 @@
 #include <SQLiteCpp/Database.h>
 
 #include "experiment/record/header_tables.h"
+#include "experiment/record/stimulus_columns.h"
 
 namespace overt {
 
@@ -13,21 +14,18 @@ namespace {
 // row: no uniqueness of refreshes, no foreign keys.
 const char* const session_schema_sql = R"sql(
 CREATE TABLE characterisation_file (n INTEGER PRIMARY KEY, name TEXT NOT NULL, text TEXT NOT NULL) STRICT;
-CREATE TABLE schedule (trial INTEGER PRIMARY KEY, task INTEGER NOT NULL, object INTEGER NOT NULL,
-                       material INTEGER NOT NULL, block INTEGER NOT NULL DEFAULT 0,
-                       light INTEGER NOT NULL DEFAULT 0, motion INTEGER NOT NULL DEFAULT 0,
-                       view INTEGER NOT NULL DEFAULT 0) STRICT;
+CREATE TABLE schedule (trial INTEGER PRIMARY KEY, task INTEGER NOT NULL, @stimulus,
+                       block INTEGER NOT NULL DEFAULT 0) STRICT;
 CREATE TABLE block (block INTEGER PRIMARY KEY, id TEXT NOT NULL) STRICT;
 CREATE TABLE protocol_file (n INTEGER PRIMARY KEY, name TEXT NOT NULL, text TEXT NOT NULL,
                             sha256 TEXT NOT NULL) STRICT;
 CREATE TABLE task (task INTEGER PRIMARY KEY, id TEXT NOT NULL, question TEXT NOT NULL) STRICT;
 CREATE TABLE part (object INTEGER NOT NULL, part INTEGER NOT NULL, name TEXT NOT NULL,
                    PRIMARY KEY (object, part)) STRICT, WITHOUT ROWID;
-CREATE TABLE material (material INTEGER PRIMARY KEY, id TEXT NOT NULL, title TEXT NOT NULL) STRICT;
-CREATE TABLE stimulus (object INTEGER NOT NULL, material INTEGER NOT NULL, light INTEGER NOT NULL DEFAULT 0,
-                       motion INTEGER NOT NULL DEFAULT 0, view INTEGER NOT NULL DEFAULT 0, source TEXT NOT NULL,
-                       frames_sha256 TEXT NOT NULL,
-                       PRIMARY KEY (object, material, light, motion, view)) STRICT, WITHOUT ROWID;
+CREATE TABLE entry_column (list TEXT NOT NULL, entry INTEGER NOT NULL, n INTEGER NOT NULL, name TEXT NOT NULL,
+                           text TEXT NOT NULL, number REAL, PRIMARY KEY (list, entry, n)) STRICT, WITHOUT ROWID;
+CREATE TABLE stimulus (@stimulus, source TEXT NOT NULL, frames_sha256 TEXT NOT NULL,
+                       PRIMARY KEY (@indices)) STRICT, WITHOUT ROWID;
 CREATE TABLE pose (pose INTEGER PRIMARY KEY, angle_deg REAL NOT NULL) STRICT;
 CREATE TABLE animation_frame (motion INTEGER NOT NULL DEFAULT 0, frame INTEGER NOT NULL, pose INTEGER NOT NULL,
                               PRIMARY KEY (motion, frame)) STRICT, WITHOUT ROWID;
@@ -46,15 +44,14 @@ CREATE TABLE sitting (sitting INTEGER PRIMARY KEY, started_utc TEXT NOT NULL,
 CREATE TABLE trial (
     trial_id INTEGER PRIMARY KEY, sitting INTEGER NOT NULL REFERENCES sitting,
     trial INTEGER NOT NULL, attempt INTEGER NOT NULL,
-    task INTEGER NOT NULL, object INTEGER NOT NULL, material INTEGER NOT NULL,
+    task INTEGER NOT NULL, @stimulus,
     status TEXT NOT NULL CHECK (status IN ('open', 'completed', 'aborted', 'interrupted')),
     started_ns INTEGER NOT NULL,
     task_screen_onset_ns INTEGER, presentation_onset_ns INTEGER, presentation_end_ns INTEGER,
     response_screen_onset_ns INTEGER, responded_ns INTEGER,
     shown_refreshes INTEGER, missed_refreshes INTEGER, drift_deg REAL, answer TEXT,
     lost_flips INTEGER, lost_samples INTEGER,
-    failure TEXT, comes_again TEXT CHECK (comes_again IN ('never', 'now', 'end-of-block')),
-    light INTEGER NOT NULL DEFAULT 0, motion INTEGER NOT NULL DEFAULT 0, view INTEGER NOT NULL DEFAULT 0
+    failure TEXT, comes_again TEXT CHECK (comes_again IN ('never', 'now', 'end-of-block'))
 ) STRICT;
 CREATE TABLE superseded (attempt_id INTEGER PRIMARY KEY, sitting INTEGER NOT NULL, why TEXT NOT NULL) STRICT;
 CREATE TABLE given_up (trial INTEGER PRIMARY KEY, sitting INTEGER NOT NULL, why TEXT NOT NULL) STRICT;
@@ -153,13 +150,18 @@ CREATE TABLE IF NOT EXISTS slot (
     top_px INTEGER NOT NULL, width_px INTEGER NOT NULL, height_px INTEGER NOT NULL
 ) STRICT;
 CREATE TABLE IF NOT EXISTS schedule_slot (
-    trial INTEGER NOT NULL, place INTEGER NOT NULL, slot INTEGER NOT NULL, object INTEGER NOT NULL,
-    material INTEGER NOT NULL, light INTEGER NOT NULL, motion INTEGER NOT NULL, view INTEGER NOT NULL,
+    trial INTEGER NOT NULL, place INTEGER NOT NULL, slot INTEGER NOT NULL, @stimulus,
     PRIMARY KEY (trial, place)
 ) STRICT, WITHOUT ROWID;
+CREATE TABLE IF NOT EXISTS schedule_level (
+    trial INTEGER NOT NULL, n INTEGER NOT NULL, factor TEXT NOT NULL, level TEXT NOT NULL,
+    PRIMARY KEY (trial, n)
+) STRICT, WITHOUT ROWID;
+CREATE TABLE IF NOT EXISTS schedule_answer (
+    trial INTEGER PRIMARY KEY, correct TEXT NOT NULL, role TEXT NOT NULL CHECK (role IN ('trial', 'catch', 'practice'))
+) STRICT;
 CREATE TABLE IF NOT EXISTS presentation (
-    trial_id INTEGER NOT NULL, place INTEGER NOT NULL, slot INTEGER NOT NULL, object INTEGER NOT NULL,
-    material INTEGER NOT NULL, light INTEGER NOT NULL, motion INTEGER NOT NULL, view INTEGER NOT NULL,
+    trial_id INTEGER NOT NULL, place INTEGER NOT NULL, slot INTEGER NOT NULL, @stimulus,
     first_refresh INTEGER, last_refresh INTEGER,
     PRIMARY KEY (trial_id, place)
 ) STRICT, WITHOUT ROWID;
@@ -244,7 +246,12 @@ void make_session_tables(SQLite::Database& database) {
         database.exec(sql);
     for (const char* const sql : {session_schema_sql, box_tables_sql, observer_tables_sql, ledger_tables_sql,
                                   slot_tables_sql, gaze_tables_sql, device_tables_sql, option_tables_sql})
-        database.exec(sql);
+        database.exec(with_stimulus_columns(sql));
+    for (const StimulusList& list : stimulus_lists)
+        if (list.name != object_table().name) // which has more columns
+            database.exec(fmt::format(
+                "CREATE TABLE {0} ({0} INTEGER PRIMARY KEY, id TEXT NOT NULL, title TEXT NOT NULL) STRICT",
+                list.name));
 }
 
 } // namespace overt

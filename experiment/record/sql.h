@@ -16,6 +16,7 @@
 #include <fmt/format.h>
 
 #include "experiment/session_time.h"
+#include "experiment/stimulus_lists.h"
 #include "experiment/units.h"
 
 struct sqlite3_stmt;
@@ -61,11 +62,22 @@ template <class T> void bind_value(SQLite::Statement& statement, int index, cons
         statement.bind(index);
 }
 
+/// Binds a value to the next question mark, or a stimulus to the next ones: its index in each list.
+template <class Value> void bind_next(SQLite::Statement& statement, int& index, const Value& value) {
+    bind_value(statement, ++index, value);
+}
+inline void bind_next(SQLite::Statement& statement, int& index, const Stimulus& value) {
+    for (const StimulusList& list : stimulus_lists)
+        bind_value(statement, ++index, value.*list.index);
+}
+template <class Value>
+constexpr std::size_t marks_of = std::is_same_v<Value, Stimulus> ? stimulus_lists.size() : 1;
+
 /// Runs a statement that gives no rows with these values for its question marks, and makes it ready for the
 /// next run. Throws SQLite::Exception.
 template <class... Values> void run_statement(SQLite::Statement& statement, const Values&... values) {
     int index = 0;
-    (bind_value(statement, ++index, values), ...);
+    (bind_next(statement, index, values), ...);
     statement.exec();
     statement.reset();
 }
@@ -73,9 +85,9 @@ template <class... Values> void run_statement(SQLite::Statement& statement, cons
 /// Adds a row: `into` is "INTO table (columns of the values)", or "OR REPLACE INTO …". Throws
 /// SQLite::Exception.
 template <class... Values>
-void insert_values(SQLite::Database& database, const char* into, const Values&... values) {
+void insert_values(SQLite::Database& database, const std::string& into, const Values&... values) {
     std::string marks = "?";
-    for (std::size_t i = 1; i < sizeof...(values); ++i)
+    for (std::size_t i = 1; i < (marks_of<Values> + ...); ++i)
         marks += ",?";
     SQLite::Statement statement(database, fmt::format("INSERT {} VALUES ({})", into, marks));
     run_statement(statement, values...);
@@ -123,6 +135,10 @@ class Query {
 
 inline void read_into(int& value, Query& row) { value = row.small(); }
 inline void read_into(std::int64_t& value, Query& row) { value = row.integer(); }
+inline void read_into(Stimulus& value, Query& row) {
+    for (const StimulusList& list : stimulus_lists)
+        value.*list.index = row.small();
+}
 inline void read_into(bool& value, Query& row) { value = row.integer() != 0; }
 inline void read_into(double& value, Query& row) { value = row.real(); }
 inline void read_into(std::string& value, Query& row) { value = row.text(); }

@@ -192,6 +192,8 @@ nlohmann::ordered_json report_data(const StudyResults& results) {
             {"parameters", parameters},
             {"remarks", results.remarks},
             {"by", results.by},
+            {"areas", results.areas},
+            {"area", results.area},
             {"confidence", results.confidence},
             {"colours", colours},
             {"sessions", sessions},

@@ -5,11 +5,13 @@
 namespace overt {
 
 Json report_tables(const StudyResults& results) {
-    Json heads = Json::array(), distributions = Json::array(), pairs = Json::array(), effects = Json::array(),
+    Json areas = Json::array(), transitions = Json::array(), area_pairs = Json::array(),
+         distributions = Json::array(), pairs = Json::array(), effects = Json::array(),
          motions = Json::array(), lights = Json::array(), predictions = Json::array(),
          reliabilities = Json::array(), exposures = Json::array(), course = Json::array();
-    for (const HeadFractionRow& row : results.head_fractions) {
-        Json json{{"keys", json_of(row.keys)},
+    for (const AreaRow& row : results.area_rows) {
+        Json json{{"area", row.area},
+                  {"keys", json_of(row.keys)},
                   {"count", json_of(row.by_count)},
                   {"duration", json_of(row.by_duration)},
                   {"corrected", json_of(row.corrected)},
@@ -17,13 +19,43 @@ Json report_tables(const StudyResults& results) {
                   {"each", Json::array()},
                   {"observers", row.observers},
                   {"trials", row.trials},
-                  {"fixations", row.fixations}};
+                  {"fixations", row.fixations},
+                  {"surface", number(row.share_of_surface, 4)},
+                  {"exposure", number(row.share_of_exposure, 4)},
+                  {"over_exposure", json_of(row.over_exposure)},
+                  {"dwell", json_of(row.dwell_s)},
+                  {"visits", json_of(row.visits)},
+                  {"visit", json_of(row.visit_s)},
+                  {"reached", json_of(row.reached)},
+                  {"arrival", json_of(row.first_arrival_s)},
+                  {"arrival_number", json_of(row.first_arrival_number)}};
         for (const double share : row.of_observers)
             json["each"].push_back(number(share, 4));
         if (row.pooled_interval)
             json["pooled_ci"] = {number(row.pooled_interval->low), number(row.pooled_interval->high)};
-        heads.push_back(std::move(json));
+        areas.push_back(std::move(json));
     }
+    for (const SurfaceTransitionRow& row : results.surface_transitions)
+        transitions.push_back({{"keys", json_of(row.keys)},
+                               {"from", row.from},
+                               {"to", row.to},
+                               {"p", json_of(row.probability)},
+                               {"chance", json_of(row.chance)},
+                               {"over", json_of(row.over_chance)},
+                               {"count", row.transitions},
+                               {"observers", row.observers}});
+    for (const AreaPairRow& row : results.area_pairs)
+        area_pairs.push_back({{"area", row.area},
+                              {"keys", json_of(row.keys)},
+                              {"column", row.column},
+                              {"a", row.a},
+                              {"b", row.b},
+                              {"difference", json_of(row.difference)},
+                              {"p", number(row.p)},
+                              {"holm", number(row.p_holm)},
+                              {"holm_areas", number(row.p_holm_areas)},
+                              {"observers", row.observers},
+                              {"comparisons", row.comparisons}});
     for (const DistributionRow& row : results.distributions) {
         Json variance = Json::array(), variance_deg = Json::array();
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -101,7 +133,7 @@ Json report_tables(const StudyResults& results) {
                                  {"fixations", row.fixations}});
     for (const ExposureRow& row : results.exposures)
         exposures.push_back({{"object", row.object},
-                             {"part", row.part},
+                             {"area_name", row.area.empty() ? std::string("all") : row.area},
                              {"area", number(row.area_mm2)},
                              {"share_of_area", number(row.share_of_area, 4)},
                              {"never", number(row.never_visible, 4)},
@@ -110,12 +142,15 @@ Json report_tables(const StudyResults& results) {
                              {"foreshortening", number(row.foreshortening, 4)},
                              {"fixations", number(row.share_of_fixations, 4)}});
     for (const TimeCourseRow& row : results.time_course)
-        course.push_back({{"key", {row.key.column, row.key.value}},
+        course.push_back({{"area", row.area},
+                          {"key", {row.key.column, row.key.value}},
                           {"from", row.from_s},
                           {"to", row.to_s},
-                          {"head", json_of(row.head_fraction)},
+                          {"share", json_of(row.share)},
                           {"observers", row.observers}});
-    Json tables{{"heads", heads},
+    Json tables{{"surface_areas", areas},
+                {"surface_transitions", transitions},
+                {"area_pairs", area_pairs},
                 {"distributions", distributions},
                 {"pairs", pairs},
                 {"effects", effects},

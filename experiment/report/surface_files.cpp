@@ -122,18 +122,23 @@ void write_as(const MeshFormat& format, const SurfaceFile& file,
     for (const float value : *file.values)
         values.push_back(static_cast<float>(per_value * static_cast<double>(value)));
     const StudyObject& object = *file.object;
+    std::vector<std::pair<std::string, std::string>> legend{
+        {"quantity", quantity_in(file, format)},
+        {"lengths", fmt::format("{} of the object", format.unit)},
+        {"shown", shown_size_words(object)},
+        {"colours", fmt::format("{} from {:.6g} to {:.6g}", name_of(file.colours), per_value * file.low,
+                                per_value * file.high)},
+        {"grey", "never visible in a presentation"}};
+    const double scale = *object.mm_per_unit * format.units_per_mm;
+    if (object.origin != glm::dvec3(0.0)) {
+        const glm::dvec3 origin = scale * object.origin;
+        legend.emplace_back("origin",
+                            fmt::format("{} {} {} {}, with z up: added to a place it gives that in the "
+                                        "coordinates of the mesh's file, turned and scaled",
+                                        origin.x, origin.y, origin.z, format.unit));
+    }
     format.write(folder / fmt::format("{}.{}", file.name, format.ending),
-                 {*object.mesh,
-                  values,
-                  colours,
-                  file.title,
-                  *object.mm_per_unit * format.units_per_mm,
-                  {{"quantity", quantity_in(file, format)},
-                   {"lengths", fmt::format("{} of the object", format.unit)},
-                   {"shown", shown_size_words(object)},
-                   {"colours", fmt::format("{} from {:.6g} to {:.6g}", name_of(file.colours),
-                                           per_value * file.low, per_value * file.high)},
-                   {"grey", "never visible in a presentation"}}});
+                 {*object.mesh, values, colours, file.title, scale, std::move(legend)});
 }
 
 } // namespace

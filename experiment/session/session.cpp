@@ -4,6 +4,7 @@
 
 #include "experiment/base/counted.h"
 #include "experiment/ports/event_kinds.h"
+#include "experiment/protocol/all_stimuli.h"
 #include "experiment/session/session_opening.h"
 #include "experiment/session/session_screens.h"
 

@@ -225,6 +225,11 @@ void TrialRun::mark_result(const Trial& trial, const Attempt& attempt) {
     variable("task", state_.protocol.tasks[static_cast<std::size_t>(trial.task)].id);
     variable("object", state_.protocol.objects[static_cast<std::size_t>(trial.stimulus.object)].id);
     variable("material", state_.protocol.materials[static_cast<std::size_t>(trial.stimulus.material)].id);
+    for (const auto& [stimulus, slot] : trial.beside) {
+        const std::string in = state_.protocol.slots[static_cast<std::size_t>(slot)].id + ".";
+        variable(in + "object", state_.protocol.objects[static_cast<std::size_t>(stimulus.object)].id);
+        variable(in + "material", state_.protocol.materials[static_cast<std::size_t>(stimulus.material)].id);
+    }
     variable("missed_refreshes", fmt::format("{}", attempt.outcome.missed_refreshes));
     mark(MarkedEvent::result, now, fmt::format("TRIAL_RESULT {}", goes_on(attempt) ? 0 : 1));
 }

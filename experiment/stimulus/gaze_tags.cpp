@@ -1,5 +1,6 @@
 #include "experiment/stimulus/gaze_tags.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -36,7 +37,8 @@ bool touches(const TagPlace& tag, glm::ivec2 origin_px, glm::ivec2 size_px) {
     return first.x < other_end.x && end.x > origin_px.x && first.y < other_end.y && end.y > origin_px.y;
 }
 
-std::vector<TagPlace> gaze_tags_of(const ScreenGeometry& geometry, const DisplaySettings& display) {
+std::vector<TagPlace> gaze_tags_of(const ScreenGeometry& geometry, const DisplaySettings& display,
+                                   std::span<const glm::ivec2> images_px) {
     if (display.tags_px == 0)
         return {};
     const glm::ivec2 size(display.tags_px), first(0, reserved_rows(display.output)),
@@ -44,13 +46,17 @@ std::vector<TagPlace> gaze_tags_of(const ScreenGeometry& geometry, const Display
     const std::array<int, 2> columns{first.x, last.x};
     const std::array<int, 3> rows{first.y, (first.y + last.y) / 2, last.y};
     const std::optional<PatchPlace> patch = photodiode_patch_of(display);
+    if (images_px.empty())
+        images_px = {&geometry.image_origin_px, 1};
     std::vector<TagPlace> tags;
     int id = 0;
     for (const int row : rows) {
         for (const int column : columns) {
             const TagPlace tag{id++, row != rows[1], {column, row}, size};
-            bool is_free = !touches(tag, geometry.image_origin_px, geometry.image_px) &&
-                           !(patch && touches(tag, patch->origin_px, patch->size_px));
+            bool is_free =
+                std::ranges::none_of(
+                    images_px, [&](glm::ivec2 image) { return touches(tag, image, geometry.image_px); }) &&
+                !(patch && touches(tag, patch->origin_px, patch->size_px));
             for (const TagPlace& other : tags)
                 is_free = is_free && !touches(tag, other.origin_px, other.size_px);
             if (is_free || tag.is_corner)

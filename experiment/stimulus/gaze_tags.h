@@ -1,6 +1,7 @@
 /// AprilTags around the stimulus, by which an eye tracker with a scene camera finds the screen.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "experiment/protocol/protocol.h"
@@ -32,7 +33,10 @@ struct TagPlace {
 /// photodiode leave room; texts stand between them. The ids are the same whichever are left out: row by row
 /// from the top left. Corners are given in any case: whether they are free is for the check of protocols to
 /// say.
-std::vector<TagPlace> gaze_tags_of(const ScreenGeometry& geometry, const DisplaySettings& display);
+/// `images_px`: the top left pixels of images of that size in slots; none: there is one, as `geometry` has
+/// it.
+std::vector<TagPlace> gaze_tags_of(const ScreenGeometry& geometry, const DisplaySettings& display,
+                                   std::span<const glm::ivec2> images_px = {});
 
 /// Whether a tag is closer than tag_distance_px to this rectangle of the screen.
 bool touches(const TagPlace& tag, glm::ivec2 origin_px, glm::ivec2 size_px);

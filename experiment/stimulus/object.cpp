@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "experiment/base/error.h"
+#include "experiment/scene/areas.h"
 #include "experiment/scene/files/mesh_reader.h"
 #include "experiment/scene/files/ply_writer.h"
 #include "experiment/scene/ray_caster.h"
@@ -40,8 +41,7 @@ MeshImport import_of(const ObjectSettings& settings) {
     import.scale = settings.scale * mm_of_unit(settings.unit);
     import.labels = settings.labels;
     import.weld_tolerance = settings.weld_tolerance;
-    if (auto head = head_region(settings))
-        import.regions.push_back(*std::move(head));
+    import.regions = area_regions(settings);
     return import;
 }
 
@@ -79,15 +79,40 @@ Camera camera_of(const ViewSettings& settings, const Protocol& protocol, const M
 
 } // namespace
 
-std::optional<PartRegion> head_region(const ObjectSettings& settings) {
-    if (settings.head_spheres.empty() && settings.head_planes.empty())
-        return std::nullopt;
-    PartRegion head{"head", {}, {}};
-    for (const auto& [x, y, z, radius] : settings.head_spheres)
-        head.spheres.emplace_back(x, y, z, radius);
-    for (const auto& plane : settings.head_planes)
-        head.half_spaces.push_back({{plane[0], plane[1], plane[2]}, {plane[3], plane[4], plane[5]}});
-    return head;
+std::vector<PartRegion> area_regions(const ObjectSettings& settings) {
+    std::vector<PartRegion> regions;
+    for (const AreaSettings& area : settings.areas) {
+        PartRegion& region = regions.emplace_back(PartRegion{area.name, {}, {}, area.boxes, area.groups});
+        for (const auto& [x, y, z, radius] : area.spheres)
+            region.spheres.emplace_back(x, y, z, radius);
+        for (const auto& plane : area.planes)
+            region.half_spaces.push_back({{plane[0], plane[1], plane[2]}, {plane[3], plane[4], plane[5]}});
+    }
+    return regions;
+}
+
+std::vector<std::string> map_part_names(const ObjectSettings& settings) {
+    OVERT_EXPECTS(settings.areas.size() <= most_map_areas);
+    std::vector<std::string> names{std::string(rest_part)};
+    for (const AreaSettings& area : settings.areas) {
+        const std::size_t before = names.size();
+        for (std::size_t part = 0; part < before; ++part)
+            names.push_back(part == 0 ? area.name
+                                      : fmt::format("{}{}{}", names[part], between_areas, area.name));
+    }
+    return names;
+}
+
+std::vector<std::string> areas_of(std::span<const Object> objects) {
+    std::vector<std::string> areas;
+    for (const Object& object : objects) {
+        const Areas own(object.mesh.part_names);
+        for (const std::string& area : own.names()) {
+            if (std::ranges::find(areas, area) == areas.end())
+                areas.push_back(area);
+        }
+    }
+    return areas;
 }
 
 ContentHash hash_of_mesh(const Mesh& mesh) {
@@ -109,14 +134,19 @@ Object load_object(const ObjectSettings& settings, const Protocol& protocol,
         MeshCleaningReport report;
         object.mesh = import_mesh(settings.mesh, import_of(settings), report);
         object.remarks = describe(report);
+        for (const AreaOverlap& overlap : overlapping_areas(object.mesh))
+            object.remarks.push_back(
+                fmt::format("Areas \"{}\" and \"{}\" overlap: they share {:.4g} {}, {:.1f} % of the one and "
+                            "{:.1f} % of the "
+                            "other, which count for both.",
+                            overlap.a, overlap.b, overlap.shared_area,
+                            unit_of_lengths(settings) == "mm" ? "mm^2" : "squares of the file's unit",
+                            100.0 * overlap.share_of_a, 100.0 * overlap.share_of_b));
         object.origin = report.origin;
         order_for_drawing(object.mesh);
     } else {
-        if (!settings.lut.empty()) {
-            object.mesh.part_names = {"body"};
-            if (head_region(settings))
-                object.mesh.part_names.emplace_back("head");
-        }
+        if (!settings.lut.empty())
+            object.mesh.part_names = map_part_names(settings);
         return object;
     }
     object.mesh_hash = hash_of_mesh(object.mesh);

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -34,8 +35,18 @@ struct Object {
     const SceneView& scene(int view = 0) const { return scenes.at(static_cast<std::size_t>(view)); }
 };
 
-/// The part "head" that the protocol describes, in the coordinates of the file; nothing if it describes none.
-std::optional<PartRegion> head_region(const ObjectSettings& settings);
+/// The areas that the protocol describes, in the coordinates of the file.
+std::vector<PartRegion> area_regions(const ObjectSettings& settings);
+
+/// Most areas of an object that is shown by ready-made maps.
+inline constexpr std::size_t most_map_areas = 7;
+
+/// The parts of such an object: one for each set of the areas that the protocol describes (areas.h), of which
+/// the first is in none; bit i of a part's index stands for area i.
+std::vector<std::string> map_part_names(const ObjectSettings& settings);
+
+/// The areas of all objects, each once.
+std::vector<std::string> areas_of(std::span<const Object> objects);
 
 /// Of positions, triangles and parts: what a mesh file of any format is to the program.
 ContentHash hash_of_mesh(const Mesh& mesh);

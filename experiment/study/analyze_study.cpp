@@ -12,12 +12,14 @@
 
 #include "experiment/base/counted.h"
 #include "experiment/base/parallel.h"
+#include "experiment/study/area_pairs.h"
+#include "experiment/study/area_shares.h"
+#include "experiment/study/surface_transitions.h"
 #include "experiment/study/difference_maps.h"
 #include "experiment/study/error_budget.h"
 #include "experiment/study/factor_effects.h"
 #include "experiment/study/fixation_maps.h"
 #include "experiment/study/gaze_motion.h"
-#include "experiment/study/head_fractions.h"
 #include "experiment/study/light_at_gaze.h"
 #include "experiment/study/map_predictions.h"
 #include "experiment/study/map_reliability.h"
@@ -144,14 +146,15 @@ void add_maps(ReadStudy& study, const StudyOptions& options, const StudyProgress
     });
 }
 
-/// The share of the fixations on each part, beside its share of the exposure.
+/// The share of the fixations on each area, beside its share of the exposure.
 void add_fixations_to_exposures(StudyResults& results) {
     for (ExposureRow& row : results.exposures) {
         const StudyObject& shown = results.objects[static_cast<std::size_t>(row.object)];
+        const std::optional<std::size_t> area = shown.areas.find(row.area);
         int all = 0, own = 0;
         for_each_counted_on(results, row.object, [&](const StudyFixation& fixation) {
             all += fixation.part.has_value();
-            own += fixation.part && (row.part == "all" || shown.part_names[*fixation.part] == row.part);
+            own += fixation.part && (!area || shown.areas.holds(*area, fixation.part));
         });
         if (all > 0)
             row.share_of_fixations = static_cast<double>(own) / all;
@@ -184,12 +187,14 @@ void remark_on_differences(StudyResults& results, const StudyOptions& options) {
 void reckon_on_surfaces(ReadStudy& study, const StudyOptions& options, const StudyProgress& progress) {
     StudyResults& results = study.results;
     add_maps(study, options, progress);
-    results.head_fractions = head_fractions(results, study.levels, options);
+    results.area_rows = area_rows(results, study.levels, options);
+    results.surface_transitions = surface_transitions(results, study.levels, options);
     results.distributions = point_distributions(results, study.surfaces, options);
-    results.time_course = head_time_course(results, study.levels, options);
+    results.time_course = area_time_course(results, study.levels, options);
     progress("comparisons", 0, 1);
     const ObjectFixationMaps maps = fixation_maps(results, study.surfaces);
     results.pairs = study_pairs(results, study.surfaces, maps, study.levels, options);
+    results.area_pairs = area_pairs(results, study.surfaces, study.levels, options);
     progress("comparisons", 1, 1);
     progress("differences", 0, 1);
     results.differences = difference_maps(results, maps, study.levels, options);
@@ -217,6 +222,7 @@ StudyResults analyze_study(ReadStudy study, const StudyOptions& options, const S
     results.parameters = parameters_of(options);
     results.by = options.by;
     results.confidence = options.confidence;
+    name_areas(results, options);
     glance_at(results, options.exclude);
     results.groups = make_groups(results, options.by, study.levels);
 

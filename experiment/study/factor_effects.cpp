@@ -207,20 +207,31 @@ std::vector<std::string> tested_columns(const std::vector<std::string>& by) {
 
 std::vector<FactorEffectRow> factor_effects(const StudyResults& results, const LevelLists& levels,
                                             const StudyOptions& options) {
-    Values heads, spreads;
+    Values spreads;
+    std::vector<Values> shares(results.areas.size());
     for (std::size_t i = 0; i < results.trials.size(); ++i) {
         const StudyTrial& trial = results.trials[i];
         if (trial.excluded)
             continue;
         const TrialSummaryRow summary = trial_summary(results, trial);
         const std::string& observer = observer_of(results, static_cast<int>(i));
-        if (summary.has_head.value_or(false) && summary.counted > 0)
-            heads.push_back({&trial, observer, static_cast<double>(summary.on_head) / summary.counted});
+        for (std::size_t area = 0; area < shares.size(); ++area) {
+            if (summary.areas[area] && summary.counted > 0)
+                shares[area].push_back(
+                    {&trial, observer,
+                     static_cast<double>(summary.areas[area]->fixations) / summary.counted});
+        }
         if (summary.wss_mm2.value_or(0.0) > 0.0)
             spreads.push_back({&trial, observer, std::log(*summary.wss_mm2)});
     }
     const EffectTests tests(results, levels, options);
-    std::vector<FactorEffectRow> rows = tests.rows_of("head fraction", heads);
+    std::vector<FactorEffectRow> rows;
+    for (const std::string& area : results.compared_areas) {
+        const auto index =
+            static_cast<std::size_t>(std::ranges::find(results.areas, area) - results.areas.begin());
+        std::ranges::copy(tests.rows_of(fmt::format("share on {}", area), shares[index]),
+                          std::back_inserter(rows));
+    }
     std::ranges::copy(tests.rows_of("log WSS", spreads), std::back_inserter(rows));
     return rows;
 }

@@ -10,8 +10,8 @@
 
 namespace overt {
 
-/// Rows for the share of fixations on the head and for the logarithm of WSS of trials: each column of `--by`
-/// that is neither the observer nor the object, and each pair of them (interaction).
+/// Rows for the share of fixations on each of the compared areas and for the logarithm of WSS of trials: each
+/// column of `--by` that is neither the observer nor the object, and each pair of them (interaction).
 ///
 /// Main effect: from each trial's number the mean over all trials that are alike in the other columns and the
 /// object is taken off, so that a design in which these rotate does not pass for an effect; trials that

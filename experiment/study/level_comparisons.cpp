@@ -60,14 +60,16 @@ double wss_difference_deg2(const LevelComparison& comparison, const ObjectScale&
     return wss_difference_mm2(comparison, scale) / (scale.mm_per_deg * scale.mm_per_deg);
 }
 
-std::optional<double> head_difference(const LevelComparison& comparison, const StudyResults& results) {
-    const HeadParts& head = results.objects[static_cast<std::size_t>(comparison.object)].head;
-    if (!head)
+std::optional<double> area_difference(const LevelComparison& comparison, const StudyResults& results,
+                                      std::string_view area) {
+    const Areas& areas = results.objects[static_cast<std::size_t>(comparison.object)].areas;
+    const std::optional<std::size_t> index = areas.find(area);
+    if (!index)
         return std::nullopt;
     const auto share = [&](const std::vector<const StudyFixation*>& fixations) {
-        const auto on_head = std::count_if(fixations.begin(), fixations.end(),
-                                           [&](const StudyFixation* one) { return head.has(one->part); });
-        return static_cast<double>(on_head) / static_cast<double>(fixations.size());
+        const auto on_area = std::ranges::count_if(
+            fixations, [&](const StudyFixation* one) { return areas.holds(*index, one->part); });
+        return static_cast<double>(on_area) / static_cast<double>(fixations.size());
     };
     return share(comparison.a) - share(comparison.b);
 }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -33,8 +34,9 @@ std::vector<LevelComparison> level_comparisons(const StudyResults& results, cons
 double wss_difference_mm2(const LevelComparison& comparison, const ObjectScale& scale);
 double wss_difference_deg2(const LevelComparison& comparison, const ObjectScale& scale);
 
-/// Share of the fixations on the head, of a less that of b; nothing if the object has no head.
-std::optional<double> head_difference(const LevelComparison& comparison, const StudyResults& results);
+/// Share of the fixations on an area, of a less that of b; nothing if the object does not have it.
+std::optional<double> area_difference(const LevelComparison& comparison, const StudyResults& results,
+                                      std::string_view area);
 
 /// The mean of each observer's comparisons, of those that have a value: what tests over observers take. By
 /// observer, without those who have none.

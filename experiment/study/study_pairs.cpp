@@ -32,7 +32,7 @@ Similarities similarities(std::span<const double> a, std::span<const double> b,
 
 /// A comparison, and what is reckoned of it.
 struct Comparison : LevelComparison {
-    std::optional<double> wss_difference_mm2, wss_difference_deg2, head_difference;
+    std::optional<double> wss_difference_mm2, wss_difference_deg2;
     Similarities found, between_halves, within_halves;
     std::vector<Similarities> permuted;
     std::vector<double> map_a, map_b; ///< empty without maps
@@ -186,19 +186,14 @@ PairRow row_of(std::span<const Comparison> comparisons, int permutations, const 
     if (comparisons.empty())
         row.absent = "no observer saw an object in both levels";
     const auto means = [&](const auto& value) { return observer_means(comparisons, value); };
-    const std::vector<double> deg2 = means([](const Comparison&of) { return of.wss_difference_deg2; }),
-                              head = means([](const Comparison&of) { return of.head_difference; });
+    const std::vector<double> deg2 = means([](const Comparison& of) { return of.wss_difference_deg2; });
     row.observers = static_cast<int>(deg2.size());
     row.wss_difference_mm2 = estimated_mean(means([](const Comparison& of) { return of.wss_difference_mm2; }),
                                             options.bootstrap(), row.absent);
     row.wss_difference_deg2 = estimated_mean(deg2, options.bootstrap(), row.absent);
-    row.head_difference =
-        estimated_mean(head, options.bootstrap(), row.absent.empty() ? "no object has a head" : row.absent);
     // As they are seen: a large object would weigh more than a small one that looks as large.
     if (const auto test = sign_flip_test(deg2, options.permutation()))
         row.wss_p = test->p;
-    if (const auto test = sign_flip_test(head, options.permutation()))
-        row.head_p = test->p;
     row.cc = similarity_of(comparisons, 0, permutations, options);
     row.sim_mit = similarity_of(comparisons, 1, permutations, options);
     row.sim_pysaliency = similarity_of(comparisons, 2, permutations, options);
@@ -267,12 +262,11 @@ std::vector<PairRow> study_pairs(const StudyResults& results, const std::vector<
                 std::vector<Comparison> comparisons;
                 for (LevelComparison& one : level_comparisons(results, group.trials, surfaces,
                                                               options.compare, compared[a], compared[b]))
-                    comparisons.push_back({std::move(one), {}, {}, {}, {}, {}, {}, {}, {}, {}});
+                    comparisons.push_back({std::move(one), {}, {}, {}, {}, {}, {}, {}, {}});
                 const std::uint64_t stream = rows.size() * 10000;
                 parallel_for(static_cast<int>(comparisons.size()), [&](int i) {
                     Comparison& one = comparisons[static_cast<std::size_t>(i)];
                     const auto object = static_cast<std::size_t>(one.object);
-                    one.head_difference = head_difference(one, results);
                     reckon(one, maps[object].get(), *surfaces[object].scale, options,
                            stream + static_cast<std::uint64_t>(i), permutations);
                 });
@@ -303,7 +297,6 @@ std::vector<PairRow> study_pairs(const StudyResults& results, const std::vector<
         rows.push_back(std::move(row));
     }
     correct(rows, &PairRow::wss_p, &PairRow::wss_p_holm);
-    correct(rows, &PairRow::head_p, &PairRow::head_p_holm);
     correct(rows, &PairRow::maps_p, &PairRow::maps_p_holm);
     return rows;
 }

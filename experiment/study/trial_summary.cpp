@@ -1,5 +1,6 @@
 #include "experiment/study/trial_summary.h"
 
+#include <utility>
 #include <vector>
 
 #include "experiment/statistics/point_spread.h"
@@ -8,7 +9,10 @@ namespace overt {
 
 TrialSummaryRow trial_summary(const StudyResults& results, const StudyTrial& trial) {
     const StudyObject& object = results.objects[static_cast<std::size_t>(trial.object)];
-    TrialSummaryRow row{trial, 0, 0, object.head.has_value(), 0.0, 0.0, {}};
+    TrialSummaryRow row{trial, 0, 0.0, {}, {}};
+    for (const std::string& area : results.areas)
+        row.areas.push_back(object.areas.has(area) ? std::optional<TrialSummaryRow::OnArea>(std::in_place)
+                                                   : std::nullopt);
     std::vector<glm::dvec3> points;
     for (std::size_t i = trial.first_fixation; i < trial.first_fixation + trial.fixations; ++i) {
         const StudyFixation& fixation = results.fixations[i];
@@ -16,9 +20,12 @@ TrialSummaryRow trial_summary(const StudyResults& results, const StudyTrial& tri
             continue;
         ++row.counted;
         row.counted_s += fixation.duration_s;
-        if (object.head.has(fixation.part)) {
-            ++row.on_head;
-            row.head_s += fixation.duration_s;
+        for (std::size_t area = 0; area < row.areas.size(); ++area) {
+            const std::optional<std::size_t> own = object.areas.find(results.areas[area]);
+            if (own && object.areas.holds(*own, fixation.part)) {
+                ++row.areas[area]->fixations;
+                row.areas[area]->seconds += fixation.duration_s;
+            }
         }
         points.push_back(fixation.position);
     }

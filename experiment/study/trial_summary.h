@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "experiment/study/results/study_results.h"
 
@@ -9,11 +10,15 @@ namespace overt {
 
 /// A trial with what its counted fixations come to: for models that take trials as they are.
 struct TrialSummaryRow {
+    struct OnArea {
+        int fixations = 0;
+        double seconds = 0.0;
+    };
     const StudyTrial& trial;
-    int counted = 0, on_head = 0;
-    std::optional<bool> has_head; ///< whether its object has a head
-    double counted_s = 0.0, head_s = 0.0;
-    std::optional<double> wss_mm2; ///< of its counted fixations, two at least
+    int counted = 0;
+    double counted_s = 0.0;
+    std::vector<std::optional<OnArea>> areas; ///< by StudyResults::areas; nothing: its object has it not
+    std::optional<double> wss_mm2;            ///< of its counted fixations, two at least
 };
 
 TrialSummaryRow trial_summary(const StudyResults& results, const StudyTrial& trial);

@@ -132,6 +132,8 @@ std::vector<std::string> figures_of(const ViewText& of) {
                                     share_text(lost_share(view.samples, view.lost))));
         if (!of.surface.empty())
             lines.push_back(fmt::format("surface   {}", of.surface));
+        if (!of.areas.empty())
+            lines.push_back(fmt::format("areas     {}", of.areas));
         lines.push_back(fmt::format("accuracy  mean {}; largest {}; drift {}",
                                     degrees_text(view.validation_mean_deg, facts.mean_limit_deg),
                                     degrees_text(view.validation_max_deg, facts.max_limit_deg),

@@ -24,6 +24,7 @@ struct ViewText {
     const ViewedPicture& picture;
     bool is_silent = false;   ///< the session has said nothing for seconds
     std::string surface = {}; ///< what gaze meets on the object, in words; empty if that is not known
+    std::string areas = {};   ///< which shares of the gaze on the object its areas have, in words; or empty
     bool is_camera = false;   ///< the picture is what the tracker's camera sees
 };
 

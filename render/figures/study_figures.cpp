@@ -24,7 +24,7 @@ std::vector<StudyFigure> time_course(const StudyResults& results) {
     double end = 0.0, step = 0.0;
     std::vector<std::string> levels;
     for (const TimeCourseRow& row : results.time_course) {
-        if (!row.head_fraction.value)
+        if (row.area != results.area || !row.share.value)
             continue;
         end = std::max(end, row.to_s);
         step = std::max(step, row.to_s - row.from_s);
@@ -34,12 +34,14 @@ std::vector<StudyFigure> time_course(const StudyResults& results) {
     if (levels.empty())
         return {};
     const double width = levels.size() > 4 ? page_mm : column_mm, chart_mm = levels.size() > 8 ? 90.0 : 62.0;
+    const std::string axis =
+        fmt::format("share of fixation time on {}", results.area == head_area ? "the head" : results.area);
     const FigureLegend legend(levels, width - 2.0);
     const double top = legend.height_mm() + 2.0;
     return {{"time_course", {width, top + chart_mm}, [=, &results](FigurePen& pen) {
                  legend.draw(pen, {1.0, 1.0});
                  const ChartAxes axes(pen, {0.0, top}, {width, chart_mm}, {0.0, end, "time since onset / s"},
-                                      {0.0, 1.0, "share of fixation time on the head"});
+                                      {0.0, 1.0, axis});
                  // Side by side, so that intervals do not hide each other, but within their stretch of time.
                  const auto count = static_cast<double>(levels.size());
                  const double aside = std::min(0.6, 0.7 * (axes.across(step) - axes.across(0.0)) / count);
@@ -47,15 +49,15 @@ std::vector<StudyFigure> time_course(const StudyResults& results) {
                      const CurveStyle style(level);
                      std::vector<glm::dvec2> points;
                      for (const TimeCourseRow& row : results.time_course) {
-                         if (row.key.value != levels[level] || !row.head_fraction.value)
+                         if (row.area != results.area || row.key.value != levels[level] || !row.share.value)
                              continue;
                          const double x = axes.across(0.5 * (row.from_s + row.to_s)) +
                                           aside * (static_cast<double>(level) - 0.5 * (count - 1.0));
-                         points.emplace_back(x, axes.up(*row.head_fraction.value));
-                         if (row.head_fraction.interval)
-                             pen.line({x, axes.up(std::max(0.0, row.head_fraction.interval->low))},
-                                      {x, axes.up(std::min(1.0, row.head_fraction.interval->high))},
-                                      style.colour(), 0.2);
+                         points.emplace_back(x, axes.up(*row.share.value));
+                         if (row.share.interval)
+                             pen.line({x, axes.up(std::max(0.0, row.share.interval->low))},
+                                      {x, axes.up(std::min(1.0, row.share.interval->high))}, style.colour(),
+                                      0.2);
                      }
                      style.draw_curve(pen, points);
                      for (const glm::dvec2& point : points)
@@ -189,7 +191,7 @@ std::vector<StudyFigure> data_quality(const StudyResults& results) {
 
 std::vector<StudyFigure> study_figures(const StudyResults& results) {
     std::vector<StudyFigure> figures;
-    for (const auto make : {head_fraction_figures, distribution_figures, pair_figures, time_course,
+    for (const auto make : {area_share_figures, distribution_figures, pair_figures, time_course,
                             fixation_durations, main_sequence, data_quality}) {
         for (StudyFigure& figure : make(results))
             figures.push_back(std::move(figure));

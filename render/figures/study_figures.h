@@ -10,9 +10,10 @@
 
 namespace overt {
 
-/// Each figure that the study has something for: figure_4 (head fractions), figure_5 (distributions), table_1
-/// (pairs), time_course, fixation_durations, main_sequence, data_quality. Those with a row for each group are
-/// in several figures where a page does not hold them: see row_chart.h. They use `results` when they draw.
+/// Each figure that the study has something for: figure_4 (shares on the chosen area), figure_5
+/// (distributions), table_1 (pairs), time_course, fixation_durations, main_sequence, data_quality. Those with
+/// a row for each group are in several figures where a page does not hold them: see row_chart.h. They use
+/// `results` when they draw.
 std::vector<StudyFigure> study_figures(const StudyResults& results);
 
 /// Writes them as SVG and PDF into `folder`, made if it is not there. Gives their names. Throws RecordError.

@@ -69,32 +69,33 @@ std::size_t number_among(std::vector<std::string>& names, const std::string& nam
 
 } // namespace
 
-std::vector<StudyFigure> head_fraction_figures(const StudyResults& results) {
-    std::vector<HeadFractionRow> levels, groups;
-    for (const HeadFractionRow& row : results.head_fractions) {
-        if (row.by_count.value)
+std::vector<StudyFigure> area_share_figures(const StudyResults& results) {
+    std::vector<AreaRow> levels, groups;
+    for (const AreaRow& row : results.area_rows) {
+        if (row.area == results.area && row.by_count.value)
             (row.keys.size() == 1 ? levels : groups).push_back(row);
     }
     const bool has_levels = !levels.empty();
-    const std::vector<HeadFractionRow>& rows = has_levels ? levels : groups;
+    const std::vector<AreaRow>& rows = has_levels ? levels : groups;
     RowChart chart;
     std::vector<std::string> factors;
     if (has_levels)
         chart.columns = {{"factor", true}, {"level", true}};
     else
-        factors = columns_of(rows, [](const HeadFractionRow& row) { return row.keys; });
+        factors = columns_of(rows, [](const AreaRow& row) { return row.keys; });
     for (const std::string& factor : factors)
         chart.columns.push_back({factor, true});
     if (chart.columns.empty())
         chart.columns.push_back({"group", true});
     chart.bars_before = chart.columns.size();
-    chart.bars_head = "share of fixations on the head";
+    chart.bars_head =
+        fmt::format("share of fixations on {}", results.area == head_area ? "the head" : results.area);
     chart.most = 1.0;
     chart.columns.push_back({"mean"});
     chart.columns.push_back({"observers"});
     chart.note = fmt::format("Points: single observers. {}", interval_note(results));
     std::vector<std::string> colours;
-    for (const HeadFractionRow& row : rows) {
+    for (const AreaRow& row : rows) {
         ChartRow shown;
         if (has_levels)
             shown.cells = {row.keys.front().column, row.keys.front().value};

@@ -8,9 +8,9 @@
 
 namespace overt {
 
-/// Figure 4, the shares of fixations on the head: levels of one factor each, or groups where there are no
-/// such.
-std::vector<StudyFigure> head_fraction_figures(const StudyResults& results);
+/// Figure 4, the shares of fixations on the area that was chosen, the head unless another was: levels of one
+/// factor each, or groups where there are no such.
+std::vector<StudyFigure> area_share_figures(const StudyResults& results);
 /// Figure 5, how widely each group looked on each object.
 std::vector<StudyFigure> distribution_figures(const StudyResults& results);
 /// Table 1, pairs of conditions.

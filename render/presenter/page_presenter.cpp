@@ -200,7 +200,7 @@ void PagePresenter::put_patch(bool white) noexcept {
 
 /// They stand on the background, and so on every screen and beside every frame.
 void PagePresenter::put_tags() {
-    for (const TagPlace& tag : gaze_tags_of(geometry_, display_)) {
+    for (const TagPlace& tag : gaze_tags_of(geometry_, display_, slots_px_)) {
         LinearImage picture(tag.size_px);
         const int module_px = tag.size_px.x / tag_modules;
         for (int y = 0; y < tag.size_px.y; ++y) {

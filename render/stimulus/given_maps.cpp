@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <numeric>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -38,11 +40,16 @@ std::optional<Camera> camera_of(const Protocol& protocol, const std::optional<Bo
                   {*view.vertical_fov_deg}};
 }
 
-void label_head(CoordinateImage& image, const PartRegion& head) {
+/// Parts as map_part_names() has them.
+void label_areas(CoordinateImage& image, std::span<const PartRegion> areas) {
     image.parts.assign(image.pixels.size(), PartIndex{0});
     for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-        if (image.pixels[i].w != 0.0f && head.contains(glm::dvec3(image.pixels[i])))
-            image.parts[i] = PartIndex{1};
+        if (image.pixels[i].w == 0.0f)
+            continue;
+        unsigned part = 0;
+        for (std::size_t area = 0; area < areas.size(); ++area)
+            part |= areas[area].contains(glm::dvec3(image.pixels[i])) ? 1u << area : 0u;
+        image.parts[i] = static_cast<PartIndex>(part);
     }
 }
 
@@ -78,8 +85,8 @@ CoordinateImageFile read_given_map(const Protocol& protocol, int object, Animati
     description.frame = frame.value;
     if (!description.camera)
         description.camera = camera_of(protocol, description.bounds);
-    if (const auto head = head_region(settings))
-        label_head(map.image, *head);
+    if (!settings.areas.empty())
+        label_areas(map.image, area_regions(settings));
     return map;
 }
 
@@ -102,27 +109,31 @@ ContentHash hash_of_given_map(const Protocol& protocol, int object, AnimationFra
     add(protocol.views.front().camera_target);
     hasher.add(protocol.views.front().vertical_fov_deg.value_or(0.0))
         .add(protocol.motions.front().angle_of(frame).value);
-    hasher.add(settings.head_spheres).add(settings.head_planes).add(std::string_view(settings.id));
+    for (const AreaSettings& area : settings.areas)
+        hasher.add(std::string_view(area.name)).add(area.spheres).add(area.boxes).add(area.planes);
+    hasher.add(std::string_view(settings.id));
     return hasher.finish();
 }
 
 std::vector<std::string> check_given_maps(const Protocol& protocol, int object) {
     const PoseTable poses = distinct_poses(protocol.motions.front());
     std::atomic<int> mixed_maps{0}, unknown_cameras{0};
-    std::atomic<bool> head_seen{false};
+    std::atomic<unsigned> seen{0}; ///< areas, a bit each
     parallel_for(static_cast<int>(poses.angles.size()), [&](int pose) {
         const CoordinateImageFile map =
             read_given_map(protocol, object, first_frame_of(poses, PoseIndex{pose}));
         mixed_maps += map.mixed_px > 0;
         unknown_cameras += !map.description.camera || !map.description.bounds;
-        if (std::find(map.image.parts.begin(), map.image.parts.end(), PartIndex{1}) != map.image.parts.end())
-            head_seen = true;
+        seen |= std::accumulate(map.image.parts.begin(), map.image.parts.end(), 0u,
+                                [](unsigned areas, PartIndex part) { return areas | part; });
     });
     const ObjectSettings& settings = protocol.objects[static_cast<std::size_t>(object)];
-    if (head_region(settings) && !head_seen) {
-        throw InputError(fmt::format("object \"{}\": no pixel of its maps lies in the head that is "
-                                     "described; its coordinates must be those of the maps",
-                                     settings.id));
+    for (std::size_t area = 0; area < settings.areas.size(); ++area) {
+        if (!(seen >> area & 1u))
+            throw InputError(
+                fmt::format("object \"{}\": no pixel of its maps lies in its area \"{}\"; the area's "
+                            "coordinates must be those of the maps",
+                            settings.id, settings.areas[area].name));
     }
     std::vector<std::string> remarks;
     if (mixed_maps > 0) {

@@ -9,7 +9,7 @@
 
 namespace overt {
 
-/// Reads the map of an animation frame, with what the protocol knows of it, and labels the part "head".
+/// Reads the map of an animation frame, with what the protocol knows of it, and labels its areas.
 /// Throws InputError as read_coordinate_image does, for another size than the view's, and for a map that says
 /// it was made at another angle than the frame's.
 CoordinateImageFile read_given_map(const Protocol& protocol, int object, AnimationFrameIndex frame);
@@ -18,7 +18,7 @@ CoordinateImageFile read_given_map(const Protocol& protocol, int object, Animati
 ContentHash hash_of_given_map(const Protocol& protocol, int object, AnimationFrameIndex frame);
 
 /// Reads the maps of all poses, on all processors, and gives remarks on them for the experimenter. Throws
-/// InputError as read_given_map does, and if a head is described that no map shows.
+/// InputError as read_given_map does, and if an area is described that no map shows.
 std::vector<std::string> check_given_maps(const Protocol& protocol, int object);
 
 /// The first frame of the only motion that shows a pose.

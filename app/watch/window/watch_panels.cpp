@@ -185,6 +185,15 @@ void WatchPanels::draw_saliency(const ViewText& text, const WatchedSession& sess
     const std::string total = fmt::format("{:.1f} s of gaze; drag to turn, wheel for size", map->gaze_s);
     draws.AddText({at.x + room.x - ImGui::CalcTextSize(total.c_str()).x - 6.0f, at.y + room.y - 22.0f},
                   IM_COL32(160, 160, 160, 255), total.c_str());
+    float down = at.y + 6.0f;
+    for (const AreaTally::Share& area : map->areas) {
+        if (down > at.y + room.y - 50.0f)
+            break;
+        const std::string words = fmt::format("{} {:.0f} %", area.area, 100.0 * area.share);
+        draws.AddText({at.x + room.x - ImGui::CalcTextSize(words.c_str()).x - 6.0f, down},
+                      IM_COL32(210, 210, 210, 255), words.c_str());
+        down += ImGui::GetTextLineHeight();
+    }
     surface_drawn_ = {{at.x, at.y}, {room.x, room.y}, 1.0f};
 }
 

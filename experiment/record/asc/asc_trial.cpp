@@ -2,27 +2,57 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <tuple>
 
 #include <fmt/format.h>
 
 #include "experiment/base/utf8_text.h"
+#include "experiment/factors.h"
 #include "experiment/record/asc/asc_survey.h"
 #include "experiment/record/asc/asc_words.h"
 #include "experiment/record/preview_file.h"
+#include "experiment/record/tables/shared_columns.h"
 
 namespace overt {
 namespace {
 
 using Kind = GazeEvent::Kind;
 
-/// What a trial is of, as names and values.
-std::vector<std::pair<std::string_view, std::string>> variables_of(const SessionHeader& header,
-                                                                   const Trial& trial) {
+/// What a trial is of, as names and values. Of what further slots show the names begin with the slot's:
+/// "right.object".
+std::vector<std::pair<std::string, std::string>> variables_of(const SessionHeader& header,
+                                                              const Trial& trial) {
     const auto id = [](const auto& list, int index) { return list[static_cast<std::size_t>(index)].id; };
-    return {{"task", id(header.tasks, trial.task)},
-            {"object", id(header.objects, trial.stimulus.object)},
-            {"material", id(header.materials, trial.stimulus.material)}};
+    std::vector<std::pair<std::string, std::string>> variables{{"task", id(header.tasks, trial.task)}};
+    for (const StimulusColumn& column : stimulus_columns_of(header))
+        variables.emplace_back(column.what.name, column.level_of(trial.stimulus).name);
+    if (!trial.beside.empty())
+        variables.emplace_back("slot", id(header.slots, trial.slot));
+    for (const auto& [stimulus, slot] : trial.beside)
+        for (const StimulusColumn& column : stimulus_columns_of(header))
+            variables.emplace_back(id(header.slots, slot) + "." + column.what.name,
+                                   column.level_of(stimulus).name);
+    for (const TrialLevel& of : trial.levels)
+        variables.emplace_back(of.factor, of.level);
+    if (!trial.correct.empty())
+        variables.emplace_back(correct_answer, trial.correct);
+    if (trial.role != TrialRole::trial)
+        variables.emplace_back("role", name_of(trial.role));
+    return variables;
+}
+
+/// The slots of a trial that shows several stimuli, as the interest areas of EyeLink Data Viewer: number,
+/// left, top, right, bottom, name.
+std::vector<std::string> interest_areas(const SessionHeader& header, const Trial& trial) {
+    std::vector<std::string> texts;
+    for (std::size_t i = 0; i < trial.shown_count() && !trial.beside.empty(); ++i) {
+        const RecordedSlot& slot = header.slots[static_cast<std::size_t>(trial.shown(i).slot)];
+        const glm::ivec2 end = slot.origin_px + slot.size_px;
+        texts.push_back(fmt::format("!V IAREA RECTANGLE {} {} {} {} {} {}", i + 1, slot.origin_px.x,
+                                    slot.origin_px.y, end.x, end.y, slot.id));
+    }
+    return texts;
 }
 
 std::vector<GazeEvent> events_of(const SessionRecord& record, const TrialRecord& trial) {
@@ -186,6 +216,7 @@ std::vector<std::string> condition_texts(const SessionHeader& header, const Tria
     texts.front() += fmt::format(" attempt={}", trial.attempt);
     if (const RecordedStimulus* const stimulus = stimulus_of(header, trial.trial.stimulus))
         texts.push_back(fmt::format("!V TRIAL_VAR frames {}", ascii_of(stimulus->source)));
+    std::ranges::move(interest_areas(header, trial.trial), std::back_inserter(texts));
     return texts;
 }
 

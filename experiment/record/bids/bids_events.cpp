@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <functional>
 #include <utility>
 
@@ -23,16 +24,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Levels = std::vector<std::pair<std::string, std::string>>;
 
-template <class List> Levels levels_of(const List& list) {
-    Levels levels;
-    for (const auto& entry : list) {
-        const bool is_named = std::any_of(levels.begin(), levels.end(),
-                                          [&](const auto& level) { return level.first == entry.id; });
-        if (!is_named)
-            levels.emplace_back(entry.id, entry.title.empty() ? entry.id : entry.title);
-    }
-    return levels;
-}
+constexpr std::string_view presentation_event = "presentation";
 
 /// An attempt at a trial, or a screen that it got to.
 struct BidsEvent {
@@ -59,7 +51,7 @@ RowLayout<BidsEvent> events_layout(const SessionHeader& header, SessionTime zero
         tasks.emplace_back(task.id, task.question.empty() ? task.id : plain_line_of(task.question));
     for (const std::string& block : header.blocks)
         blocks.emplace_back(block, "the block of that name");
-    return {
+    RowLayout<BidsEvent> layout{
         "",
         "",
         {
@@ -116,27 +108,42 @@ RowLayout<BidsEvent> events_layout(const SessionHeader& header, SessionTime zero
              block_of(header)},
             {{"task", "Which task the trial was of", "", tasks}, task_of(header)},
             {{"question", "The question as it was asked"}, question_of(header)},
-            {{"object", "Which object was shown", "", levels_of(header.objects)}, object_of(header)},
-            {{"material", "In which material it was shown", "", levels_of(header.materials)},
-             material_of(header)},
-            {{"frames", "How the frames that were shown had been made"},
-             [&header](const TrialRecord& attempt) {
-                 return of_maybe(stimulus_of(header, attempt.trial.stimulus), &RecordedStimulus::source);
-             }},
-            {timing_column(), timing_of(header)},
-            {{"missed_refreshes",
-              "Refreshes of the display that went by with an old picture; n/a also where timing is unproven"},
-             of_ended(missed_refreshes_of(header))},
-            {{"drift_deg", "Gaze error at the drift check", "deg"}, of_ended(attempt_drift)},
-            {{"value",
-              "Of a button or a key, its name; of a marker, its code, or its text where it has none; of a "
-              "step of the trial, its id"},
-             [](auto& row) { return when(!row.value.empty(), row.value); }},
-            {{"device", "The response box, or the output of markers, as the protocol calls it; or keyboard"},
-             &BidsEvent::device},
-            {{"answer", "The answer, where it was taken down"},
-             of_ended([](auto& attempt) { return attempt.outcome.answer; })},
         }};
+    std::vector<StimulusColumn> stimulus = stimulus_columns_of(header);
+    for (StimulusColumn& column : stimulus) {
+        for (auto& [level, meaning] : column.what.levels)
+            if (meaning.empty())
+                meaning = level;
+        layout.add<BidsEvent>({{column.what, [column](TableCells& to, const BidsEvent& row) {
+                                    put_level(to, column.level_of(row.attempt->trial.stimulus));
+                                }}});
+    }
+    layout.add<BidsEvent>(own_columns<RowLayout<BidsEvent>::Column>(header));
+    layout.add<BidsEvent>({
+        {{"frames", "How the frames that were shown had been made"},
+         [&header](const TrialRecord& attempt) {
+             return of_maybe(stimulus_of(header, attempt.trial.stimulus), &RecordedStimulus::source);
+         }},
+        {timing_column(), timing_of(header)},
+        {{"missed_refreshes",
+          "Refreshes of the display that went by with an old picture; n/a also where timing is unproven"},
+         of_ended(missed_refreshes_of(header))},
+        {{"drift_deg", "Gaze error at the drift check", "deg"}, of_ended(attempt_drift)},
+        {{"value",
+          "Of a button or a key, its name; of a marker, its code, or its text where it has none; of a "
+          "step of the trial, its id"},
+         [](auto& row) { return when(!row.value.empty(), row.value); }},
+        {{"device", "The response box, or the output of markers, as the protocol calls it; or keyboard"},
+         &BidsEvent::device},
+        {{"answer", "The answer, where it was taken down"},
+         of_ended([](auto& attempt) { return attempt.outcome.answer; })},
+    });
+    if (const SharedColumns shared(header); shared.has_slots)
+        layout.add<BidsEvent>({{shared.slot, [&header](auto& row) {
+                                    return when(row.what == presentation_event,
+                                                item(header.slots, row.attempt->trial.slot).id);
+                                }}});
+    return layout;
 }
 
 /// Until the answer; of an imported trial that tells of none, until its result or its last sample.
@@ -157,8 +164,9 @@ SessionTime end_of(const SessionRecord& record, const TrialRecord& trial,
     return end ? std::max(clock_map->to_session(*end).time, trial.started) : trial.started;
 }
 
+/// `seen`: where the presentations of a trial with several go, which events point to.
 void add_events(std::vector<BidsEvent>& to, const TrialRecord& trial, SessionTime end,
-                const StimulusFile& stimulus_file) {
+                const StimulusFile& stimulus_file, std::deque<TrialRecord>& seen) {
     const TrialOutcome& outcome = trial.outcome;
     const auto was = [&](SessionTime time) { return trial.reached(time); };
     to.push_back({.attempt = &trial,
@@ -168,13 +176,15 @@ void add_events(std::vector<BidsEvent>& to, const TrialRecord& trial, SessionTim
                   .ended = trial.has_outcome() ? &trial : nullptr});
     if (was(outcome.task_screen_onset))
         to.push_back({&trial, "question", outcome.task_screen_onset, outcome.task_screen_onset});
-    if (was(outcome.presentation_onset))
-        to.push_back({&trial,
-                      "presentation",
+    for (std::size_t i = 0; was(outcome.presentation_onset) && i < trial.trial.shown_count(); ++i) {
+        const TrialRecord& shown = i == 0 ? trial : seen.emplace_back(trial.seen_in(i));
+        to.push_back({&shown,
+                      presentation_event,
                       outcome.presentation_onset,
                       outcome.presentation_end,
                       {},
-                      stimulus_file(trial.trial.stimulus)});
+                      stimulus_file(shown.trial.stimulus)});
+    }
     if (was(outcome.response_screen_onset)) {
         std::optional<SessionDuration> response_time;
         if (was(outcome.responded_at))
@@ -256,13 +266,14 @@ void write_bids_events(const SessionRecord& record, int run, std::optional<Sessi
     TableWriter writer(stem.string() + ".tsv", layout.table(), TableFormat::tsv, Packing::none,
                        TableWriter::Header::names);
     std::vector<BidsEvent> events;
+    std::deque<TrialRecord> seen;
     const std::vector<RecordedButton> buttons = record.button_changes();
     const std::vector<RecordedKeyPress> presses = record.key_presses();
     const std::vector<RecordedMarker> markers = record.markers();
     for (const TrialRecord& trial : record.trials()) {
         if (trial.sitting != run)
             continue;
-        add_events(events, trial, end_of(record, trial, clock_map), stimulus_file);
+        add_events(events, trial, end_of(record, trial, clock_map), stimulus_file, seen);
         add_devices(events, trial, buttons, presses, markers);
     }
     std::stable_sort(events.begin(), events.end(),

@@ -49,6 +49,8 @@ RowLayout<JoinedRow> surface_layout(const SessionHeader& header) {
     RowLayout<JoinedRow> layout("", "", first_columns());
     layout.add<JoinedRow>(time_columns());
     layout.add<JoinedRow>(place_columns(header));
+    if (const SharedColumns shared(header); shared.has_slots)
+        layout.add<JoinedRow>({{shared.slot, [](auto& row) { return row.in_slot; }}});
     return layout;
 }
 
@@ -129,6 +131,48 @@ void EyeFiles::close(const std::optional<ClockMap>& clock_map, std::optional<Ses
     write_bids_gaze_events(record_, run, eye_, raw_ / (stem_ + "_physioevents"));
 }
 
+EyeFiles& file_of(const std::vector<std::unique_ptr<EyeFiles>>& files, Eye eye, const SessionRecord& record) {
+    const auto of_eye =
+        std::find_if(files.begin(), files.end(), [&](const auto& file) { return file->eye() == eye; });
+    if (of_eye == files.end())
+        throw RecordError(fmt::format("{}: a sample is of an eye that no trial's samples are of: the session "
+                                      "file is damaged.",
+                                      record.directory().string()));
+    return **of_eye;
+}
+
+/// The samples of a trial that shows several stimuli, each with the one whose slot it lies in.
+void write_presentations(const SessionRecord& record, const TrialRecord& trial, const LookupFor& lookup_for,
+                         const std::vector<std::unique_ptr<EyeFiles>>& files) {
+    const std::vector<GazeSample> samples = record.samples(trial);
+    std::vector<JoinedSample> joined(samples.size()), in_slot(samples.size());
+    std::vector<std::size_t> place_of(samples.size(), trial.trial.shown_count());
+    std::vector<std::vector<std::string>> parts;
+    for (std::size_t place = 0; place < trial.trial.shown_count(); ++place) {
+        const TrialRecord seen = trial.seen_in(place);
+        const int object = seen.trial.stimulus.object;
+        parts.push_back(part_cells_of(record.header(), object, TableFormat::tsv));
+        SampleJoin(record, seen, lookup_for(viewed(seen.trial.stimulus))).join(samples, in_slot);
+        for (std::size_t i = 0; i < samples.size(); ++i) {
+            if (place > 0 && (in_slot[i].is_elsewhere || !in_slot[i].image_px))
+                continue;
+            joined[i] = in_slot[i];
+            if (joined[i].shown)
+                place_of[i] = place;
+        }
+    }
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        const std::size_t place = place_of[i];
+        const bool is_in_one = place < parts.size();
+        const std::string_view slot =
+            is_in_one ? std::string_view(
+                            record.header().slots[static_cast<std::size_t>(trial.trial.shown(place).slot)].id)
+                      : std::string_view();
+        file_of(files, samples[i].eye, record)
+            .sample({samples[i], joined[i], is_in_one ? parts[place] : parts.front(), slot});
+    }
+}
+
 } // namespace
 
 std::optional<SessionTime> bids_zero(const SessionRecord& record, int run) {
@@ -155,25 +199,22 @@ BidsGazeCounts write_bids_gaze(const SessionRecord& record, int run, const Looku
     for (const TrialRecord& trial : record.trials()) {
         if (trial.sitting != run || files.empty())
             continue;
-        const int object = trial.trial.stimulus.object;
         const bool has_places = files.front()->has_places();
+        if (has_places && trial.trial.shown_count() > 1) {
+            write_presentations(record, trial, lookup_for, files);
+            continue;
+        }
+        const int object = trial.trial.stimulus.object;
         const SampleJoin join(record, trial, has_places ? lookup_for(viewed(trial.trial.stimulus)) : nullptr);
         const std::vector<std::string> parts = part_cells_of(record.header(), object, TableFormat::tsv);
+        const std::string_view slot = record.header().slots[static_cast<std::size_t>(trial.trial.slot)].id;
         const auto take = [&](std::span<const GazeSample> samples) {
             joined.resize(samples.size());
             if (has_places)
                 join.join(samples, joined);
-            for (std::size_t i = 0; i < samples.size(); ++i) {
-                const auto of_eye = std::find_if(files.begin(), files.end(), [&](const auto& file) {
-                    return file->eye() == samples[i].eye;
-                });
-                if (of_eye == files.end())
-                    throw RecordError(
-                        fmt::format("{}: a sample is of an eye that no trial's samples are of: the "
-                                    "session file is damaged.",
-                                    record.directory().string()));
-                (*of_eye)->sample({samples[i], joined[i], parts});
-            }
+            for (std::size_t i = 0; i < samples.size(); ++i)
+                file_of(files, samples[i].eye, record)
+                    .sample({samples[i], joined[i], parts, joined[i].shown ? slot : std::string_view()});
         };
         record.read_samples(trial, samples_at_a_time, take);
         record.read_samples_after(trial, samples_at_a_time, take);

@@ -22,23 +22,25 @@ void check_indices(const SessionHeader& header, const std::vector<TrialRecord>& 
     const auto within = [](int index, std::size_t count) {
         return index >= 0 && static_cast<std::size_t>(index) < count;
     };
+    const auto entries = entry_counts(header);
     for (const TrialRecord& record : trials) {
         const Trial& trial = record.trial;
         bool is_known = within(trial.task, header.tasks.size());
         for (std::size_t i = 0; i < trial.shown_count(); ++i) {
             const auto [stimulus, slot] = trial.shown(i);
+            for (std::size_t list = 0; list < stimulus_lists.size(); ++list)
+                is_known = is_known && within(stimulus.*stimulus_lists[list].index, entries[list]);
             is_known = is_known && within(stimulus.object, header.objects.size()) &&
-                       within(stimulus.material, header.materials.size()) &&
                        within(stimulus.motion, header.animations.size()) &&
                        within(stimulus.view,
                               header.objects[static_cast<std::size_t>(stimulus.object)].cameras.size()) &&
                        within(slot, header.slots.size());
         }
         if (!is_known)
-            throw RecordError(fmt::format(
-                "{}: table trial, trial_id {}: it names a task, object, material, motion, view or "
-                "slot that the session does not have: the file is damaged.",
-                file.string(), record.id));
+            throw RecordError(
+                fmt::format("{}: table trial, trial_id {}: it names a task, an entry of a list or a slot "
+                            "that the session does not have: the file is damaged.",
+                            file.string(), record.id));
     }
 }
 
@@ -54,8 +56,13 @@ SessionRecord::SessionRecord(const std::filesystem::path& session)
         trials_ = read_trials(*database_);
         for (TrialRecord& trial : trials_) {
             const auto planned = static_cast<std::size_t>(trial.trial.index);
-            if (trial.trial.index >= 0 && planned < header_.schedule.trials.size())
-                trial.trial.block = header_.schedule.trials[planned].block;
+            if (trial.trial.index >= 0 && planned < header_.schedule.trials.size()) {
+                const Trial& of = header_.schedule.trials[planned];
+                trial.trial.block = of.block;
+                trial.trial.levels = of.levels;
+                trial.trial.correct = of.correct;
+                trial.trial.role = of.role;
+            }
         }
     });
     check_header(header_, file_);

@@ -51,6 +51,7 @@ struct TrialRecord {
     Status status = Status::open;
     bool is_superseded = false; ///< its block was restarted later
     bool counts = false;        ///< completed, and not superseded
+    bool gives_results() const { return counts && trial.role == TrialRole::trial; }
     SessionTime started;
     TrialOutcome outcome; ///< meaningless while open, or interrupted; its times: see reached()
     std::int64_t lost_flips = 0;

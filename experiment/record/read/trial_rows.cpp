@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "experiment/record/sql.h"
+#include "experiment/record/stimulus_columns.h"
 
 namespace overt {
 namespace {
@@ -30,12 +31,11 @@ TrialRecord read_trial(Query& row) {
     Trial& trial = record.trial;
     TrialOutcome& outcome = record.outcome;
     std::string status, afterwards;
-    row.read(record.id, record.sitting, trial.index, record.attempt, trial.task, trial.stimulus.object,
-             trial.stimulus.material, trial.stimulus.light, trial.stimulus.motion, trial.stimulus.view,
-             status, record.started, outcome.task_screen_onset, outcome.presentation_onset,
-             outcome.presentation_end, outcome.response_screen_onset, outcome.responded_at,
-             outcome.shown_refreshes, outcome.missed_refreshes, outcome.drift, outcome.answer,
-             record.lost_flips, record.lost_samples, outcome.failure, afterwards, record.is_superseded);
+    row.read(record.id, record.sitting, trial.index, record.attempt, trial.task, trial.stimulus, status,
+             record.started, outcome.task_screen_onset, outcome.presentation_onset, outcome.presentation_end,
+             outcome.response_screen_onset, outcome.responded_at, outcome.shown_refreshes,
+             outcome.missed_refreshes, outcome.drift, outcome.answer, record.lost_flips, record.lost_samples,
+             outcome.failure, afterwards, record.is_superseded);
     record.status = status_from(status);
     outcome.afterwards = afterwards_from(afterwards);
     outcome.status = record.status == TrialRecord::Status::completed ? TrialOutcome::Status::completed
@@ -91,15 +91,17 @@ void add_slots(const SQLite::Database& database, std::vector<TrialRecord>& trial
     if (!has_table(database, "presentation"))
         return;
     auto trial = trials.begin(); // both by trial_id
-    for (Query row(database,
-                   "SELECT trial_id, place, slot, object, material, light, motion, view FROM presentation "
-                   "WHERE place > 0 OR slot <> 0 ORDER BY trial_id, place");
+    for (Query row(
+             database,
+             fmt::format("SELECT trial_id, place, slot, {} FROM presentation WHERE place > 0 OR slot <> 0 "
+                         "ORDER BY trial_id, place",
+                         stimulus_columns_of(database, "presentation"))
+                 .c_str());
          row.step();) {
         const std::int64_t id = row.integer();
         const int place = row.small();
         PlacedStimulus shown;
-        row.read(shown.slot, shown.stimulus.object, shown.stimulus.material, shown.stimulus.light,
-                 shown.stimulus.motion, shown.stimulus.view);
+        row.read(shown.slot, shown.stimulus);
         trial = std::ranges::find(trial, trials.end(), id, &TrialRecord::id);
         if (trial == trials.end())
             return;
@@ -186,15 +188,14 @@ std::vector<TrialRecord> read_trials(const SQLite::Database& database) {
     const bool tells_fates = has_column(database, "trial", "comes_again");
     std::vector<TrialRecord> trials = read_rows(
         database,
-        fmt::format(
-            "SELECT trial_id, sitting, trial, attempt, task, object, material, {}, status, started_ns, "
-            "COALESCE(task_screen_onset_ns, -1), COALESCE(presentation_onset_ns, -1), "
-            "COALESCE(presentation_end_ns, -1), COALESCE(response_screen_onset_ns, -1), "
-            "COALESCE(responded_ns, -1), shown_refreshes, missed_refreshes, drift_deg, "
-            "answer, lost_flips, lost_samples, {} FROM trial ORDER BY trial_id",
-            has_column(database, "trial", "light") ? "light, motion, view" : "0, 0, 0",
-            tells_fates ? "failure, comes_again, trial_id IN (SELECT attempt_id FROM superseded)"
-                        : "NULL, NULL, 0"),
+        fmt::format("SELECT trial_id, sitting, trial, attempt, task, {}, status, started_ns, "
+                    "COALESCE(task_screen_onset_ns, -1), COALESCE(presentation_onset_ns, -1), "
+                    "COALESCE(presentation_end_ns, -1), COALESCE(response_screen_onset_ns, -1), "
+                    "COALESCE(responded_ns, -1), shown_refreshes, missed_refreshes, drift_deg, "
+                    "answer, lost_flips, lost_samples, {} FROM trial ORDER BY trial_id",
+                    stimulus_columns_of(database, "trial"),
+                    tells_fates ? "failure, comes_again, trial_id IN (SELECT attempt_id FROM superseded)"
+                                : "NULL, NULL, 0"),
         read_trial);
     add_response_boxes(database, trials);
     add_presses(database, trials);

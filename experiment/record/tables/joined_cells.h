@@ -21,6 +21,7 @@ struct JoinedRow {
     const GazeSample& sample;
     const JoinedSample& joined;
     std::span<const std::string> part_cells; ///< of the sample's object, by PartIndex: part_cells_of()
+    std::string_view in_slot = {};           ///< where a table of all samples says so
 };
 using JoinedColumns = std::vector<RowLayout<JoinedRow>::Column>;
 

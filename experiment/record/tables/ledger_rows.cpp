@@ -1,5 +1,7 @@
 #include "experiment/record/tables/ledger_rows.h"
 
+#include <algorithm>
+
 #include "experiment/record/tables/joined_cells.h"
 
 namespace overt {
@@ -78,6 +80,19 @@ RowLayout<LedgerRow> ledger_layout(const SharedColumns& shared, const SessionHea
             {std::string(name_of(MissCause::shown_late)),
              "it was drawn in time, but the display took it later"}}},
           [](auto& row) { return of_maybe(row.cause, [](MissCause cause) { return name_of(cause); }); }}});
+    if (std::ranges::any_of(header.animations, [](const Animation& motion) {
+            return motion.light_amplitude.value != 0.0;
+        }))
+        layout.add<LedgerRow>(
+            {{{"light_angle_deg",
+               "Turn of the light from where the protocol has it, counter-clockwise seen from above", "deg"},
+              [&header](auto& row) -> std::optional<Fixed> {
+                  if (row.lit.shown == no_frame)
+                      return std::nullopt;
+                  constexpr int angle_decimals = 6;
+                  const Animation& motion = item(header.animations, row.motion);
+                  return Fixed{motion.pose_of(row.lit.shown).light.value, angle_decimals};
+              }}});
     return layout;
 }
 
@@ -100,7 +115,8 @@ std::int64_t write_ledger(TableWriter& writer, const RowLayout<LedgerRow>& layou
             for (int k = 0; k < run->count && run->refresh_in_trial + k < plan.total_refreshes; ++k) {
                 const int refresh = run->refresh_in_trial + k;
                 layout.write(writer, {number, trial.trial.slot, refresh, nullptr, planned_at(refresh),
-                                      fit.flips()[i - 1], fit.begin_of(refresh), 0, run->cause});
+                                      fit.flips()[i - 1], fit.begin_of(refresh), 0, run->cause,
+                                      trial.trial.stimulus.motion});
             }
             ++run;
         }
@@ -114,7 +130,8 @@ std::int64_t write_ledger(TableWriter& writer, const RowLayout<LedgerRow>& layou
                               fitted,
                               {fitted.report.vertical_blank, fitted.report.uncertainty},
                               fitted.missed_refreshes,
-                              std::nullopt});
+                              std::nullopt,
+                              trial.trial.stimulus.motion});
     }
     return static_cast<std::int64_t>(recorded.size());
 }

@@ -20,6 +20,7 @@ struct LedgerRow {
     MappedTime onset;
     int missed_before;
     std::optional<MissCause> cause;
+    int motion = 0; ///< of the session
 };
 
 /// `header` must outlive it.

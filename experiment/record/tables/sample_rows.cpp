@@ -24,9 +24,10 @@ RowLayout<SampleCells> samples_layout(const SharedColumns& shared, const Session
         {
             {shared.trial, &SampleCells::trial},
             {shared.task, [](auto& to, auto& row) { to.ready(row.task); }},
-            {shared.object, [](auto& to, auto& row) { to.ready(row.object); }},
-            {shared.material, [](auto& to, auto& row) { to.ready(row.material); }},
         }};
+    for (std::size_t i = 0; i < shared.stimulus.size(); ++i)
+        layout.add<SampleCells>(
+            {{shared.stimulus[i].what, [i](auto& to, auto& row) { to.ready(row.stimulus[i]); }}});
     if (shared.has_slots)
         layout.add<SampleCells>({{shared.slot, [](auto& to, auto& row) { to.ready(row.slot); }}});
     layout.add<JoinedRow>(time_columns());
@@ -72,7 +73,8 @@ RowLayout<SampleCells> samples_layout(const SharedColumns& shared, const Session
 SampleRows::SampleRows(const RowLayout<SampleCells>& layout, const SessionRecord& record, TableFormat format,
                        std::optional<Degrees> cone_accuracy)
     : layout_(layout), record_(record), header_(record.header()), format_(format),
-      nothing_(text_cell("", format)) {
+      nothing_(text_cell("", format)), columns_(stimulus_columns_of(header_)),
+      no_stimulus_(columns_.size(), nothing_) {
     for (int slot = 0; cone_accuracy && slot < static_cast<int>(header_.slots.size()); ++slot)
         cones_.emplace_back(header_.screen_of_slot(slot), *cone_accuracy);
 }
@@ -95,9 +97,9 @@ SampleCounts SampleRows::write_all(TableWriter& to, const TrialRecord& trial, co
     const bool is_after = !fixations;
     const Stimulus stimulus = trial.trial.stimulus;
     const std::string task = text_cell(is_after ? "" : item(header_.tasks, trial.trial.task).id, format_);
-    const std::string object = text_cell(is_after ? "" : item(header_.objects, stimulus.object).id, format_);
-    const std::string material =
-        text_cell(is_after ? "" : item(header_.materials, stimulus.material).id, format_);
+    std::vector<std::string> shown = no_stimulus_;
+    for (std::size_t i = 0; i < columns_.size() && !is_after; ++i)
+        shown[i] = level_cell(columns_[i].level_of(stimulus), format_);
     const std::string slot = text_cell(is_after ? "" : item(header_.slots, trial.trial.slot).id, format_);
     const GazeCone* const cone = cones_.empty() ? nullptr : &item(cones_, trial.trial.slot);
     const std::vector<std::string> parts = part_cells_of(header_, stimulus.object, format_);
@@ -113,9 +115,9 @@ SampleCounts SampleRows::write_all(TableWriter& to, const TrialRecord& trial, co
             const auto i = static_cast<std::size_t>(index);
             const auto piece = samples.subspan(i * batch, std::min(batch, samples.size() - i * batch));
             texts[i] = std::make_unique<TableText>(layout_.table(), format_);
-            of_batch[i] = write_batch(*texts[i], placed[i],
-                                      {piece, number, join, lookup, task, object, material, slot, cone, parts,
-                                       own_parts, fixations});
+            of_batch[i] = write_batch(
+                *texts[i], placed[i],
+                {piece, number, join, lookup, task, slot, shown, cone, parts, own_parts, fixations});
         });
         for (std::size_t i = 0; i < batches; ++i) {
             to.take(*texts[i]);
@@ -142,9 +144,8 @@ SampleCounts SampleRows::write_batch(TableText& to, std::vector<PlacedSample>& p
         layout_.write(to, {{piece.samples[i], joined[i], piece.parts},
                            piece.trial,
                            piece.task,
-                           is_elsewhere ? nothing_ : piece.object,
-                           is_elsewhere ? nothing_ : piece.material,
                            is_elsewhere || !piece.samples[i].gaze ? nothing_ : piece.slot,
+                           is_elsewhere ? no_stimulus_ : piece.stimulus,
                            piece.own_parts,
                            shares.empty() || shares[i].of_part.empty() ? nullptr : &shares[i]});
         if (piece.fixations)

@@ -19,10 +19,11 @@ namespace overt {
 inline constexpr std::size_t samples_at_a_time = 16384;
 
 struct SampleCells : JoinedRow {
-    std::optional<int> trial;                           ///< from 1; nothing: of no trial
-    const std::string &task, &object, &material, &slot; ///< as cells
-    const std::vector<std::string>& own_parts;          ///< of the object, by PartIndex
-    const GazeCone::Shares* shares;                     ///< null without a cone, and beside lit frames
+    std::optional<int> trial;                  ///< from 1; nothing: of no trial
+    const std::string &task, &slot;            ///< as cells
+    const std::vector<std::string>& stimulus;  ///< a cell for each column of stimuli
+    const std::vector<std::string>& own_parts; ///< of the object, by PartIndex
+    const GazeCone::Shares* shares;            ///< null without a cone, and beside lit frames
 };
 
 /// With the columns of a gaze cone if its accuracy is given. `pupil`: see pupil_words(). `header` must
@@ -50,8 +51,9 @@ class SampleRows {
         std::optional<int> trial; ///< from 1; nothing: of none
         const SampleJoin& join;
         const SurfaceLookup* lookup;
-        const std::string &task, &object, &material, &slot; ///< as cells
-        const GazeCone* cone;                               ///< null: none
+        const std::string &task, &slot;           ///< as cells
+        const std::vector<std::string>& stimulus; ///< a cell for each of their columns
+        const GazeCone* cone;                     ///< null: none
         const std::vector<std::string>&parts, &own_parts;
         const PassingFixations* fixations; ///< null: of none
     };
@@ -67,6 +69,8 @@ class SampleRows {
     TableFormat format_;
     std::vector<GazeCone> cones_; ///< by slot; none: no cone is asked for
     const std::string nothing_;   ///< a cell
+    const std::vector<StimulusColumn> columns_;
+    const std::vector<std::string> no_stimulus_; ///< cells
 };
 
 } // namespace overt

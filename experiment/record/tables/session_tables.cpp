@@ -16,6 +16,18 @@ auto of_object(const SessionHeader& header, std::string RecordedObject::*what) {
     };
 }
 
+/// One coordinate of the object's own origin, all digits of which count.
+TableColumn origin_column(const std::string& axis, const std::string& meaning) {
+    return {"origin_" + axis, meaning};
+}
+auto of_origin(const SessionHeader& header, int axis) {
+    return [&header, axis](const RecordedStimulus& row) {
+        return of_maybe(item_of(header.objects, row.stimulus.object), [axis](const RecordedObject& of) {
+            return Fixed{of.origin[axis], scale_decimals};
+        });
+    };
+}
+
 /// How large the stimulus's object is, and is shown.
 auto of_scale(const SessionHeader& header, double ObjectScale::*what) {
     return [&header, what](const RecordedStimulus& row) {
@@ -51,30 +63,32 @@ RowLayout<RecordedEvent> events_layout() {
 }
 
 RowLayout<RecordedStimulus> stimuli_layout(const SharedColumns& shared, const SessionHeader& header) {
-    return {
-        "stimuli",
-        "What was shown: one row for each object in each material.",
-        {
-            {shared.object, of_object(header, &RecordedObject::id)},
-            {shared.material,
-             [&header](auto& row) {
-                 return of_maybe(item_of(header.materials, row.stimulus.material), &RecordedMaterial::id);
-             }},
-            {{"source", "How the frames were made"}, &RecordedStimulus::source},
-            {{"frames_sha256", "SHA-256 of the frames"}, &RecordedStimulus::frames_sha256},
-            {{"mesh_file", "The object's mesh, relative to the session's directory"},
-             of_object(header, &RecordedObject::mesh_file)},
-            {{"mesh_sha256", "SHA-256 of the mesh"}, of_object(header, &RecordedObject::mesh_sha256)},
-            {{"mm_per_unit",
-              "Millimetres of the object in a unit of surface_x, surface_y, surface_z and depth; "
-              "where the unit of the mesh is not known, the object is taken to be as large as "
-              "its picture",
-              "mm"},
-             of_scale(header, &ObjectScale::mm_per_unit)},
-            {{"shown_size", "Millimetres that the picture on the display has for a millimetre of the object, "
-                            "in the depth of the axis of its turn"},
-             of_scale(header, &ObjectScale::shown_size)},
-        }};
+    RowLayout<RecordedStimulus> layout{"stimuli", "What was shown: one row for each stimulus.", {}};
+    layout.add<RecordedStimulus>(
+        shared.of_stimulus<RecordedStimulus>([](const RecordedStimulus& row) { return row.stimulus; }));
+    layout.add<RecordedStimulus>({
+        {{"source", "How the frames were made"}, &RecordedStimulus::source},
+        {{"frames_sha256", "SHA-256 of the frames"}, &RecordedStimulus::frames_sha256},
+        {{"mesh_file", "The object's mesh, relative to the session's directory"},
+         of_object(header, &RecordedObject::mesh_file)},
+        {{"mesh_sha256", "SHA-256 of the mesh"}, of_object(header, &RecordedObject::mesh_sha256)},
+        {{"mm_per_unit",
+          "Millimetres of the object in a unit of surface_x, surface_y, surface_z and depth; "
+          "where the unit of the mesh is not known, the object is taken to be as large as "
+          "its picture",
+          "mm"},
+         of_scale(header, &ObjectScale::mm_per_unit)},
+        {{"shown_size", "Millimetres that the picture on the display has for a millimetre of the object, "
+                        "in the depth of the axis of its turn"},
+         of_scale(header, &ObjectScale::shown_size)},
+        {origin_column("x",
+                       "Added to surface_x, it gives the place in the coordinates of the mesh's file, turned "
+                       "and scaled as the protocol says; 0 unless the mesh lies far from its file's origin"),
+         of_origin(header, 0)},
+        {origin_column("y", "The same of surface_y"), of_origin(header, 1)},
+        {origin_column("z", "The same of surface_z"), of_origin(header, 2)},
+    });
+    return layout;
 }
 
 RowLayout<DisplayBoxRow> display_box_layout() {

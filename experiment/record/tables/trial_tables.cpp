@@ -51,7 +51,7 @@ namespace {
 
 std::vector<RowLayout<TrialRow>::Column> attempt_columns(const SharedColumns& shared,
                                                          const SessionHeader& header) {
-    return {
+    std::vector<RowLayout<TrialRow>::Column> columns{
         {shared.trial, number_of_trial},
         {{"attempt", "Which attempt at this trial, from 1: a trial that was cut off is repeated"},
          attempt_number},
@@ -59,8 +59,12 @@ std::vector<RowLayout<TrialRow>::Column> attempt_columns(const SharedColumns& sh
          [](const TrialRecord& attempt) { return attempt.sitting; }},
         {{"block", "The block that the trial is of, where the protocol has blocks"}, block_of(header)},
         {shared.task, task_of(header)},
-        {shared.object, object_of(header)},
-        {shared.material, material_of(header)},
+    };
+    for (auto& column : shared.of_stimulus<TrialRow>(shown_in))
+        columns.push_back(std::move(column));
+    for (auto& column : own_columns<RowLayout<TrialRow>::Column>(header))
+        columns.push_back(std::move(column));
+    std::vector<RowLayout<TrialRow>::Column> further{
         {{"status",
           "How the attempt ended",
           "",
@@ -137,6 +141,9 @@ std::vector<RowLayout<TrialRow>::Column> attempt_columns(const SharedColumns& sh
                         "0: none, n/a: not known, or the tracker measures no gaze"},
          gaze_share_of(header)},
     };
+    for (auto& column : further)
+        columns.push_back(std::move(column));
+    return columns;
 }
 
 } // namespace
@@ -162,39 +169,38 @@ RowLayout<TrialRow> presentations_layout(const SharedColumns& shared, const Sess
 }
 
 RowLayout<TrialRecord> responses_layout(const SharedColumns& shared, const SessionHeader& header) {
-    return {"responses",
-            "One row for the answer in each completed trial.",
-            {
-                {shared.trial, number_of_trial},
-                {shared.task, task_of(header)},
-                {shared.object, object_of(header)},
-                {shared.material, material_of(header)},
-                {{"question", "The question as it was shown"}, question_of(header)},
-                {session_seconds("response_screen_onset_s", "Onset of the response screen"),
-                 time_of(&TrialOutcome::response_screen_onset)},
-                {session_seconds("responded_s", "End of the answer"), time_of(&TrialOutcome::responded_at)},
-                {{"response_time_s", "From the onset of the response screen to the end of the answer", "s"},
-                 [](const TrialRecord& attempt) {
-                     const TrialOutcome& outcome = attempt.outcome;
-                     return when(attempt.reached(outcome.responded_at) &&
-                                     attempt.reached(outcome.response_screen_onset),
-                                 outcome.responded_at - outcome.response_screen_onset);
-                 }},
-                {{"answer", "The answer, where the response panel took it down"},
-                 [](const TrialRecord& attempt) { return attempt.outcome.answer; }},
-                {{"response_key", "Name of the key or button that ended the response screen, as in "
-                                  "key_presses; n/a: time ended it, "
-                                  "or nobody wrote it down"},
-                 &TrialRecord::response_key},
-                {{"response_box", "The response box at which it was answered; n/a of a keyboard"},
-                 &TrialRecord::response_box},
-                {{"response_uncertainty_s",
-                  "So far at most responded_s is off: by the clock of a response box, or the time since a "
-                  "keyboard was "
-                  "looked at before; n/a of simulated observers",
-                  "s"},
-                 &TrialRecord::response_uncertainty},
-            }};
+    RowLayout<TrialRecord> layout{"responses",
+                                  "One row for the answer in each completed trial.",
+                                  {{shared.trial, number_of_trial}, {shared.task, task_of(header)}}};
+    layout.add<TrialRecord>(shared.of_stimulus<TrialRecord>(shown_in));
+    layout.add<TrialRecord>({
+        {{"question", "The question as it was shown"}, question_of(header)},
+        {session_seconds("response_screen_onset_s", "Onset of the response screen"),
+         time_of(&TrialOutcome::response_screen_onset)},
+        {session_seconds("responded_s", "End of the answer"), time_of(&TrialOutcome::responded_at)},
+        {{"response_time_s", "From the onset of the response screen to the end of the answer", "s"},
+         [](const TrialRecord& attempt) {
+             const TrialOutcome& outcome = attempt.outcome;
+             return when(attempt.reached(outcome.responded_at) &&
+                             attempt.reached(outcome.response_screen_onset),
+                         outcome.responded_at - outcome.response_screen_onset);
+         }},
+        {{"answer", "The answer, where the response panel took it down"},
+         [](const TrialRecord& attempt) { return attempt.outcome.answer; }},
+        {{"response_key", "Name of the key or button that ended the response screen, as in "
+                          "key_presses; n/a: time ended it, "
+                          "or nobody wrote it down"},
+         &TrialRecord::response_key},
+        {{"response_box", "The response box at which it was answered; n/a of a keyboard"},
+         &TrialRecord::response_box},
+        {{"response_uncertainty_s",
+          "So far at most responded_s is off: by the clock of a response box, or the time since a "
+          "keyboard was "
+          "looked at before; n/a of simulated observers",
+          "s"},
+         &TrialRecord::response_uncertainty},
+    });
+    return layout;
 }
 
 } // namespace overt

@@ -16,9 +16,13 @@ namespace overt {
 namespace {
 
 /// What is fixed about an attempt from its begin.
-constexpr std::string_view begun_columns[] = {"trial_id", "sitting", "trial",     "attempt",
-                                              "task",     "object",  "material",  "light",
-                                              "motion",   "view",    "started_ns"};
+constexpr std::string_view begun_columns[] = {"trial_id", "sitting", "trial",
+                                              "attempt",  "task",    "started_ns"};
+
+bool is_of_begin(std::string_view column) {
+    return std::ranges::find(begun_columns, column) != std::end(begun_columns) ||
+           std::ranges::find(stimulus_lists, column, &StimulusList::name) != stimulus_lists.end();
+}
 
 /// Enough to see what a value is.
 constexpr std::size_t longest_value = 120;
@@ -174,8 +178,7 @@ class TableComparison {
         const bool is_begun_only = table_.name == "trial" && is_in_cut_attempt(recorded_);
         for (const int column : compared_) {
             const std::string& name = table_.columns[static_cast<std::size_t>(column)];
-            if (is_begun_only && std::find(std::begin(begun_columns), std::end(begun_columns), name) ==
-                                     std::end(begun_columns))
+            if (is_begun_only && !is_of_begin(name))
                 continue;
             if (recorded_.is_same(column, replayed_))
                 continue;

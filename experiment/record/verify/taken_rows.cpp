@@ -21,15 +21,19 @@ constexpr std::string_view header_table_names[] = {"session",
                                                    "protocol_file",
                                                    "task",
                                                    "part",
-                                                   "material",
+                                                   "entry_column",
                                                    "stimulus",
                                                    "pose",
                                                    "animation",
                                                    "animation_frame",
                                                    "camera",
                                                    "map",
-                                                   "object",
                                                    "dataset_entry"};
+
+/// A table of the entries of a list.
+bool is_list(std::string_view table) {
+    return std::ranges::find(stimulus_lists, table, &StimulusList::name) != stimulus_lists.end();
+}
 
 /// Columns that two tables of one name have both, separated by commas.
 std::string common_columns(SQLite::Database& database, const std::string& table) {
@@ -109,8 +113,9 @@ void take_what_happened(const std::filesystem::path& recorded, const std::filesy
                         bool with_frames) {
     take_from(recorded, into, [&](SQLite::Database& database, const SQLite::Database& from) {
         for (const ComparedTable& table : tables_to_compare(from, database)) {
-            const bool is_header = std::find(std::begin(header_table_names), std::end(header_table_names),
-                                             table.name) != std::end(header_table_names);
+            const bool is_header =
+                is_list(table.name) || std::find(std::begin(header_table_names), std::end(header_table_names),
+                                                 table.name) != std::end(header_table_names);
             if (!is_header || (with_frames && table.name == "stimulus"))
                 take_rows(database, table.name, "1");
         }

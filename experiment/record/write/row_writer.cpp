@@ -13,6 +13,7 @@
 #include "experiment/record/session_file.h"
 #include "experiment/record/session_schema.h"
 #include "experiment/record/sql.h"
+#include "experiment/record/stimulus_columns.h"
 
 namespace overt {
 namespace {
@@ -25,7 +26,7 @@ SQLite::Database open_for_rows(const std::filesystem::path& file) {
     try {
         database.exec(
             "PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL; PRAGMA wal_autocheckpoint = 0");
-        database.exec(slot_tables_sql);
+        database.exec(with_stimulus_columns(slot_tables_sql));
     } catch (const SQLite::Exception& reason) {
         throw_record_error(file, "opening the session for writing", reason);
     }
@@ -60,8 +61,9 @@ RowWriter::RowWriter(const std::filesystem::path& session_file, const Sitting& s
       insert_map_(database_,
                   "INSERT OR REPLACE INTO map (object, view, pose, file, sha256, made) VALUES (?,?,?,?,?,?)"),
       insert_trial_(database_,
-                    "INSERT INTO trial (trial_id, sitting, trial, attempt, task, object, material, light, "
-                    "motion, view, status, started_ns) VALUES (?,?,?,?,?,?,?,?,?,?,'open',?)"),
+                    fmt::format("INSERT INTO trial (trial_id, sitting, trial, attempt, task, {}, status, "
+                                "started_ns) VALUES (?,?,?,?,?{},'open',?)",
+                                stimulus_columns(), marks_of_stimulus())),
       finish_trial_(
           database_,
           "UPDATE trial SET status = ?, task_screen_onset_ns = ?, presentation_onset_ns = ?, "
@@ -338,14 +340,12 @@ void RowWriter::write(const TrialStart& start) {
     const std::int64_t attempt =
         1 + number(database_, "SELECT COUNT(*) FROM trial WHERE trial = ?1", trial.index);
     run_statement(insert_trial_, trial_counts_.trial_id, sitting_, trial.index, attempt, trial.task,
-                  trial.stimulus.object, trial.stimulus.material, trial.stimulus.light, trial.stimulus.motion,
-                  trial.stimulus.view, start.at);
+                  trial.stimulus, start.at);
     for (std::size_t i = 0; i < trial.shown_count(); ++i) {
         const auto [stimulus, slot] = trial.shown(i);
         insert_values(database_,
-                      "INTO presentation (trial_id, place, slot, object, material, light, motion, view)",
-                      trial_counts_.trial_id, static_cast<int>(i), slot, stimulus.object, stimulus.material,
-                      stimulus.light, stimulus.motion, stimulus.view);
+                      fmt::format("INTO presentation (trial_id, place, slot, {})", stimulus_columns()),
+                      trial_counts_.trial_id, static_cast<int>(i), slot, stimulus);
     }
     gaze_rows_.begin_trial(trial_counts_.trial_id);
     if (events_)

@@ -206,6 +206,8 @@ Mesh import_mesh(const std::filesystem::path& path, const MeshImport& import, Me
         if (mesh.triangles.empty())
             throw InputError("the mesh has no area: every face is a point or a line.");
         return mesh;
+    } catch (const AreaError& error) {
+        throw AreaError(path.string(), error);
     } catch (const InputError& error) {
         throw InputError(fmt::format("{}: {}", path.string(), error.what()));
     }

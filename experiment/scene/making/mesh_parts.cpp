@@ -2,41 +2,56 @@
 
 #include <algorithm>
 #include <cmath>
+#include <compare>
+#include <cstdint>
+#include <functional>
+#include <iterator>
 #include <map>
 #include <set>
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "experiment/base/error.h"
+#include "experiment/scene/areas.h"
 
 namespace overt {
 namespace {
 
 bool is_finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-void expect_possible(const PartRegion& region) {
+using AreaFaults = std::vector<AreaError::Fault>;
+
+void find_impossible(const PartRegion& region, AreaFaults& faults) {
+    const auto fault = [&](std::string message) { faults.push_back({region.name, std::move(message)}); };
     if (region.name.empty())
-        throw InputError("a part region has no name.");
-    if (region.spheres.empty() && region.half_spaces.empty()) {
-        throw InputError(fmt::format("the region of part '{}' has neither spheres nor planes.", region.name));
+        fault("an area has no name.");
+    if (region.name.find(between_areas) != std::string::npos)
+        fault(fmt::format("the name of area '{}' has a slash, which stands between areas.", region.name));
+    if (region.spheres.empty() && region.half_spaces.empty() && region.boxes.empty() && region.groups.empty())
+        fault(fmt::format("area '{}' has neither spheres, boxes, groups nor planes.", region.name));
+    for (const auto& [low, high] : region.boxes) {
+        if (!is_finite(low) || !is_finite(high) || !glm::all(glm::lessThan(low, high)))
+            fault(fmt::format(
+                "a box of area '{}' reaches from ({}, {}, {}) to ({}, {}, {}); all must be finite, "
+                "and the first corner the smaller one.",
+                region.name, low.x, low.y, low.z, high.x, high.y, high.z));
     }
     for (const glm::dvec4& sphere : region.spheres) {
-        if (!is_finite(glm::dvec3(sphere)) || !std::isfinite(sphere.w) || sphere.w <= 0.0) {
-            throw InputError(
-                fmt::format("a sphere of part '{}' is at ({}, {}, {}) with radius {}; all must be finite "
-                            "and the radius positive.",
+        if (!is_finite(glm::dvec3(sphere)) || !std::isfinite(sphere.w) || sphere.w <= 0.0)
+            fault(
+                fmt::format("a sphere of area '{}' is at ({}, {}, {}) with radius {}; all must be finite and "
+                            "the radius positive.",
                             region.name, sphere.x, sphere.y, sphere.z, sphere.w));
-        }
     }
     for (const HalfSpace& half : region.half_spaces) {
-        if (!is_finite(half.point) || !is_finite(half.normal) || half.normal == glm::dvec3(0.0)) {
-            throw InputError(
-                fmt::format("a plane of part '{}' passes through ({}, {}, {}) with the normal ({}, {}, "
-                            "{}); all must be finite and the normal not 0.",
+        if (!is_finite(half.point) || !is_finite(half.normal) || half.normal == glm::dvec3(0.0))
+            fault(
+                fmt::format("a plane of area '{}' passes through ({}, {}, {}) with the normal ({}, {}, {}); "
+                            "all must be finite and the normal not 0.",
                             region.name, half.point.x, half.point.y, half.point.z, half.normal.x,
                             half.normal.y, half.normal.z));
-        }
     }
 }
 
@@ -47,15 +62,6 @@ void expect_few(std::size_t parts) {
     }
 }
 
-PartIndex part_named(Mesh& mesh, std::string_view name) {
-    const auto found = std::find(mesh.part_names.begin(), mesh.part_names.end(), name);
-    const auto index = found - mesh.part_names.begin();
-    if (found == mesh.part_names.end())
-        mesh.part_names.emplace_back(name);
-    expect_few(mesh.part_names.size());
-    return static_cast<PartIndex>(index);
-}
-
 /// The corners of a triangle, in the coordinates of the regions.
 using RegionPlaces = std::span<const glm::dvec3>;
 
@@ -63,98 +69,134 @@ double area_of(RegionPlaces places, const glm::uvec3& t) {
     return 0.5 * glm::length(glm::cross(places[t.y] - places[t.x], places[t.z] - places[t.x]));
 }
 
-[[noreturn]] void refuse_empty(const PartRegion& region, RegionPlaces places) {
+std::string words_of_empty(const PartRegion& region, RegionPlaces places) {
     glm::dvec3 min = places.front(), max = places.front();
     for (const glm::dvec3& place : places) {
         min = glm::min(min, place);
         max = glm::max(max, place);
     }
-    throw InputError(
-        fmt::format("the region of part '{}' contains no triangle (or an earlier region took them all). "
-                    "The mesh reaches from ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g}) in the "
-                    "coordinates in which the region is looked for.",
-                    region.name, min.x, min.y, min.z, max.x, max.y, max.z));
+    return fmt::format("area '{}' contains no triangle. The mesh reaches from ({:.6g}, {:.6g}, {:.6g}) to "
+                       "({:.6g}, {:.6g}, {:.6g}) in the coordinates in which it is looked for.",
+                       region.name, min.x, min.y, min.z, max.x, max.y, max.z);
 }
 
-constexpr std::size_t no_region = static_cast<std::size_t>(-1);
+/// The regions of one name are one bit.
+using RegionMask = std::uint64_t;
 
-/// The region that has each triangle. Throws InputError if one has none.
-std::vector<std::size_t> regions_of(const Mesh& mesh, std::span<const PartRegion> regions,
-                                    RegionPlaces places) {
-    std::vector<bool> is_used(regions.size(), false);
-    std::vector<std::size_t> found;
-    found.reserve(mesh.triangles.size());
-    for (const glm::uvec3& t : mesh.triangles) {
-        const glm::dvec3 centroid = (places[t.x] + places[t.y] + places[t.z]) / 3.0;
-        const auto region = std::ranges::find_if(
-            regions, [&](const PartRegion& candidate) { return candidate.contains(centroid); });
-        if (region == regions.end()) {
-            found.push_back(no_region);
-            continue;
+struct NamedRegions {
+    std::vector<std::string> names; ///< each once, by bit
+    std::vector<RegionMask> bits;   ///< by region
+
+    explicit NamedRegions(std::span<const PartRegion> regions) {
+        for (const PartRegion& region : regions) {
+            const auto at = std::ranges::find(names, region.name) - names.begin();
+            if (at == std::ssize(names))
+                names.push_back(region.name);
+            bits.push_back(RegionMask{1} << at);
         }
-        found.push_back(static_cast<std::size_t>(region - regions.begin()));
-        is_used[found.back()] = true;
     }
-    const auto unused = std::ranges::find(is_used, false);
-    if (unused != is_used.end())
-        refuse_empty(regions[static_cast<std::size_t>(unused - is_used.begin())], places);
+};
+
+void find_unknown_groups(const Mesh& mesh, bool is_divided, const PartRegion& region, AreaFaults& faults) {
+    for (const std::string& group : region.groups) {
+        if (is_divided && std::ranges::find(mesh.part_names, group) != mesh.part_names.end())
+            continue;
+        faults.push_back(
+            {region.name,
+             fmt::format("area '{}' is said to have the group '{}', but the mesh {}.", region.name, group,
+                         is_divided ? fmt::format("has '{}'", fmt::join(mesh.part_names, "', '"))
+                                    : std::string("file labels no groups, and no file of labels "
+                                                  "is given"))});
+    }
+}
+
+/// Of each triangle, the regions that have it. Throws AreaError if one has none, with the faults that others
+/// have.
+std::vector<RegionMask> regions_of(const Mesh& mesh, std::span<const PartRegion> regions,
+                                   const NamedRegions& named, RegionPlaces places, AreaFaults faults) {
+    std::vector<bool> is_used(regions.size(), false);
+    std::vector<RegionMask> found(mesh.triangles.size(), 0);
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        const glm::uvec3& t = mesh.triangles[i];
+        const glm::dvec3 centroid = (places[t.x] + places[t.y] + places[t.z]) / 3.0;
+        const std::string& part = mesh.part_names[mesh.triangle_parts[i]];
+        for (std::size_t r = 0; r < regions.size(); ++r) {
+            if (!regions[r].contains(centroid, part))
+                continue;
+            found[i] |= named.bits[r];
+            is_used[r] = true;
+        }
+    }
+    for (std::size_t r = 0; r < regions.size(); ++r) {
+        const bool is_told =
+            std::ranges::find(faults, regions[r].name, &AreaError::Fault::area) != faults.end();
+        if (!is_used[r] && !is_told)
+            faults.push_back({regions[r].name, words_of_empty(regions[r], places)});
+    }
+    if (!faults.empty())
+        throw AreaError(std::move(faults));
     return found;
 }
 
-/// Of a part that the mesh had: where its triangles lie.
-struct PartInRegions {
-    std::size_t triangles = 0, in_regions = 0;
-    double area = 0.0, area_in_regions = 0.0;
-    std::string region; ///< name of the one that has all so far; empty if there are several
-
-    bool lies_within() const { return triangles > 0 && in_regions == triangles && !region.empty(); }
+/// Triangles that had the same part and are in the same regions.
+struct AreaCell {
+    PartIndex part;
+    RegionMask regions;
+    friend auto operator<=>(const AreaCell&, const AreaCell&) = default;
 };
 
-std::vector<PartInRegions> parts_in_regions(const Mesh& mesh, std::span<const PartRegion> regions,
-                                            std::span<const std::size_t> region_of, RegionPlaces places) {
-    std::vector<PartInRegions> parts(mesh.part_names.size());
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-        PartInRegions& part = parts[mesh.triangle_parts[i]];
-        const double area = area_of(places, mesh.triangles[i]);
-        ++part.triangles;
-        part.area += area;
-        if (region_of[i] == no_region)
-            continue;
-        const std::string& region = regions[region_of[i]].name;
-        part.region = part.in_regions == 0 || part.region == region ? region : std::string();
-        ++part.in_regions;
-        part.area_in_regions += area;
+/// The names of the areas that a cell belongs to, each once; regions first.
+std::vector<std::string> names_of_cell(const AreaCell& cell, bool is_divided, const Mesh& mesh,
+                                       const NamedRegions& named) {
+    std::vector<std::string> names;
+    for (std::size_t bit = 0; bit < named.names.size(); ++bit) {
+        if (cell.regions >> bit & 1)
+            names.push_back(named.names[bit]);
     }
-    return parts;
+    const std::string& own = mesh.part_names[cell.part];
+    if ((is_divided || names.empty()) && std::ranges::find(names, own) == names.end())
+        names.push_back(own);
+    return names;
 }
 
 } // namespace
 
-bool PartRegion::contains(const glm::dvec3& position) const {
-    const bool in_sphere =
-        spheres.empty() || std::any_of(spheres.begin(), spheres.end(), [&](const glm::dvec4& sphere) {
-            return glm::distance(position, glm::dvec3(sphere)) <= sphere.w;
-        });
-    return in_sphere && std::all_of(half_spaces.begin(), half_spaces.end(),
-                                    [&](const HalfSpace& half) { return half.contains(position); });
-}
+AreaError::AreaError(std::vector<Fault> faults)
+    : InputError([&] {
+          std::string all;
+          for (const Fault& fault : faults)
+              all += (all.empty() ? "" : " ") + fault.message;
+          return all;
+      }()),
+      faults_(std::move(faults)) {}
 
-bool is_of_head(std::string_view part_name) {
-    return part_name == head_part ||
-           (part_name.starts_with(head_part) && part_name.substr(head_part.size()).starts_with('/'));
-}
+AreaError::AreaError(const std::string& file, const AreaError& error)
+    : InputError(fmt::format("{}: {}", file, error.what())), faults_(error.faults_) {}
 
-HeadParts::HeadParts(std::span<const std::string> part_names) {
-    for (const std::string& name : part_names)
-        parts_.push_back(is_of_head(name));
+bool PartRegion::contains(const glm::dvec3& position, std::string_view part) const {
+    const bool is_everywhere = spheres.empty() && boxes.empty() && groups.empty();
+    const bool is_in_one =
+        is_everywhere ||
+        std::ranges::any_of(
+            spheres, [&](auto& sphere) { return glm::distance(position, glm::dvec3(sphere)) <= sphere.w; }) ||
+        std::ranges::any_of(boxes,
+                            [&](auto& box) {
+                                return glm::all(glm::lessThanEqual(box[0], position)) &&
+                                       glm::all(glm::lessThanEqual(position, box[1]));
+                            }) ||
+        std::ranges::find(groups, part) != groups.end();
+    return is_in_one &&
+           std::ranges::all_of(half_spaces, [&](const HalfSpace& half) { return half.contains(position); });
 }
-
-bool HeadParts::has_value() const { return std::ranges::find(parts_, true) != parts_.end(); }
 
 std::vector<std::string> label_parts(Mesh& mesh, std::span<const PartRegion> regions,
                                      std::span<const glm::dvec3> places) {
-    for (const PartRegion& region : regions)
-        expect_possible(region);
+    const bool is_divided = mesh.part_names.size() > 1;
+    AreaFaults faults;
+    for (const PartRegion& region : regions) {
+        find_impossible(region, faults);
+        find_unknown_groups(mesh, is_divided, region, faults);
+    }
     std::vector<glm::dvec3> own;
     if (places.empty()) {
         own.assign(mesh.positions.begin(), mesh.positions.end());
@@ -164,36 +206,61 @@ std::vector<std::string> label_parts(Mesh& mesh, std::span<const PartRegion> reg
     for (const PartRegion& region : regions)
         names.insert(region.name);
     expect_few(names.size());
-    const std::vector<std::size_t> region_of = regions_of(mesh, regions, places);
-    const std::vector<PartInRegions> before = parts_in_regions(mesh, regions, region_of, places);
-    const bool is_divided = before.size() > 1;
+    std::set<std::string> region_names;
+    for (const PartRegion& region : regions)
+        region_names.insert(region.name);
+    if (region_names.size() > most_regions)
+        throw InputError(fmt::format("{} areas are described; at most {} can be, beside those that the mesh "
+                                     "file labels.",
+                                     region_names.size(), most_regions));
+    const NamedRegions named(regions);
+    const std::vector<RegionMask> region_of = regions_of(mesh, regions, named, places, std::move(faults));
+
+    // What there is of each cell, in the order of the parts that the mesh had; those of no triangle stay.
+    std::map<AreaCell, double> sizes;
+    for (std::size_t part = 0; part < mesh.part_names.size(); ++part) {
+        if (is_divided)
+            sizes[{static_cast<PartIndex>(part), 0}];
+    }
+    std::map<AreaCell, bool> is_met;
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        const AreaCell cell{mesh.triangle_parts[i], region_of[i]};
+        sizes[cell] += area_of(places, mesh.triangles[i]);
+        is_met[cell] = true;
+    }
+    std::map<std::string, double> area_sizes;
+    std::vector<bool> part_is_met(mesh.part_names.size(), false);
+    for (const auto& [cell, size] : sizes) {
+        for (const std::string& name : names_of_cell(cell, is_divided, mesh, named))
+            area_sizes[name] += size;
+        if (is_met.contains(cell))
+            part_is_met[cell.part] = true;
+    }
+    std::vector<std::string> part_names;
+    std::map<AreaCell, PartIndex> part_of_cell;
+    for (const auto& [cell, size] : sizes) {
+        if (!is_met.contains(cell) && part_is_met[cell.part])
+            continue; // all of the part lies in regions
+        std::vector<std::string> of_cell = names_of_cell(cell, is_divided, mesh, named);
+        std::ranges::stable_sort(of_cell, std::greater(), [&](auto& name) { return area_sizes.at(name); });
+        const std::string name = fmt::format("{}", fmt::join(of_cell, std::string_view(&between_areas, 1)));
+        const auto at = std::ranges::find(part_names, name) - part_names.begin();
+        if (at == std::ssize(part_names))
+            part_names.push_back(name);
+        expect_few(part_names.size());
+        part_of_cell[cell] = static_cast<PartIndex>(at);
+    }
     std::vector<std::string> sentences;
-    for (std::size_t part = 0; is_divided && part < before.size(); ++part) {
-        std::string& name = mesh.part_names[part];
-        const bool is_same =
-            std::ranges::any_of(regions, [&](const PartRegion& r) { return r.name == name; });
-        if (is_same) {
+    for (const std::string& name : named.names) {
+        if (is_divided && std::ranges::find(mesh.part_names, name) != mesh.part_names.end())
             sentences.push_back(
                 fmt::format("Part '{0}' is labelled, and a region of that name is given: what "
-                            "either says is part '{0}'.",
+                            "either says is area '{0}'.",
                             name));
-        } else if (before[part].lies_within()) {
-            name = fmt::format("{}/{}", before[part].region, name);
-        } else if (before[part].in_regions > 0) {
-            sentences.push_back(fmt::format(
-                "{:.1f} % of the area of part '{}' lies in '{}' and is counted there.",
-                100.0 * before[part].area_in_regions / before[part].area, name,
-                before[part].region.empty() ? std::string("several regions") : before[part].region));
-        }
     }
-    std::vector<PartIndex> part_of_region;
-    for (const PartRegion& region : regions)
-        part_of_region.push_back(part_named(mesh, region.name));
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-        const bool keeps_own = is_divided && before[mesh.triangle_parts[i]].lies_within();
-        if (region_of[i] != no_region && !keeps_own)
-            mesh.triangle_parts[i] = part_of_region[region_of[i]];
-    }
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+        mesh.triangle_parts[i] = part_of_cell.at({mesh.triangle_parts[i], region_of[i]});
+    mesh.part_names = std::move(part_names);
     return sentences;
 }
 

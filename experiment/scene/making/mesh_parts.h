@@ -1,7 +1,7 @@
-/// Which part of the figure each triangle belongs to: by regions of space, or by labels of the mesh file.
+/// Which areas each triangle belongs to: by regions of space, and by labels of the mesh file.
 #pragma once
 
-#include <optional>
+#include <array>
 #include <span>
 #include <string>
 #include <string_view>
@@ -9,6 +9,7 @@
 
 #include <glm/glm.hpp>
 
+#include "experiment/base/error.h"
 #include "experiment/scene/making/raw_mesh.h"
 #include "experiment/scene/mesh.h"
 
@@ -23,56 +24,54 @@ struct HalfSpace {
     bool contains(const glm::dvec3& position) const { return glm::dot(position - point, normal) >= 0.0; }
 };
 
-/// A region of space, in the coordinates of the mesh that it is applied to: the union of its spheres, cut by
-/// every half-space. Without spheres it is what the half-spaces have in common.
+/// Where an area is, in the coordinates of the mesh that it is applied to: what lies in any of its spheres,
+/// boxes and groups, cut by every half-space. Without any of the three it is what the half-spaces have in
+/// common.
 struct PartRegion {
-    std::string name;                ///< of the part
+    std::string name;                ///< of the area
     std::vector<glm::dvec4> spheres; ///< x, y, z of the centre, and the radius
     std::vector<HalfSpace> half_spaces;
+    std::vector<std::array<glm::dvec3, 2>> boxes = {}; ///< corners with the smallest and the largest
+    std::vector<std::string> groups = {};              ///< names of parts that the mesh has
 
-    bool contains(const glm::dvec3& position) const;
+    /// `part`: that the place has in the mesh.
+    bool contains(const glm::dvec3& position, std::string_view part = {}) const;
 };
 
 /// Most parts that a mesh can have.
 inline constexpr std::size_t max_mesh_parts = 256;
 
-/// Name of the part that results tell from the rest.
-inline constexpr std::string_view head_part = "head";
+/// Most areas that can be described beside those of the mesh file.
+inline constexpr std::size_t most_regions = 64;
 
-/// Which parts of an object belong to its head: the part "head", and those that lie in it ("head/eyes").
-class HeadParts {
+/// Areas that are described in ways that cannot be.
+class AreaError : public InputError {
   public:
-    HeadParts() = default;
-    /// One part.
-    HeadParts(PartIndex part) : parts_(std::size_t{part} + 1, false) { parts_.back() = true; }
-    /// By the names of all parts, in their order.
-    explicit HeadParts(std::span<const std::string> part_names);
-
-    /// Whether there is any.
-    bool has_value() const;
-    explicit operator bool() const { return has_value(); }
-    bool has(std::optional<PartIndex> part) const { return part && *part < parts_.size() && parts_[*part]; }
-    void reset() { parts_.clear(); }
+    struct Fault {
+        std::string area, message; ///< whole sentence
+    };
+    explicit AreaError(std::vector<Fault> faults);
+    /// The same with the file before what is said of all together.
+    AreaError(const std::string& file, const AreaError& error);
+    const std::vector<Fault>& faults() const { return faults_; }
 
   private:
-    std::vector<bool> parts_; ///< by PartIndex
+    std::vector<Fault> faults_;
 };
 
-/// Whether a part of that name belongs to the head.
-bool is_of_head(std::string_view part_name);
-
-/// Adds the regions to the parts that the mesh has: the first region that contains the centroid of a triangle
-/// has it. Regions with the same name are one part. A part that lies in a region as a whole stays a part of
-/// its own, named as lying in it ("head/eyes"); of one that reaches beyond it the region takes what it
-/// contains. Where the mesh has but one part, the region takes that, too.
+/// Adds areas to those that the mesh has (areas.h): a triangle belongs to each region that contains its
+/// centroid and, where the mesh was divided, to the part that it had. Regions of the same name are one area.
+/// What no region takes of a mesh that was not divided stays "body".
 ///
 /// `places` are those of the vertices in the coordinates in which the regions are given; empty: the mesh's
 /// own. A region noted in a file's coordinates is applied before the mesh is turned and scaled, which
-/// import_mesh does. Gives a sentence for each part that was cut.
+/// import_mesh does. Gives a sentence for each name that a label and a region share.
 ///
-/// Throws InputError if a region has no name, neither spheres nor half-spaces, a radius that is not positive,
+/// Throws AreaError, for all regions at once, if one has no name, one with a slash, or nothing that says
+/// where it is, a group that the mesh does not have, a radius that is not positive, a box without an inside,
 /// a normal of length 0 or a number that is not finite; if it contains no triangle, as happens when it is
-/// given in other coordinates; and for more than max_mesh_parts parts.
+/// given in other coordinates. Throws InputError for more than most_regions names of regions, and for more
+/// than max_mesh_parts parts.
 std::vector<std::string> label_parts(Mesh& mesh, std::span<const PartRegion> regions,
                                      std::span<const glm::dvec3> places = {});
 

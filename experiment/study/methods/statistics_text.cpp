@@ -33,18 +33,40 @@ void add_maps(std::string& text, const StudyResults& results, const StudyOptions
     add_sentence(text, clause);
 }
 
-void add_head(std::string& text, const StudyResults& results) {
+std::string words_of_areas(const std::vector<std::string>& areas) {
+    if (areas.size() == 1)
+        return areas.front() == head_area ? "the head" : fmt::format("the area {}", areas.front());
+    return fmt::format("the areas {}", joined_words(areas));
+}
+
+void add_areas(std::string& text, const StudyResults& results) {
     const auto has = [](auto what) {
-        return [what](const HeadFractionRow& row) { return std::invoke(what, row).value.has_value(); };
+        return [what](const AreaRow& row) { return std::invoke(what, row).value.has_value(); };
     };
-    if (!std::ranges::any_of(results.head_fractions, has(&HeadFractionRow::by_count)))
+    if (!std::ranges::any_of(results.area_rows, has(&AreaRow::by_count)))
         return;
-    add_sentence(text, "shares of fixations on the head are means over observers of their own shares");
-    if (std::ranges::any_of(results.head_fractions, has(&HeadFractionRow::corrected)))
+    add_sentence(text, fmt::format("shares of fixations on {} are means over observers of their own shares",
+                                   words_of_areas(results.areas)));
+    if (std::ranges::any_of(results.area_rows, has(&AreaRow::corrected)))
         add_sentence(text,
                      "the corrected shares have the eye tracker's error taken out: they are those under "
                      "which the measured places are most probable, given the error of the validation "
                      "before each trial");
+}
+
+/// After the sentences on pairs.
+void add_area_pairs(std::string& text, const StudyResults& results) {
+    const auto tested =
+        std::ranges::find_if(results.area_pairs, [](const AreaPairRow& row) { return row.p.has_value(); });
+    if (tested == results.area_pairs.end())
+        return;
+    add_sentence(
+        text, fmt::format(
+                  "differences of shares of fixations on {} between levels of {} were tested by flipping "
+                  "the signs of observers' differences; each p is given as it is, after Holm's correction "
+                  "for the rows of the area, where rows over all groups are corrected apart{}",
+                  words_of_areas(results.compared_areas), tested->column,
+                  results.compared_areas.size() > 1 ? ", and after the same for the rows of all areas" : ""));
 }
 
 void add_pairs(std::string& text, const StudyResults& results) {
@@ -58,18 +80,15 @@ void add_pairs(std::string& text, const StudyResults& results) {
     const auto any = [&](std::optional<double> PairRow::*p) {
         return std::ranges::any_of(results.pairs, [p](const PairRow& row) { return (row.*p).has_value(); });
     };
-    const char* const differences = any(&PairRow::head_p)  ? "WSS, in deg2, and of shares on the head"
-                                    : any(&PairRow::wss_p) ? "WSS, in deg2,"
-                                                           : nullptr;
-    if (differences)
-        add_sentence(text, fmt::format("differences of {} were tested by flipping the signs of observers' "
-                                       "differences",
-                                       differences));
+    const bool has_spreads = any(&PairRow::wss_p);
+    if (has_spreads)
+        add_sentence(text, "differences of WSS, in deg2, were tested by flipping the signs of observers' "
+                           "differences");
     if (any(&PairRow::maps_p))
         add_sentence(text, "whether maps differ was tested by the correlation of the maps of all observers "
                            "together, with the two levels of an observer swapped, whole maps at once "
                            "(maps_p)");
-    if (differences || any(&PairRow::maps_p))
+    if (has_spreads || any(&PairRow::maps_p))
         add_sentence(
             text,
             "each p is given as it is and after Holm's correction for the rows of the table, where rows over "
@@ -95,8 +114,9 @@ std::string statistics_text(const StudyResults& results, const StudyOptions& opt
     if (results.glance.counted == 0)
         return text;
     add_maps(text, results, options);
-    add_head(text, results);
+    add_areas(text, results);
     add_pairs(text, results);
+    add_area_pairs(text, results);
     add_intervals(text, results, options);
     add_sentence(text, fmt::format("all that was drawn at random follows from the seed {}", options.seed));
     return text;

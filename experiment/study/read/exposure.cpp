@@ -133,12 +133,11 @@ Exposure exposure_of(const CoordinateMaps& maps, std::span<const double> seconds
     return exposure;
 }
 
-std::vector<ExposureRow> exposure_rows(const PartExposure& of, int object,
-                                       std::span<const std::string> part_names) {
+std::vector<ExposureRow> exposure_rows(const AreaExposure& of, int object, const Areas& areas) {
     struct Sum {
         double area = 0.0, never = 0.0, seconds = 0.0, pixels = 0.0; ///< mm^2, mm^2, mm^2 s, px s
     };
-    std::vector<Sum> parts(part_names.size());
+    std::vector<Sum> parts(of.mesh.part_names.size());
     Sum all;
     const double mm2 = of.mm_per_unit * of.mm_per_unit;
     for (std::size_t i = 0; i < of.mesh.triangles.size(); ++i) {
@@ -160,7 +159,7 @@ std::vector<ExposureRow> exposure_rows(const PartExposure& of, int object,
     const auto row_of = [&](const std::string& name, const Sum& sum) {
         ExposureRow row;
         row.object = object;
-        row.part = name;
+        row.area = name;
         row.area_mm2 = sum.area;
         row.share_of_area = all.area > 0.0 ? sum.area / all.area : 0.0;
         row.never_visible = sum.area > 0.0 ? sum.never / sum.area : 0.0;
@@ -170,9 +169,19 @@ std::vector<ExposureRow> exposure_rows(const PartExposure& of, int object,
             row.foreshortening = sum.pixels * of.px_mm2 / sum.seconds;
         return row;
     };
-    std::vector<ExposureRow> rows{row_of("all", all)};
-    for (std::size_t part = 0; part < parts.size(); ++part)
-        rows.push_back(row_of(part_names[part], parts[part]));
+    std::vector<ExposureRow> rows{row_of({}, all)};
+    for (std::size_t area = 0; area < areas.size(); ++area) {
+        Sum sum;
+        for (std::size_t part = 0; part < parts.size(); ++part) {
+            if (!areas.holds(area, static_cast<PartIndex>(part)))
+                continue;
+            sum.area += parts[part].area;
+            sum.never += parts[part].never;
+            sum.seconds += parts[part].seconds;
+            sum.pixels += parts[part].pixels;
+        }
+        rows.push_back(row_of(areas.names()[area], sum));
+    }
     return rows;
 }
 

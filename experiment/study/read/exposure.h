@@ -27,15 +27,14 @@ struct Exposure {
 /// within two pixels' width of depth are taken as one. Uses all processors; does not depend on how many.
 Exposure exposure_of(const CoordinateMaps& maps, std::span<const double> seconds);
 
-/// Each part with its area, how long it is visible, and its share of the exposure and of the fixations; the
+/// Each area with its size, how long it is visible, and its share of the exposure and of the fixations; the
 /// first row is the whole object. `px_mm2`: the area of the object, seen head-on in the depth of its axis,
 /// that a pixel shows.
-struct PartExposure {
+struct AreaExposure {
     const Exposure& exposure;
     const Mesh& mesh;
     double mm_per_unit = 1.0, px_mm2 = 1.0;
 };
-std::vector<ExposureRow> exposure_rows(const PartExposure& of, int object,
-                                       std::span<const std::string> part_names);
+std::vector<ExposureRow> exposure_rows(const AreaExposure& of, int object, const Areas& areas);
 
 } // namespace overt

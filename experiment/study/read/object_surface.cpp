@@ -33,6 +33,7 @@ void add_surface(const SurfaceLookup* lookup, const std::string& fault, StudyObj
     if (maps) {
         object.mesh = std::make_shared<const Mesh>(maps->mesh());
         object.part_names = maps->mesh().part_names;
+        object.areas = Areas(object.part_names);
         if (surface.scale)
             surface.geometry = std::make_unique<SurfaceGeometry>(*object.mesh, surface.scale->mm_per_unit);
         else
@@ -44,8 +45,8 @@ void add_surface(const SurfaceLookup* lookup, const std::string& fault, StudyObj
         }
         surface.areas_mm2 = surface.geometry->vertex_areas_mm2();
     }
-    if (object.remark.empty() && !object.head)
-        object.remark = fmt::format("{} has no part \"head\": there is no fraction of it.", object.id);
+    if (object.remark.empty() && object.areas.empty())
+        object.remark = fmt::format("{} has no named areas: there are no shares of its parts.", object.id);
 }
 
 } // namespace overt

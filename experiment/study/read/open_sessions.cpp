@@ -110,7 +110,7 @@ StudySession describe_session(const OpenSession& open, const std::filesystem::pa
     session.is_complete = record.is_complete();
     session.setup = setup_of(record);
     for (const TrialRecord& trial : record.trials())
-        session.trials += trial.counts;
+        session.trials += trial.gives_results();
     return session;
 }
 
@@ -148,12 +148,15 @@ StudyObject describe_object(const SessionHeader& header, const ViewedObject& vie
     object.id = recorded.id;
     object.title = recorded.title;
     if (recorded.cameras.size() > 1)
-        object.title += fmt::format(", view {}", viewed.view + 1);
+        object.title += ", " + (static_cast<std::size_t>(viewed.view) < header.views.size()
+                                    ? header.views[static_cast<std::size_t>(viewed.view)].title
+                                    : fmt::format("view {}", viewed.view + 1));
     object.part_names = recorded.part_names;
-    object.head = HeadParts(recorded.part_names);
+    object.areas = Areas(recorded.part_names);
     object.camera = recorded.camera(viewed.view);
     object.axis_point = recorded.axis_point;
     object.unit = recorded.unit;
+    object.origin = recorded.origin;
     object.screen = header.display.screen;
     return object;
 }

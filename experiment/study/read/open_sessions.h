@@ -43,7 +43,7 @@ bool is_same_object(const SessionHeader& a, const ViewedObject& in_a, const Sess
                     const ViewedObject& in_b);
 
 /// What a study knows of a session's object in a view, by its indices there, without its mesh. Where the
-/// session has several views, its title has the view's number.
+/// session has several views, its title has the view's.
 StudyObject describe_object(const SessionHeader& header, const ViewedObject& viewed);
 
 /// How far a session has got: another text once it was gone on with.

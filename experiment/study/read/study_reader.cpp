@@ -14,10 +14,10 @@
 #include "experiment/maps/coordinate_maps.h"
 #include "experiment/record/no_stimulus.h"
 #include "experiment/record/preview_file.h"
+#include "experiment/study/read/area_evidence.h"
 #include "experiment/study/read/exposure.h"
 #include "experiment/study/read/gaze_quality.h"
 #include "experiment/study/read/open_sessions.h"
-#include "experiment/study/read/part_evidence.h"
 #include "experiment/study/read/trial_screen_areas.h"
 
 namespace overt {
@@ -95,12 +95,11 @@ class StudyReader {
             }
         };
         const auto id_of = [](const auto& item) { return item.id; };
-        take_levels("task", header.tasks, id_of);
-        take_levels("object", header.objects, id_of);
-        take_levels("material", header.materials, id_of);
+        const Factors factors = factors_of(header);
+        for (const Factor& factor : factors.all())
+            take_levels(factor.name, factor.levels, [](const FactorLevel& level) { return level.name; });
         if (header.slots.size() > 1)
             take_levels("slot", header.slots, id_of);
-        take_levels("block", header.blocks, [](const std::string& block) { return block; });
         for (int object = 0; object < static_cast<int>(header.objects.size()); ++object) {
             const std::size_t views = header.objects[static_cast<std::size_t>(object)].cameras.size();
             for (int view = 0; view < static_cast<int>(views); ++view)
@@ -228,7 +227,7 @@ class StudyReader {
     void add_evidence(int index) {
         const StudyObject& object = results().objects[static_cast<std::size_t>(index)];
         const ObjectSurface& surface = study_.surfaces[static_cast<std::size_t>(index)];
-        if (!object.mesh || !object.head || !surface.scale)
+        if (!object.mesh || object.areas.empty() || !surface.scale)
             return;
         std::vector<StudyFixation*> fixations;
         std::vector<MeasuredPlace> places;
@@ -260,14 +259,14 @@ class StudyReader {
         if (fixations.empty())
             return;
         const SceneView scene{{object.camera, object.screen.image_px}, object.mesh->bounds()};
-        const auto evidence = part_evidence(*object.mesh, object.head, scene, header->poses.angles, places);
+        auto evidence = area_evidence(*object.mesh, object.areas, scene, header->poses.angles, places);
         for (std::size_t i = 0; i < fixations.size(); ++i)
-            fixations[i]->evidence = evidence[i];
+            fixations[i]->evidence = std::move(evidence[i]);
     }
 
     bool is_of(std::size_t session, const TrialRecord& trial, int object) const {
         const auto own = open_[session].objects.find(viewed(trial.trial.stimulus));
-        return trial.counts && own != open_[session].objects.end() && own->second == object;
+        return trial.gives_results() && own != open_[session].objects.end() && own->second == object;
     }
 
     /// From the first session that has it whole.
@@ -299,7 +298,7 @@ class StudyReader {
         std::vector<double> trials(header.animations.size(), 0.0);
         // Sessions of one object have the same poses; motions have their numbers in the session.
         for (std::size_t session = 0; session < open_.size(); ++session) {
-            for (const TrialRecord& trial : open_[session].record().trials()) {
+            for (const TrialRecord& trial : open_[session].presentations) {
                 const auto motion = static_cast<std::size_t>(trial.trial.stimulus.motion);
                 if (is_of(session, trial, index) && motion < trials.size())
                     trials[motion] += 1.0;
@@ -333,7 +332,7 @@ class StudyReader {
             const double px_mm = screen.screen_mm.y / screen.screen_px.y / surface.scale->shown_size;
             for (ExposureRow& row :
                  exposure_rows({exposure, *object.mesh, surface.scale->mm_per_unit, px_mm * px_mm}, index,
-                               object.part_names))
+                               object.areas))
                 results().exposures.push_back(std::move(row));
         }
         object.seconds_visible = std::move(exposure.seconds_visible);
@@ -347,7 +346,7 @@ class StudyReader {
         for (std::size_t session = 0; session < open_.size(); ++session) {
             const std::vector<TrialRecord>& trials = open_[session].presentations;
             for (std::size_t t = 0; t < trials.size(); ++t) {
-                if (!trials[t].counts)
+                if (!trials[t].gives_results())
                     continue;
                 ReadTrial& read = read_[session].trials[t];
                 const int index = static_cast<int>(results().trials.size());

@@ -17,7 +17,7 @@ namespace overt {
 namespace {
 
 /// Another one for each change of what follows it.
-constexpr std::string_view shard_magic = "overt shard of a study, version 3\n";
+constexpr std::string_view shard_magic = "overt shard of a study, version 4\n";
 constexpr std::size_t hash_length = 64;
 
 // What is in a shard, once for writing and reading. A member that is added breaks the build here.
@@ -37,9 +37,9 @@ template <class Archive> void fields(Archive& archive, PoseIndex& pose) {
     auto& [value] = pose;
     archive(value);
 }
-template <class Archive> void fields(Archive& archive, PartEvidence& evidence) {
-    auto& [head, elsewhere] = evidence;
-    archive(head, elsewhere);
+template <class Archive> void fields(Archive& archive, AreaEvidence& evidence) {
+    auto& [inside, elsewhere] = evidence;
+    archive(inside, elsewhere);
 }
 template <class Archive> void fields(Archive& archive, glm::dvec3& point) {
     archive(point.x, point.y, point.z);

@@ -20,6 +20,7 @@ TrialKeys::TrialKeys(const SessionRecord& record)
         layout_.add<TrialRow>(imported_trial_columns(messages_));
     of_session_.push_back({"observer", record.header().schedule.observer.label});
     of_session_.push_back({"session", std::to_string(record.header().session_number)});
+    of_session_.push_back({"day", std::to_string(record.header().session_number)});
     for (const RecordedObserverField& field : record.observer_fields())
         of_session_.push_back({field.id, field.value});
 }

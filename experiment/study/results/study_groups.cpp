@@ -60,6 +60,22 @@ std::vector<std::string> levels_of(const StudyResults& results, const std::strin
     return levels;
 }
 
+void check_asked_factors(const std::vector<std::string>& by, const LevelLists& levels) {
+    for (const std::string& column : by) {
+        const auto factor = levels.find(column);
+        if (factor == levels.end() || factor->second.size() != 1)
+            continue;
+        std::vector<std::string> several;
+        for (const auto& [other, of_other] : levels)
+            if (of_other.size() > 1)
+                several.push_back(other);
+        throw InputError(fmt::format("--by {}: this factor has one level, \"{}\", and makes no groups; {}.", column,
+                                     factor->second.front(),
+                                     several.empty() ? "no factor has several"
+                                                     : fmt::format("several have {}", fmt::join(several, ", "))));
+    }
+}
+
 std::vector<StudyGroup> make_groups(const StudyResults& results, const std::vector<std::string>& by,
                                     const LevelLists& order) {
     std::map<std::vector<std::size_t>, StudyGroup> groups;

@@ -18,6 +18,10 @@ using LevelLists = std::map<std::string, std::vector<std::string>>;
 std::vector<std::string> levels_of(const StudyResults& results, const std::string& column,
                                    const LevelLists& order);
 
+/// Throws InputError for a factor of the protocol that has one level only, by its name, with those that have
+/// several.
+void check_asked_factors(const std::vector<std::string>& by, const LevelLists& levels);
+
 /// Groups of trials with the same values in these columns, in the order of their levels, the last column's
 /// fastest. Without columns one group has them all. Throws InputError, which lists the columns, if no trial
 /// has such a column.

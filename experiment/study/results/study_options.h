@@ -45,7 +45,9 @@ std::optional<ExclusionRule> broken_rule(const StudyQuality& quality, const Excl
 
 struct StudyOptions {
     std::vector<std::string> by{"task", "object", "material"};
+    bool is_by_asked = false; ///< somebody asked for these columns: a factor with one level is refused
     std::string compare = "material"; ///< the column whose levels are compared within observers
+    std::vector<std::string> areas;   ///< that are compared, that of figure 4 first; empty: all
     KernelWidth sigma;
     MapKernel kernel = MapKernel::geodesic;
     double shortest_fixation_s = 0.0;

@@ -18,7 +18,8 @@
 
 #include "experiment/animation.h"
 #include "experiment/gaze_event.h"
-#include "experiment/scene/making/mesh_parts.h"
+#include "experiment/scene/areas.h"
+#include "experiment/scene/mesh.h"
 #include "experiment/scene/viewing.h"
 #include "experiment/screen_geometry.h"
 #include "experiment/statistics/estimate.h"
@@ -77,11 +78,12 @@ struct StudyObject {
     /// Null where the sessions have no mesh, such as imported ones: no maps then, and `remark` says why.
     std::shared_ptr<const Mesh> mesh;
     std::vector<std::string> part_names;
-    HeadParts head; ///< false if there is none
+    Areas areas; ///< of its surface
     Camera camera;
     glm::dvec3 axis_point{0.0}; ///< in the mesh's unit; the object turns about the vertical through it
     ScreenGeometry screen;
     std::string unit = "mm"; ///< of the mesh, as RecordedObject has it: "mm" if it is that
+    glm::dvec3 origin{0.0};  ///< in the mesh's unit, as RecordedObject has it
     // As ObjectScale has them; nothing without a known camera.
     std::optional<double> mm_per_unit, mm_per_deg, shown_size;
     /// By vertex of the mesh: how long one presentation shows it, in seconds; 0: never visible.
@@ -107,10 +109,12 @@ enum class NotCounted : std::uint8_t {
 /// What a trial is excluded for, in the order in which it is asked (ExclusionRules).
 enum class ExclusionRule : std::uint8_t { lost_share, accuracy, drift, missed_refreshes };
 
-/// How probable a fixation's measured place is, per square pixel, if the head was looked at, and if something
-/// else of the object was: the tracker's error lies between the two (part_evidence.h).
-struct PartEvidence {
-    double head = 0.0, elsewhere = 0.0;
+/// How probable a fixation's measured place is, per square pixel, if an area was looked at, and if something
+/// else of the object was: the tracker's error lies between the two (area_evidence.h). Both 0: it tells
+/// nothing.
+struct AreaEvidence {
+    double inside = 0.0, elsewhere = 0.0;
+    bool tells() const { return inside + elsewhere > 0.0; }
 };
 
 /// Lightness at a fixation's samples (LightScores), means.
@@ -135,7 +139,8 @@ struct StudyFixation {
     double mid_angle_deg = 0.0;            ///< of the object, halfway through
     PoseIndex mid_pose;                    ///< of its session, lit halfway through if samples > 0
     ScreenPoint mid_gaze;                  ///< then
-    std::optional<PartEvidence> evidence;  ///< nothing if the tracker's error is not known
+    /// By area of the object (StudyObject::areas); empty if the tracker's error is not known.
+    std::vector<AreaEvidence> evidence;
     // Where it met the surface; meaningful if triangle is set.
     std::optional<std::uint32_t> triangle; ///< of the point: nothing if no sample met a mesh
     glm::dvec3 barycentric{0.0};
@@ -270,8 +275,10 @@ struct StudyMap {
     ErrorBudget error;
 };
 
-/// Figure 4: share of fixations on the head, of all that are counted.
-struct HeadFractionRow {
+/// What a group's gaze does with an area: of fixations on objects that have it. Figure 4 are the shares of
+/// one area. Of the other measures see area_looks.h.
+struct AreaRow {
+    std::string area;
     std::vector<StudyKey> keys;     ///< a group's, or a single one of these: all trials with it; empty: all
     Estimate by_count, by_duration; ///< means over observers of their own fractions, with intervals over them
     /// The same with the tracker's error taken out: most probable given where all fixations were measured.
@@ -281,6 +288,41 @@ struct HeadFractionRow {
     std::optional<double> planted; ///< of simulated observers: the fraction that they mean to look at
     int observers = 0, trials = 0, fixations = 0;
     std::vector<double> of_observers{}; ///< their own fractions by count, those who have any
+    // What shares there would be if gaze were spread evenly over the surface, and over what is seen of it:
+    // means over the fixations' objects. Nothing where the surface is not known.
+    std::optional<double> share_of_surface{}, share_of_exposure{};
+    Estimate over_surface{}, over_exposure{}; ///< by_count as a multiple of these
+    // Of trials: means over each observer's, then over observers.
+    Estimate dwell_s{};              ///< time of fixation on the area, of a trial
+    Estimate visits{};               ///< of a trial
+    Estimate visit_s{};              ///< time of fixation of a visit
+    Estimate reached{};              ///< share of trials in which it was fixated at all
+    Estimate first_arrival_s{};      ///< since onset; a trial without counts with its whole presentation
+    Estimate first_arrival_number{}; ///< of the fixation, from 1, in trials in which it was reached
+    int looks = 0;                   ///< trials whose object has the area
+    int arrivals = 0;                ///< of these, in which it was reached
+};
+
+/// How gaze goes from one area to another, or stays: see surface_transitions.h.
+struct SurfaceTransitionRow {
+    std::vector<StudyKey> keys; ///< a level of a column; empty: all
+    std::string from, to;
+    Estimate probability; ///< of the next fixation being on `to`, after one on `from`
+    Estimate chance;      ///< share of `to` among all next fixations
+    Estimate over_chance; ///< difference of the two
+    int observers = 0, transitions = 0, departures = 0;
+};
+
+/// Two levels of a factor compared within observers by their shares of fixations on an area.
+struct AreaPairRow {
+    std::string area;
+    std::vector<StudyKey> keys; ///< as in PairRow
+    std::string column, a, b;
+    Estimate difference; ///< share of fixations on the area, of a less that of b
+    /// Sign flips over observers; after Holm over the rows of the area, those over all groups apart; and over
+    /// the areas, too.
+    std::optional<double> p, p_holm, p_holm_areas;
+    int observers = 0, comparisons = 0; ///< of an observer with one object
 };
 
 /// Figure 5: the distribution of a group's fixations on one object.
@@ -310,9 +352,8 @@ struct PairRow {
     std::vector<StudyKey> keys; ///< what is the same in both: task; empty: all groups, compared within each
     std::string column, a, b;   ///< "material", "rough", "smooth"
     Estimate wss_difference_mm2, wss_difference_deg2;
-    Estimate head_difference; ///< share of fixations on the head, of a less that of b
     // Sign flips over observers. Holm's correction is over the rows of groups, or over those of all groups.
-    std::optional<double> wss_p, wss_p_holm, head_p, head_p_holm;
+    std::optional<double> wss_p, wss_p_holm;
     std::optional<double> maps_cc;             ///< of the maps of all observers, mean over objects and groups
     std::optional<double> maps_p, maps_p_holm; ///< swaps of the levels within observers (swap_test)
     SimilarityEstimate cc, sim_mit, sim_pysaliency;
@@ -377,7 +418,7 @@ struct MapReliabilityRow {
 
 /// Whether a factor, or two of them together, have an effect on trials: see factor_effects.h.
 struct FactorEffectRow {
-    std::string measure; ///< "head fraction", "log WSS"
+    std::string measure; ///< "share on AREA", "log WSS"
     std::string effect;  ///< a column, or two with a colon between: their interaction
     std::optional<double> statistic, p, p_holm;
     std::optional<double> least_p; ///< that so many observers can give
@@ -402,10 +443,10 @@ struct LightAtGazeRow {
     int observers = 0, fixations = 0;
 };
 
-/// What a presentation shows of a part of an object.
+/// What a presentation shows of an area of an object.
 struct ExposureRow {
     int object = 0;
-    std::string part; ///< "all": the whole object
+    std::string area; ///< empty: the whole object
     double area_mm2 = 0.0;
     double share_of_area = 0.0;
     double never_visible = 0.0;     ///< share of its area
@@ -415,11 +456,12 @@ struct ExposureRow {
     std::optional<double> share_of_fixations; ///< of all that are counted on the object
 };
 
-/// Share of fixations on the head in a stretch of the presentation.
+/// Share of fixations on an area in a stretch of the presentation.
 struct TimeCourseRow {
+    std::string area;
     StudyKey key; ///< one level of the first column of `--by`
     double from_s = 0.0, to_s = 0.0;
-    Estimate head_fraction; ///< by duration within the stretch, over observers
+    Estimate share; ///< by duration within the stretch, over observers
     int observers = 0;
 };
 
@@ -451,8 +493,13 @@ struct StudyResults {
     std::vector<StudyTrial> trials;
     std::vector<StudyFixation> fixations; ///< by trial, in the order of their onsets
     std::vector<StudyGroup> groups;
-    std::vector<StudyMap> maps; ///< by group, object and weighting
-    std::vector<HeadFractionRow> head_fractions;
+    std::vector<StudyMap> maps;     ///< by group, object and weighting
+    std::vector<std::string> areas; ///< of all objects, each once
+    std::string area;               ///< that of figure 4, the first of those that are compared; empty: none
+    std::vector<std::string> compared_areas; ///< those that tests are corrected over
+    std::vector<AreaRow> area_rows;          ///< by area, in their order
+    std::vector<SurfaceTransitionRow> surface_transitions;
+    std::vector<AreaPairRow> area_pairs;
     std::vector<DistributionRow> distributions;
     std::vector<PairRow> pairs;
     std::vector<DifferenceMap> differences;
@@ -473,7 +520,7 @@ struct StudyResults {
     std::vector<StudyTrace> traces; ///< of each trial with samples, in the order of the trials
 };
 
-/// Whether any session knows what it showed; imported recordings do not.
+/// Whether any session knows what it showed, which recordings of other programs do not.
 bool knows_stimuli(const StudyResults& results);
 
 /// A few words for tables and sentences.

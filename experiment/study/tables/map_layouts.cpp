@@ -91,13 +91,14 @@ RowLayout<MapReliabilityRow> map_reliability_layout(const StudyResults& results)
 RowLayout<ExposureRow> exposure_layout(const StudyResults& results) {
     using Row = ExposureRow;
     StudyLayout<Row> to("exposure",
-                        "What one presentation shows of each part of an object: the baseline of gaze "
+                        "What one presentation shows of each area of an object: the baseline of gaze "
                         "that looks at all of the picture alike.");
     to.object(results, &Row::object, "The object");
-    to.text("part", "The part; all: the whole object", &Row::part);
+    to.text("area", "The area; all: the whole object",
+            [](const Row& row) { return row.area.empty() ? std::string("all") : row.area; });
     to.number("area_mm2", "Area", "mm^2", &Row::area_mm2);
     to.number("share_of_area", "Share of the object's area", "", &Row::share_of_area);
-    to.number("never_visible", "Share of the part's area that no frame shows", "", &Row::never_visible);
+    to.number("never_visible", "Share of its area that no frame shows", "", &Row::never_visible);
     to.number("seconds_visible", "How long it is visible, mean over its area", "s", &Row::seconds_visible);
     to.number("share_of_exposure", "Share of the time and area of the picture that shows the object", "",
               &Row::share_of_exposure);
@@ -117,7 +118,7 @@ RowLayout<FactorEffectRow> factor_effects_layout() {
         "Whether the columns of the groups have effects on trials: permutations within observers.");
     to.text(
         "measure",
-        "head fraction: share of a trial's counted fixations on the head; log WSS: natural logarithm of its "
+        "share on AREA: share of a trial's counted fixations on an area; log WSS: natural logarithm of its "
         "within-cluster sum of squares in mm^2",
         &Row::measure);
     to.text("effect", "A column; with a colon: the interaction of two", &Row::effect);

@@ -25,6 +25,7 @@ void write_mixed_models(const StudyResults& results, const std::filesystem::path
     for (const char c : fmt::format("{}", fmt::join(tested_columns(results.by), ",")))
         factors += c == '"' || c == '\\' ? fmt::format("\\{}", c) : std::string(1, c);
     put("{{FACTORS}}", factors);
+    put("{{AREA}}", results.area);
     put("{{TABLE}}", fmt::format("trials.{}", ending_of(format)));
     write_whole_file(folder / "mixed_models.R", script);
 }

@@ -8,9 +8,9 @@
 
 namespace overt {
 
-/// Writes mixed_models.R into the folder of the study's tables: a binomial model of fixations on the head and
-/// a linear one of the logarithm of WSS, with lme4, by the columns of `--by` that are neither observer nor
-/// object. Throws RecordError.
+/// Writes mixed_models.R into the folder of the study's tables: a binomial model of fixations on the area of
+/// figure 4, if there is one, and a linear one of the logarithm of WSS, with lme4, by the columns of `--by`
+/// that are neither observer nor object. Throws RecordError.
 void write_mixed_models(const StudyResults& results, const std::filesystem::path& folder, TableFormat format);
 
 } // namespace overt

@@ -1,5 +1,7 @@
 #include "experiment/study/tables/study_layouts.h"
 
+#include <fmt/format.h>
+
 #include "experiment/record/tables/joined_cells.h"
 #include "experiment/study/tables/study_layout.h"
 
@@ -50,8 +52,15 @@ auto of_shown(auto what) {
     };
 }
 
-auto of_evidence(double PartEvidence::*part) {
-    return [part](const FixationRow& row) { return of_maybe(row.fixation.evidence, part); };
+/// Of the area of figure 4.
+auto of_evidence(const StudyResults& results, double AreaEvidence::*which) {
+    return [&results, which](const FixationRow& row) -> std::optional<double> {
+        const std::vector<AreaEvidence>& evidence = row.fixation.evidence;
+        const auto area = item(results.objects, row.trial.object).areas.find(results.area);
+        if (!area || *area >= evidence.size() || !evidence[*area].tells())
+            return std::nullopt;
+        return evidence[*area].*which;
+    };
 }
 
 auto of_cluster(auto what) {
@@ -102,9 +111,10 @@ RowLayout<FixationRow> study_fixations_layout(const StudyResults& results) {
               of_shown(&Fixation::within_reach));
     to.count("only_by_reach", "1 if it is counted and would not be without the reach, else 0",
              of_fixation(&Fixation::only_by_reach));
-    to.text("part", "The part with most of both", [&results](const FixationRow& row) {
-        return part_name(item(results.objects, row.trial.object), row.fixation.part);
-    });
+    to.text("part", "The part with most of both: the areas that it belongs to, the largest first",
+            [&results](const FixationRow& row) {
+                return part_name(item(results.objects, row.trial.object), row.fixation.part);
+            });
     to.number("x_mm", "Place on the surface of the unturned object", "mm", axis(0));
     to.number("y_mm", "The same, y", "mm", axis(1));
     to.number("z_mm", "The same, z, upwards", "mm", axis(2));
@@ -113,12 +123,16 @@ RowLayout<FixationRow> study_fixations_layout(const StudyResults& results) {
     to.number("spread_deg", "The same, as the observer sees it", "deg", of_fixation(&Fixation::spread_deg));
     to.number("cone_at_edge", "Share of the tracker's gaze cone beside the object, or on another sheet of it",
               "", of_fixation(&Fixation::cone_at_edge));
-    to.number("evidence_head",
-              "How probable its place is, per square pixel and with the tracker's error, if the head was "
-              "looked at; n/a: the error is not known",
-              "1/px^2", of_evidence(&PartEvidence::head), density_decimals);
-    to.number("evidence_elsewhere", "The same if another part was", "1/px^2",
-              of_evidence(&PartEvidence::elsewhere), density_decimals);
+    if (!results.area.empty()) {
+        to.number("evidence_inside",
+                  fmt::format(
+                      "How probable its place is, per square pixel and with the tracker's error, if the area "
+                      "{} was looked at; n/a: the error is not known",
+                      results.area),
+                  "1/px^2", of_evidence(results, &AreaEvidence::inside), density_decimals);
+        to.number("evidence_elsewhere", "The same if another place of the object was", "1/px^2",
+                  of_evidence(results, &AreaEvidence::elsewhere), density_decimals);
+    }
     to.number("angle_deg", "Turn of the object halfway through", "deg", of_shown(&Fixation::mid_angle_deg),
               pixel_decimals);
     return to;
@@ -136,38 +150,16 @@ RowLayout<TrialSummaryRow> study_trials_layout(const StudyResults& results) {
     to.number("presentation_s", "Duration of the presentation", "s",
               [](const Row& row) { return row.trial.presentation_s; });
     to.count("fixations", "Counted fixations", &Row::counted);
-    to.count("on_head", "Of these on the head; n/a: the object has none",
-             [](const Row& row) { return when(row.has_head.value_or(false), row.on_head); });
     to.number("fixated_s", "Time of counted fixations", "s", &Row::counted_s);
-    to.number("head_s", "Of these on the head", "s",
-              [](const Row& row) { return when(row.has_head.value_or(false), row.head_s); });
+    for (std::size_t area = 0; area < results.areas.size(); ++area) {
+        const std::string& name = results.areas[area];
+        to.count("on_" + name,
+                 fmt::format("Counted fixations on the area {}; n/a: the object has none", name),
+                 [area](const Row& row) { return of_maybe(row.areas[area], &Row::OnArea::fixations); });
+        to.number(name + "_s", "Time of these", "s",
+                  [area](const Row& row) { return of_maybe(row.areas[area], &Row::OnArea::seconds); });
+    }
     to.number("wss_mm2", "Mean within-cluster sum of squares of these, two at least", "mm^2", &Row::wss_mm2);
-    return to;
-}
-
-RowLayout<HeadFractionRow> head_fractions_layout(const StudyResults& results) {
-    using Row = HeadFractionRow;
-    StudyLayout<Row> to(
-        "figure4_head_fraction",
-        "Share of counted fixations on the head: of groups, of each level of each column, and of all.");
-    to.keys(results.by, &Row::keys);
-    to.estimate("by_count", "Mean over observers of their shares of fixations", "", &Row::by_count);
-    to.estimate("by_duration", "The same of the time of fixation", "", &Row::by_duration);
-    to.estimate("corrected",
-                "The same by count with the tracker's error taken out: each observer's share under which "
-                "the measured places of the fixations are most probable",
-                "", &Row::corrected);
-    to.number("planted",
-              "Of simulated observers whose seeds are known: the share that they mean for the head", "",
-              &Row::planted);
-    to.number("pooled", "Share of all observers' fixations together, as the paper has it", "", &Row::pooled);
-    to.number("pooled_low", "Lower end of Wilson's interval, as if fixations were independent", "",
-              [](const Row& row) { return of_maybe(row.pooled_interval, &Interval::low); });
-    to.number("pooled_high", "Its upper end", "",
-              [](const Row& row) { return of_maybe(row.pooled_interval, &Interval::high); });
-    to.count("observers", "Observers", &Row::observers);
-    to.count("trials", "Trials", &Row::trials);
-    to.count("fixations", "Counted fixations", &Row::fixations);
     return to;
 }
 
@@ -212,10 +204,6 @@ RowLayout<PairRow> pairs_layout(const StudyResults& results) {
     to.estimate("wss_difference_deg2", "The same", "deg^2", &Row::wss_difference_deg2);
     to.number("wss_p", "Of flipping the signs of observers' differences, two-sided", "", &Row::wss_p);
     to.number("wss_p_holm", holm_words, "", &Row::wss_p_holm);
-    to.estimate("head_difference", "Share of fixations on the head, of a less that of b", "",
-                &Row::head_difference);
-    to.number("head_p", "Of flipping the signs of observers' differences, two-sided", "", &Row::head_p);
-    to.number("head_p_holm", holm_words, "", &Row::head_p_holm);
     to.number("maps_cc", "Pearson's correlation of the maps of all observers, mean over objects and groups",
               "", &Row::maps_cc);
     to.number("maps_p", "How often swapping the levels within observers gives as little", "", &Row::maps_p);
@@ -295,12 +283,13 @@ RowLayout<ClusterRow> clusters_layout(const StudyResults& results) {
 RowLayout<TimeCourseRow> time_course_layout(const StudyResults& results) {
     using Row = TimeCourseRow;
     StudyLayout<Row> to("time_course",
-                        "Share of the time of fixation on the head, in stretches of the presentation.");
+                        "Share of the time of fixation on each area, in stretches of the presentation.");
+    to.text("area", "The area", &Row::area);
     if (!results.by.empty())
         to.text(results.by.front(), "The level", [](const Row& row) { return row.key.value; });
     to.number("from_s", "Begin of the stretch", "s", &Row::from_s, pixel_decimals);
     to.number("to_s", "Its end", "s", &Row::to_s, pixel_decimals);
-    to.estimate("head_fraction", "Mean over observers", "", &Row::head_fraction);
+    to.estimate("share", "Mean over observers", "", &Row::share);
     to.count("observers", "Observers with fixations then", &Row::observers);
     return to;
 }

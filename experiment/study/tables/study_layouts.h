@@ -17,7 +17,6 @@ struct FixationRow {
 RowLayout<FixationRow> study_fixations_layout(const StudyResults& results);
 RowLayout<TrialSummaryRow> study_trials_layout(const StudyResults& results);
 RowLayout<StudyMap> study_maps_layout(const StudyResults& results);
-RowLayout<HeadFractionRow> head_fractions_layout(const StudyResults& results);
 RowLayout<DistributionRow> distributions_layout(const StudyResults& results);
 RowLayout<PairRow> pairs_layout(const StudyResults& results);
 RowLayout<TimeCourseRow> time_course_layout(const StudyResults& results);

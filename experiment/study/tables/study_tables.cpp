@@ -7,6 +7,8 @@
 #include "experiment/base/json_text.h"
 #include "experiment/base/whole_file.h"
 #include "experiment/record/tables/export_tables.h"
+#include "experiment/study/area_shares.h"
+#include "experiment/study/tables/area_layouts.h"
 #include "experiment/study/tables/mixed_models.h"
 #include "experiment/study/tables/screen_area_layouts.h"
 #include "experiment/study/tables/study_layout.h"
@@ -39,10 +41,13 @@ template <class Visit> void for_each_table(const StudyResults& results, const Vi
     all(screen_areas_layout(results), results.screen_area_groups, false);
     all(screen_area_trials_layout(results), results.screen_area_trials, false);
     all(area_transitions_layout(results), results.area_transitions, !results.screen_area_trials.empty());
-    all(head_fractions_layout(results), results.head_fractions, on_surfaces);
+    all(figure4_layout(results), rows_of_figure_area(results), false);
+    all(areas_layout(results), results.area_rows, false);
+    all(surface_transitions_layout(results), results.surface_transitions, false);
+    all(area_pairs_layout(results), results.area_pairs, false);
     all(distributions_layout(results), results.distributions, on_surfaces);
     all(pairs_layout(results), results.pairs, on_surfaces);
-    all(time_course_layout(results), results.time_course, on_surfaces);
+    all(time_course_layout(results), results.time_course, false);
     all(study_maps_layout(results), results.maps, on_surfaces);
     all(factor_effects_layout(), results.effects, false);
     all(gaze_motion_layout(results), results.motions, false);
@@ -99,7 +104,9 @@ std::string study_json(const StudyResults& results) {
               {"parameters", Json::array()},
               {"remarks", results.remarks},
               {"objects", Json::array()},
-              {"head_fractions", Json::array()}};
+              {"areas", results.areas},
+              {"area", results.area},
+              {"area_shares", Json::array()}};
     json.update(study_facts_json(results));
     json["methods"] = Json::array();
     for (const MethodsParagraph& paragraph : results.methods)
@@ -140,6 +147,10 @@ std::string study_json(const StudyResults& results) {
             one["mm_per_deg"] = *object.mm_per_deg;
         if (object.shown_size)
             one["shown_size"] = *object.shown_size;
+        if (object.origin != glm::dvec3(0.0) && object.mm_per_unit) {
+            const glm::dvec3 origin = *object.mm_per_unit * object.origin;
+            one["origin_mm"] = {origin.x, origin.y, origin.z};
+        }
         if (!object.remark.empty())
             one["remark"] = object.remark;
         json["objects"].push_back(std::move(one));
@@ -156,8 +167,11 @@ std::string study_json(const StudyResults& results) {
                 one[name] = *estimate->value;
         json["screen_areas"].push_back(std::move(one));
     }
-    for (const HeadFractionRow& row : results.head_fractions) {
-        Json one{{"keys", keys_json(row.keys)}, {"fixations", row.fixations}, {"observers", row.observers}};
+    for (const AreaRow& row : results.area_rows) {
+        Json one{{"area", row.area},
+                 {"keys", keys_json(row.keys)},
+                 {"fixations", row.fixations},
+                 {"observers", row.observers}};
         if (row.by_count.value)
             one["by_count"] = *row.by_count.value;
         if (row.by_count.interval)
@@ -168,7 +182,7 @@ std::string study_json(const StudyResults& results) {
             one["corrected_interval"] = {row.corrected.interval->low, row.corrected.interval->high};
         if (row.pooled)
             one["pooled"] = *row.pooled;
-        json["head_fractions"].push_back(std::move(one));
+        json["area_shares"].push_back(std::move(one));
     }
     return json_text(json);
 }

@@ -17,7 +17,7 @@ namespace {
 /// Of the row over all tasks, objects and materials.
 struct HeadShare {
     explicit HeadShare(const fs::path& analysis) {
-        const TsvFile fractions(analysis / "figure4_head_fraction.tsv");
+        const TsvFile fractions(analysis / "figure4_area_share.tsv");
         for (std::size_t row = 0; row < fractions.size(); ++row) {
             if (fractions.text(row, "task") == "all" && fractions.text(row, "object") == "all" &&
                 fractions.text(row, "material") == "all") {
@@ -91,7 +91,7 @@ TEST_CASE("where simulated observers mean to look comes back as head fractions",
     REQUIRE(run.exit_code == 0);
     // The question about the face has all planned fixations on the head, that about the clothes none.
     int rows = 0;
-    const TsvFile fractions(out / "figure4_head_fraction.tsv");
+    const TsvFile fractions(out / "figure4_area_share.tsv");
     for (std::size_t row = 0; row < fractions.size(); ++row) {
         if (fractions.text(row, "object") != "all" || fractions.text(row, "material") != "all")
             continue;
@@ -182,7 +182,7 @@ TEST_CASE("where simulated observers mean to look comes back as head fractions",
     SECTION("any column makes groups, and a wrong one is named with those there are") {
         const fs::path by = study.experiment.folder().path() / "by";
         REQUIRE(study.analyze(by, {"--by", "observer,attempt"}).exit_code == 0);
-        const TsvFile of_observers(by / "figure4_head_fraction.tsv");
+        const TsvFile of_observers(by / "figure4_area_share.tsv");
         CHECK(of_observers.text(0, "observer") == "P01");
         const ProgramRun wrong = study.analyze(by / "x", {"--by", "colour"});
         CHECK(wrong.exit_code == 2);

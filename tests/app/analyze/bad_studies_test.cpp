@@ -76,7 +76,7 @@ TEST_CASE("a study says what it lacks and reckons what it can", "[session]") {
     SECTION("one observer: no intervals") {
         const ProgramRun run = analysis_of(study.experiment, {study.sessions[0]}, folder / "one");
         CHECK(run.out.find("only 1 observer") != std::string::npos);
-        const TsvFile fractions(folder / "one/figure4_head_fraction.tsv");
+        const TsvFile fractions(folder / "one/figure4_area_share.tsv");
         bool has_any = false;
         for (std::size_t row = 0; row < fractions.size(); ++row) {
             has_any |= fractions.has(row, "by_count");
@@ -89,7 +89,7 @@ TEST_CASE("a study says what it lacks and reckons what it can", "[session]") {
         const ProgramRun run =
             analysis_of(study.experiment, study.sessions, folder / "none", {"--shortest-fixation", "30"});
         CHECK(run.out.find("No fixation was counted") != std::string::npos);
-        const TsvFile fractions(folder / "none/figure4_head_fraction.tsv");
+        const TsvFile fractions(folder / "none/figure4_area_share.tsv");
         for (std::size_t row = 0; row < fractions.size(); ++row) {
             CHECK_FALSE(fractions.has(row, "by_count"));
             CHECK(fractions.has(row, "by_count_absent"));
@@ -194,7 +194,8 @@ TEST_CASE("sessions of different protocols are pooled, and another turn makes an
     CHECK(own == of_one.size());
 }
 
-TEST_CASE("objects without a head have no head fraction, and all else", "[session]") {
+TEST_CASE("objects without areas have no shares of any, no text speaks of heads, and there is all else",
+          "[session]") {
     const SmallExperiment experiment;
     overt::Mesh block;
     add_part(block, box({-45.0, -40.0, 0.0}, {45.0, 40.0, 260.0}), "body");
@@ -203,10 +204,13 @@ TEST_CASE("objects without a head have no head fraction, and all else", "[sessio
     REQUIRE(experiment.run().exit_code == 0);
     const fs::path out = experiment.folder().path() / "headless";
     const ProgramRun run = analysis_of(experiment, {experiment.session().string()}, out);
-    CHECK(run.out.find("has no part \"head\"") != std::string::npos);
-    const TsvFile fractions(out / "figure4_head_fraction.tsv");
-    for (std::size_t row = 0; row < fractions.size(); ++row)
-        CHECK_FALSE(fractions.has(row, "by_count"));
+    CHECK(run.out.find("has no named areas") != std::string::npos);
+    for (const char* const table :
+         {"figure4_area_share", "areas", "area_transitions", "area_pairs", "time_course"})
+        CHECK_FALSE(fs::exists(out / (std::string(table) + ".tsv")));
+    for (const char* const file : {"dictionary.json", "study.json", "trials.tsv", "fixations.tsv"})
+        CHECK(text_of(out / file).find("on the head") == std::string::npos);
+    CHECK(text_of(out / "trials.tsv").find("head") == std::string::npos);
     CHECK(TsvFile(out / "maps.tsv").size() > 0);
 }
 
@@ -250,7 +254,7 @@ TEST_CASE("N has those whose gaze there is, and the study says who is not counte
     CHECK(text_of(folder / "with/report.html").find("Not counted: P04") != std::string::npos);
     // Trials without gaze do not thin the maps out: all that is reckoned of the others stays.
     analysis_of(study.experiment, study.sessions, folder / "without");
-    for (const char* const table : {"maps.tsv", "figure4_head_fraction.tsv", "figure5_distribution.tsv"})
+    for (const char* const table : {"maps.tsv", "figure4_area_share.tsv", "figure5_distribution.tsv"})
         CHECK(text_of(folder / "with" / table) == text_of(folder / "without" / table));
 }
 

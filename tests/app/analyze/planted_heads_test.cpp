@@ -62,7 +62,7 @@ TEST_CASE("planted head fractions come back through whole sessions within their 
     for (const char* const observer : {"01", "02", "03", "04", "05", "06"})
         arguments.push_back((study / "sessions/small" / fmt::format("sub-{}_ses-01", observer)).string());
     REQUIRE(experiment.overt(arguments).exit_code == 0);
-    const TsvFile groups(study / "groups/figure4_head_fraction.tsv");
+    const TsvFile groups(study / "groups/figure4_area_share.tsv");
     for (const PlantedTask& task : paper) {
         // Where there is an effect, the material without it has what is planted for the task.
         const bool has_effect = std::string(task.id) == "pose";

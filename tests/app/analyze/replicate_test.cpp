@@ -60,7 +60,7 @@ TEST_CASE("a simulated study has the truth that was planted beside what is found
     INFO(first.err);
     REQUIRE(first.exit_code == 0);
     CHECK_THAT(first.out, Catch::Contains("2 simulated observers"));
-    const std::string figures = text_of(study / "analysis/figure4_head_fraction.csv");
+    const std::string figures = text_of(study / "analysis/figure4_area_share.csv");
     CAPTURE(figures);
     // What small_protocol plants.
     for (const auto& [task, share] : {std::pair{"face", 1.0}, {"clothes", 0.0}, {"free", 0.5}}) {

@@ -55,7 +55,8 @@ PowerResults power_of(const Experiment& experiment, const std::vector<std::strin
     settings.studies = studies;
     settings.jobs = jobs;
     settings.gaze = gaze_study_settings(experiment.protocol);
-    return simulate_power(experiment, power_effects(effects, experiment.protocol), settings,
+    return simulate_power(experiment,
+                          power_effects(effects, experiment.protocol, areas_of(experiment.objects)), settings,
                           [](std::string_view, int, int) {});
 }
 
@@ -66,7 +67,9 @@ TEST_CASE("the power to find a share of fixations is that of a paired t test of 
     const std::string effect = "head:material=rough:odds=1.8";
     PowerSettings settings;
     settings.gaze.accuracy_deg = 0.0;
-    const GazeStudies studies(experiment, power_effects({effect}, experiment.protocol), settings.gaze);
+    const GazeStudies studies(experiment,
+                              power_effects({effect}, experiment.protocol, areas_of(experiment.objects)),
+                              settings.gaze);
     const StudyResults study = studies.study(5, 60);
     const double fixations = static_cast<double>(study.fixations.size()) / 120.0;
     // The number that the power below was reckoned with.
@@ -135,7 +138,8 @@ TEST_CASE("a planted ratio of WSS is found in the trials of its level alone", "[
     const Experiment experiment = busts(1);
     for (const double ratio : {0.8, 1.15}) {
         const std::vector<PowerEffect> effects =
-            power_effects({fmt::format("wss:material=rough:ratio={}", ratio)}, experiment.protocol);
+            power_effects({fmt::format("wss:material=rough:ratio={}", ratio)}, experiment.protocol,
+                          areas_of(experiment.objects));
         GazeStudies studies(experiment, effects, gaze_study_settings(experiment.protocol));
         const std::string said = plant_spread(studies, 0, 1, 0);
         if (ratio < 1.0) {

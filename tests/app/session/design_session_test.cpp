@@ -171,3 +171,40 @@ TEST_CASE("a new protocol passes the check at once, and is not written over anot
     CHECK(schema.exit_code == 0);
     CHECK(nlohmann::json::parse(schema.out)["title"] == "overt protocol");
 }
+
+TEST_CASE("lights, a series and columns go from the protocol through order, record and tables to the analysis",
+          "[session]") {
+    std::string text(small_protocol);
+    const std::size_t view = text.find("[view]");
+    text.insert(view, "[[light]]\nid = \"sky\"\n[[light]]\nid = \"hall\"\nprobe = \"gallery\"\n");
+    text += "\n[[block]]\nid = \"all\"\ntasks = \"face\"\norder = \"blocked\"\nby = \"light\"\n"
+            "max_run = { look = 2 }\n";
+    const std::size_t matt = text.find("[[material]]");
+    text.insert(text.find('\n', matt) + 1, "columns = { look = \"one\" }\n");
+    const SmallExperiment experiment(text);
+    const ProgramRun run = experiment.run();
+    INFO(run.err);
+    REQUIRE(run.exit_code == 0);
+    const SessionRecord record(experiment.session());
+    CHECK(record.damages() == std::vector<std::string>{});
+    REQUIRE(record.trials().size() == 8);
+    for (std::size_t i = 0; i < record.trials().size(); ++i)
+        CHECK(record.trials()[i].trial == record.header().schedule.trials[i]);
+    CHECK(record.trials()[0].trial.stimulus.light == record.trials()[3].trial.stimulus.light);
+    CHECK(record.trials()[0].trial.stimulus.light != record.trials()[4].trial.stimulus.light);
+
+    const ProgramRun exported = experiment.overt({"export", experiment.session().string(), "--format", "tsv"});
+    INFO(exported.err);
+    REQUIRE(exported.exit_code == 0);
+    const ProgramRun shown = experiment.overt({"show", experiment.session().string(), "--order"});
+    CHECK(shown.exit_code == 0);
+    CHECK_THAT(shown.out, Contains("hall") && Contains("the same"));
+    const auto out = experiment.folder().path() / "analysis";
+    const ProgramRun analyzed = experiment.overt({"analyze", experiment.session().string(), "--by", "light,look",
+                                                    "--compare", "light", "--out", out.string()});
+    INFO(analyzed.err);
+    CHECK(analyzed.exit_code == 0);
+    const ProgramRun refused = experiment.overt(
+        {"analyze", experiment.session().string(), "--by", "motion", "--out", (out / "x").string()});
+    CHECK(refused.exit_code == 2);
+}

@@ -88,9 +88,11 @@ TEST_CASE("the key that is printed is read as the same head", "[unit]") {
                           {glm::dvec4(1.25, -2.5, 310.0, 48.0), glm::dvec4(0.0, 0.5, 1e-3, 2.0)},
                           {{{0.0, 0.0, 262.0}, {0.0, -0.6, 0.8}}}};
     const ObjectSettings read = object_with_key(head_key(head));
-    CHECK(read.head_spheres ==
+    REQUIRE(read.areas.size() == 1);
+    CHECK(read.areas[0].name == "head");
+    CHECK(read.areas[0].spheres ==
           std::vector<std::array<double, 4>>{{1.25, -2.5, 310.0, 48.0}, {0.0, 0.5, 1e-3, 2.0}});
-    CHECK(read.head_planes == std::vector<std::array<double, 6>>{{0.0, 0.0, 262.0, 0.0, -0.6, 0.8}});
+    CHECK(read.areas[0].planes == std::vector<std::array<double, 6>>{{0.0, 0.0, 262.0, 0.0, -0.6, 0.8}});
 }
 
 TEST_CASE("a head that is given is drawn and printed; one that holds no triangle is refused", "[session]") {
@@ -152,11 +154,12 @@ TEST_CASE("clicks on both sides of a head and on its neck outline it", "[session
     const std::size_t key = text.find("head = {");
     REQUIRE(key != std::string::npos);
     const ObjectSettings head = object_with_key(text.substr(key));
-    REQUIRE(head.head_spheres.size() == 1);
-    REQUIRE(head.head_planes.size() == 1);
+    REQUIRE(head.areas.size() == 1);
+    REQUIRE(head.areas[0].spheres.size() == 1);
+    REQUIRE(head.areas[0].planes.size() == 1);
     // The head is a ball about (0, -15, 310) with a radius of 48.
-    CHECK(head.head_spheres[0][2] == Approx(310.0).margin(15.0));
-    CHECK(head.head_spheres[0][3] == Approx(40.0).margin(15.0));
-    CHECK(head.head_planes[0][2] == Approx(258.0).margin(12.0));
-    CHECK(head.head_planes[0][5] > 0.8);
+    CHECK(head.areas[0].spheres[0][2] == Approx(310.0).margin(15.0));
+    CHECK(head.areas[0].spheres[0][3] == Approx(40.0).margin(15.0));
+    CHECK(head.areas[0].planes[0][2] == Approx(258.0).margin(12.0));
+    CHECK(head.areas[0].planes[0][5] > 0.8);
 }

@@ -81,10 +81,21 @@ TEST_CASE("a view meets the surface where the session's own maps have it, and ad
     CHECK(glm::distance(highest(*both), first->position) < 1.5 * kernel);
     CHECK(*std::ranges::max_element(both->share) == 1.0f);
     CHECK(*std::ranges::min_element(both->share) >= 0.0f);
+    // Each area's share of it; of a hit on each of two parts, the times that were given.
+    const auto share_of = [&](const SaliencyMap& map, const RayHit& hit) {
+        const auto found = std::ranges::find(map.areas, object->part_of(hit), &AreaTally::Share::area);
+        REQUIRE(found != map.areas.end());
+        return found->share;
+    };
+    REQUIRE(object->part_of(*first) != object->part_of(*last));
+    CHECK(share_of(*both, *first) == Approx(0.75));
+    CHECK(share_of(*both, *last) == Approx(0.25));
     // Of the last trial alone.
     saliency.show(LiveSaliency::Of::trial);
     const auto of_trial =
         awaited(saliency, "bust", [](const SaliencyMap& map) { return map.gaze_s == Approx(1.0); });
     REQUIRE(of_trial);
     CHECK(glm::distance(highest(*of_trial), last->position) < 1.5 * kernel);
+    CHECK(share_of(*of_trial, *last) == Approx(1.0));
+    CHECK(share_of(*of_trial, *first) == 0.0);
 }

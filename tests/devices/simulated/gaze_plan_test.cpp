@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -14,10 +15,22 @@ namespace {
 
 ObservedScene scene_with(std::vector<ObservedEffect> effects, double sd = 0.0) {
     ObservedScene scene;
-    scene.tasks = {{"a", 0.4}, {"b", 0.0}, {"c", 1.0}};
+    scene.tasks = {{"a", {0.4}}, {"b", {0.0}}, {"c", {1.0}}};
     scene.effects = std::move(effects);
-    scene.head_share_sd = sd;
+    scene.share_sd = sd;
     return scene;
+}
+
+/// For each list, the entries of a scene of three that an effect holds in; -1: all.
+std::array<std::vector<bool>, stimulus_lists.size()> entries(int object, int material) {
+    std::array<std::vector<bool>, stimulus_lists.size()> chosen;
+    for (const auto& [list, entry] : {std::pair{0, object}, {1, material}}) {
+        if (entry >= 0) {
+            chosen[static_cast<std::size_t>(list)].assign(3, false);
+            chosen[static_cast<std::size_t>(list)][static_cast<std::size_t>(entry)] = true;
+        }
+    }
+    return chosen;
 }
 
 /// The middle of a mesh by area, a plinth's counting a tenth, and the mean square distance from it.
@@ -48,10 +61,10 @@ double logit(double share) { return std::log(share / (1.0 - share)); }
 } // namespace
 
 TEST_CASE("effects multiply the odds of the head in their trials, and in no others", "[unit]") {
-    const ObservedScene scene =
-        scene_with({{.task = 0, .material = 1, .head_odds = 2.0}, {.object = 2, .head_odds = 3.0}});
+    const ObservedScene scene = scene_with(
+        {{.task = 0, .entries = entries(-1, 1), .odds = 2.0}, {.entries = entries(2, -1), .odds = 3.0}});
     const auto share = [&](int task, Stimulus stimulus) {
-        return gaze_plan(scene, 7, task, stimulus).head_share;
+        return gaze_plan(scene, 7, task, stimulus).shares[0];
     };
     CHECK(share(0, {0, 0}) == 0.4);
     // Odds of 0.4 are 2 / 3.
@@ -70,7 +83,7 @@ TEST_CASE("simulated observers differ by the standard deviation that is stated, 
     constexpr int observers = 4000;
     for (int seed = 0; seed < observers; ++seed) {
         const auto off = [&](Stimulus stimulus) {
-            return logit(gaze_plan(scene, static_cast<std::uint64_t>(seed), 0, stimulus).head_share) -
+            return logit(gaze_plan(scene, static_cast<std::uint64_t>(seed), 0, stimulus).shares[0]) -
                    logit(0.4);
         };
         const double inclination = off({0, 0});
@@ -88,7 +101,7 @@ TEST_CASE("an effect's spot gets its share of the fixations, the same spot of ev
     for (const std::uint64_t seed : {1u, 2u}) {
         const Sitting plain(seed);
         ObservedScene scene = plain.observer.scene();
-        scene.effects = {{.material = 0, .spot_share = 0.3}};
+        scene.effects = {{.entries = entries(-1, 0), .spot_share = 0.3}};
         const double radius = GazeTargets::spot_radius * plain.mesh.bounds().extent().z;
         SimulatedObserver observer(scene, seed);
         // Where fixations of a plan that goes nowhere else lie.
@@ -130,13 +143,13 @@ TEST_CASE("a spread of gaze prefers places far from the middle or near it, in he
     const ObservedScene scene = sitting.observer.scene();
     const GazeTargets targets(scene.objects[0], scene);
     const std::vector<std::string>& parts = sitting.mesh.part_names;
-    for (const Region region : {Region::head, Region::elsewhere}) {
+    for (const std::size_t region : {std::size_t{0}, targets.elsewhere()}) {
         constexpr int draws = 20000;
         RandomStream random(3, "by area");
         std::vector<SurfacePoint> everywhere;
         for (int i = 0; i < draws; ++i) {
             everywhere.push_back(targets.draw(random, region));
-            CHECK((parts[everywhere.back().part] == "head") == (region == Region::head));
+            CHECK((parts[everywhere.back().part] == "head") == (region == 0));
         }
         const auto [centre, square] = middle_and_square(sitting.mesh);
         for (const double spread : {-1.0, 0.5}) {
@@ -150,7 +163,7 @@ TEST_CASE("a spread of gaze prefers places far from the middle or near it, in he
             }
             for (int i = 0; i < draws; ++i) {
                 const SurfacePoint point = targets.draw(random, region, spread);
-                CHECK((parts[point.part] == "head") == (region == Region::head));
+                CHECK((parts[point.part] == "head") == (region == 0));
                 const glm::dvec3 off = point.position - centre;
                 found += glm::dot(off, off) / square / draws;
             }

@@ -14,7 +14,8 @@ TEST_CASE("a region that is small against saccades gets the fixations that are p
     const GazeTargets targets(scene.objects[0], scene);
     const PursuedTurn turn(scene);
     GazePlan plan;
-    plan.head_share = 0.6;
+    plan.shares[0] = 0.6;
+    plan.area_count = 1;
     // The head is 5 degrees wide: few of its places are 4 degrees from another.
     for (const double shortest_deg : {0.75, 4.0}) {
         CAPTURE(shortest_deg);

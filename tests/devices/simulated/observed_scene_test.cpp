@@ -11,7 +11,7 @@ TEST_CASE("simulated devices take their numbers from the protocol", "[unit]") {
     Protocol protocol;
     protocol.display.latency_ms = 3.5;
     protocol.display.refresh_hz = 240.0;
-    protocol.tasks = {{"age", "How old?", TaskCoverage::once_per_object, 0.61}};
+    protocol.tasks = {{"age", "How old?", TaskCoverage::once_per_object, 0.61, {}}};
     protocol.tracker.rate_hz = 500.0;
     protocol.tracker.eye = "left";
     protocol.tracker.simulated_noise_deg = 0.01;
@@ -22,7 +22,7 @@ TEST_CASE("simulated devices take their numbers from the protocol", "[unit]") {
     CHECK(scene.objects[0].mesh == &objects[0].mesh);
     CHECK(scene.objects[1].mesh == nullptr);
     CHECK(scene.tasks[0].id == "age");
-    CHECK(scene.tasks[0].head_share == 0.61);
+    CHECK(scene.tasks[0].shares == std::vector<double>{0.61});
     CHECK(scene.display_latency == 3500us);
     CHECK(scene.refresh_hz == 240.0);
     CHECK(scene.effects.empty());
@@ -42,19 +42,25 @@ TEST_CASE("simulated effects come from the protocol by number", "[unit]") {
     protocol.materials[2].id = "gold";
     protocol.objects.resize(2);
     protocol.objects[1].id = "runner";
-    protocol.simulated_effects = {{"age", "runner", "gold", 2.0, 0.25}, {"", "", "gold"}};
+    protocol.simulated_effects.resize(2);
+    protocol.simulated_effects[0].task = "age";
+    protocol.simulated_effects[0].entries = {"runner", "gold"};
+    protocol.simulated_effects[0].head_odds = 2.0;
+    protocol.simulated_effects[0].spot_share = 0.25;
+    protocol.simulated_effects[1].entries = {"", "gold"};
     protocol.simulated_observers.head_share_sd = 0.5;
     const ObservedScene scene = make_observed_scene(protocol, {}, ScreenGeometry{});
     REQUIRE(scene.effects.size() == 2);
     CHECK(scene.effects[0].task == 1);
-    CHECK(scene.effects[0].object == 1);
-    CHECK(scene.effects[0].material == 2);
-    CHECK(scene.effects[0].head_odds == 2.0);
+    CHECK(scene.effects[0].holds_in(1, {1, 2}));
+    CHECK_FALSE(scene.effects[0].holds_in(1, {0, 2}));
+    CHECK_FALSE(scene.effects[0].holds_in(1, {1, 0}));
+    CHECK(scene.effects[0].odds == 2.0);
     CHECK(scene.effects[0].spot_share == 0.25);
     CHECK(scene.effects[1].task == -1);
     CHECK(scene.effects[1].holds_in(0, {0, 2}));
     CHECK_FALSE(scene.effects[1].holds_in(0, {0, 1}));
-    CHECK(scene.head_share_sd == 0.5);
+    CHECK(scene.share_sd == 0.5);
 }
 
 TEST_CASE("a row's light comes after the vertical blank by the latency and its share of the scan", "[unit]") {
@@ -63,7 +69,7 @@ TEST_CASE("a row's light comes after the vertical blank by the latency and its s
     CHECK(scene.light_delay(-5.0) == 2ms);
     CHECK(to_seconds(scene.light_delay(540.0)) == Approx(0.002 + 0.5 / 120.0));
     CHECK(scene.light_delay(2000.0) == scene.light_delay(1080.0));
-    CHECK(to_seconds(scene.frame_period()) == Approx(1.0 / 30.0));
+    CHECK(to_seconds(scene.frame_period(0)) == Approx(1.0 / 30.0));
     scene.refresh_hz = 119.88; // four refreshes to a frame all the same
-    CHECK(to_seconds(scene.frame_period()) == Approx(4.0 / 119.88));
+    CHECK(to_seconds(scene.frame_period(0)) == Approx(4.0 / 119.88));
 }

@@ -63,7 +63,7 @@ TEST_CASE("an observer's share of fixation time on the head is the task's", "[un
                 ++fixations;
             }
         }
-        const double expected = sitting.observer.scene().tasks[std::size_t(task)].head_share;
+        const double expected = sitting.observer.scene().tasks[std::size_t(task)].shares[0];
         // Four standard errors; durations differ, and so count as fewer than there are.
         const double bound = 4.0 * std::sqrt(expected * (1.0 - expected) * 1.3 / fixations);
         CHECK(fixations > 2000);

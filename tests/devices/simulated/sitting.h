@@ -19,7 +19,7 @@ inline ObservedScene scene_with(const Mesh& mesh) {
     ObservedScene scene;
     const View view{fit_camera(mesh, {11.9}, {1024, 1024}, {25.0}, 0.06), {1024, 1024}};
     scene.objects = {{&mesh, SceneView{view, mesh.bounds()}}};
-    scene.tasks = {{"free", 0.4}, {"clothes", 0.15}};
+    scene.tasks = {{"free", {0.4}}, {"clothes", {0.15}}};
     scene.display_latency = std::chrono::microseconds(3500);
     return scene;
 }

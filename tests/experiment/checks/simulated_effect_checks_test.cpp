@@ -28,6 +28,12 @@ TEST_CASE("simulated effects name what there is, and spots share out no more tha
                                    "[[simulated_effect]]\ntask = \"free\"\nspot_share = 0.5\n");
     REQUIRE(too_much.size() == 2);
     CHECK_THAT(too_much[0], Catch::StartsWith("14:14: ") && Catch::Contains("1.1"));
+    // The odds of one area each.
+    const auto odds = findings("[[simulated_effect]]\narea = \"rim\"\nhead_odds = 2\n"
+                               "[[simulated_effect]]\narea_odds = 2\n");
+    REQUIRE(odds.size() == 2);
+    CHECK_THAT(odds[0], Catch::StartsWith("14:13: one effect has the odds of one area"));
+    CHECK_THAT(odds[1], Catch::StartsWith("16:13: \"area_odds\" without \"area\""));
     std::string many;
     for (int i = 0; i < 9; ++i)
         many += "[[simulated_effect]]\nspot_share = 0.1\n";

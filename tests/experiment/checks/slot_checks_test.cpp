@@ -61,6 +61,8 @@ TEST_CASE("a slot's place and size are angles from the middle of the screen", "[
     CHECK(middle_of(left).x_px < centre.x_px);
     CHECK(left.angle_between(middle_of(left), centre).value == Approx(5.0).margin(0.03));
     CHECK(middle_of(right).y_px < centre.y_px); // upwards
+    CHECK(left.middle_deg().x == Approx(-5.0).margin(0.03));
+    CHECK(right.middle_deg().y == Approx(2.0).margin(0.02));
     CHECK(left.angle_between({centre.x_px, middle_of(right).y_px}, centre).value == Approx(2.0).margin(0.02));
     CHECK(left.angle_between({centre.x_px - 0.5 * left.image_px.x, centre.y_px},
                              {centre.x_px + 0.5 * left.image_px.x, centre.y_px})
@@ -122,7 +124,7 @@ TEST_CASE("slots that overlap, leave the screen or are unknown are errors at the
     CHECK(slot_lines("\"left\"", left + slot_of("left", "right_deg = 5\nsize_deg = 8")) ==
           Lines{"18:6: id \"left\" is taken already"});
     const Lines overlap =
-        slot_lines("[\"left\", \"wide\"]", left + slot_of("wide", "right_deg = 3\nsize_deg = 8"));
+        slot_lines("[\"left\", \"wide\"]", left + slot_of("wide", "right_deg = 2\nsize_deg = 8"));
     REQUIRE(overlap.size() == 1);
     CHECK(overlap[0].starts_with("12:9: the slots \"left\" and \"wide\" overlap: columns "));
     const Lines beyond = slot_lines("\"far\"", slot_of("far", "right_deg = 9\nsize_deg = 8"));

@@ -142,6 +142,24 @@ TEST_CASE("a block that goes by a column has a weight for each of its levels", "
     CHECK(shown == std::map<int, int>{{0, 12}, {1, 4}});
 }
 
+TEST_CASE("another list than the materials goes round over the observers", "[unit]") {
+    std::string text(twelve);
+    text.replace(text.find("question = "), 0, "stimuli = \"once-per-object\"\n");
+    const ReadText read(text + "observers = 2\nrotated_list = \"light\"\n");
+    INFO(read.diagnostics.print());
+    REQUIRE(read.protocol);
+    std::map<Stimulus, int> seen;
+    for (int number = 1; number <= 2; ++number) {
+        const Schedule schedule = make_schedule(*read.protocol, {"P", number}, 3);
+        CHECK(schedule.trials.size() == 6); // two objects in three materials, each under one light
+        for (const Trial& trial : schedule.trials)
+            ++seen[trial.stimulus];
+    }
+    CHECK(seen.size() == 12);
+    CHECK(ReadText(text, "rotated_list = \"object\"\n").lines() ==
+          std::vector<std::string>{"26:16: rotated_list: unknown value \"object\""});
+}
+
 TEST_CASE("groups see some entries of any list", "[unit]") {
     const Protocol protocol =
         sound("observers = 2\n[[group]]\nid = \"hall\"\nlights = [\"hall\"]\n[[group]]\n"

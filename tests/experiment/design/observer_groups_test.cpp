@@ -17,8 +17,12 @@ namespace {
 
 Protocol with_caps(const std::vector<int>& caps) {
     Protocol protocol;
-    for (const int cap : caps)
-        protocol.groups.push_back({"g" + std::to_string(protocol.groups.size()), cap, {}, {}, {}, {}});
+    for (const int cap : caps) {
+        GroupSettings group;
+        group.id = "g" + std::to_string(protocol.groups.size());
+        group.cap = cap;
+        protocol.groups.push_back(group);
+    }
     return protocol;
 }
 

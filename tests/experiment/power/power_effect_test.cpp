@@ -11,6 +11,8 @@ using Catch::Contains;
 
 namespace {
 
+const std::vector<std::string> areas{"body", "head", "rim"};
+
 Protocol small_plan() {
     Protocol protocol;
     protocol.tasks = {{"free", "Look."}, {"age", "How old?"}};
@@ -23,7 +25,7 @@ Protocol small_plan() {
     return protocol;
 }
 
-PowerEffect effect_of(const std::string& text) { return power_effects({text}, small_plan()).at(0); }
+PowerEffect effect_of(const std::string& text) { return power_effects({text}, small_plan(), areas).at(0); }
 
 std::string fault_of(const std::string& text) {
     try {
@@ -38,7 +40,8 @@ std::string fault_of(const std::string& text) {
 
 TEST_CASE("an effect is read with its measure, its levels and its size", "[unit]") {
     const PowerEffect head = effect_of("head:material=rough:odds=1.5");
-    CHECK(head.measure == PowerMeasure::head);
+    CHECK(head.measure == PowerMeasure::area);
+    CHECK(head.area == "head");
     CHECK(head.column == "material");
     CHECK(head.level == "rough");
     CHECK(head.against == "smooth");
@@ -59,24 +62,39 @@ TEST_CASE("an effect is read with its measure, its levels and its size", "[unit]
         CHECK(effect_of(effect_of(text).text()).text() == effect_of(text).text());
 }
 
+TEST_CASE("an effect is in a level of any factor of the protocol", "[unit]") {
+    Protocol protocol = small_plan();
+    protocol.materials[1].columns = {{"gloss", "0.2", 0.2}};
+    protocol.lights.resize(2);
+    protocol.lights[0].id = "sky";
+    protocol.lights[1].id = "hall";
+    const PowerEffect light = power_effects({"head:light=hall:odds=2:gloss=0.2"}, protocol, areas).at(0);
+    CHECK(light.column == "light");
+    CHECK(light.against == "sky");
+    CHECK(light.within == std::vector<StudyKey>{{"gloss", "0.2"}});
+    CHECK(power_effects({"wss:gloss=0.2:ratio=2"}, protocol, areas).at(0).against == "n/a");
+    CHECK_THROWS_WITH(power_effects({"head:motion=motion:odds=2"}, protocol, areas),
+                      Contains("the protocol has only one motion"));
+}
+
 TEST_CASE("no effect is tested between the first materials and the first tasks", "[unit]") {
-    const std::vector<PowerEffect> none = power_effects({"none"}, small_plan());
+    const std::vector<PowerEffect> none = power_effects({"none"}, small_plan(), areas);
     REQUIRE(none.size() == 4);
     for (const PowerEffect& effect : none)
         CHECK(effect.is_none());
     CHECK(none[2].measure == PowerMeasure::cc);
     CHECK(none[3].column == "task");
-    CHECK_THROWS_AS(power_effects({"none", "head:material=rough:odds=2"}, small_plan()), InputError);
+    CHECK_THROWS_AS(power_effects({"none", "head:material=rough:odds=2"}, small_plan(), areas), InputError);
     Protocol single = small_plan();
     single.materials.resize(1);
     single.tasks.resize(1);
-    CHECK_THROWS_AS(power_effects({"none"}, single), InputError);
+    CHECK_THROWS_AS(power_effects({"none"}, single, areas), InputError);
 }
 
 TEST_CASE("what is wrong with an effect is said with what is known", "[unit]") {
-    CHECK_THAT(fault_of("had:material=rough:odds=2"), Contains("head, wss or cc"));
+    CHECK_THAT(fault_of("had:material=rough:odds=2"), Contains("head, area=NAME, wss or cc"));
     CHECK_THAT(fault_of("head:material=ruff:odds=2"), Contains("no material \"ruff\"; it has smooth, rough"));
-    CHECK_THAT(fault_of("head:materiel=rough:odds=2"), Contains("\"materiel\" is no key of head"));
+    CHECK_THAT(fault_of("head:materiel=rough:odds=2"), Contains("\"materiel\" is no key of area"));
     CHECK_THAT(fault_of("head:material=rough:ratio=2"), Contains("whose keys are"));
     CHECK_THAT(fault_of("head:material=rough"), Contains("how large the effect is: odds="));
     CHECK_THAT(fault_of("head:odds=2"), Contains("in which material or task"));
@@ -88,7 +106,7 @@ TEST_CASE("what is wrong with an effect is said with what is known", "[unit]") {
     CHECK_THAT(fault_of("head:material=rough:odds=2:odds=3"), Contains("odds is given twice"));
     CHECK_THAT(fault_of("head:material=rough:against=rough:odds=2"), Contains("compared with itself"));
     CHECK_THAT(fault_of("head:material=rough:odds"), Contains("not of the form key=value"));
-    CHECK_THAT(fault_of(""), Contains("head, wss or cc"));
+    CHECK_THAT(fault_of(""), Contains("head, area=NAME, wss or cc"));
 }
 
 TEST_CASE("numbers of observers are a number, a range or a list", "[unit]") {

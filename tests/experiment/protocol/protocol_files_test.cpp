@@ -56,7 +56,7 @@ TEST_CASE("the protocols shown in docs/laser_scans.md are sound", "[unit]") {
     CHECK(read.diagnostics.print() == "");
     REQUIRE(read.protocol);
     CHECK(read.protocol->objects.size() == 3);
-    CHECK(read.protocol->objects.at(1).head_planes.size() == 1);
+    CHECK(read.protocol->objects.at(1).areas.at(0).planes.size() == 1);
     const ReadText with_frames(whole, block_after(page.find("## Frames rendered elsewhere")));
     CHECK(with_frames.diagnostics.print() == "");
     REQUIRE(with_frames.protocol);

@@ -74,7 +74,9 @@ void add_section(std::string& text, const Section& section, std::string_view par
         parent.empty() ? section.is_never_empty()
                              ? fmt::format("{}` or `{}", section.heading(), section.list_heading())
                              : section.heading()
-                       : fmt::format("{} = {{ … }} in [[{}]]", section.name, parent);
+        : section.home.is_by_name()
+            ? fmt::format("{} = {{ NAME = {{ … }} }} in [[{}]]", section.name, parent)
+            : fmt::format("{} = {{ … }} in [[{}]]", section.name, parent);
     text += fmt::format("\n## `{}`\n\n{}\n\n| key | value | default | meaning |\n| --- | --- | --- | --- |\n",
                         heading, section.explanation);
     for (const Key& key : section.keys)

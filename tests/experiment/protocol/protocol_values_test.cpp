@@ -69,9 +69,9 @@ observers = 5
     CHECK(object.mesh == "scans/p.ply");
     CHECK(object.up == "-y");
     CHECK(object.scale == 2.0);
-    CHECK(object.head_spheres.at(0) == std::array{0.015, 0.82, -0.05, 0.215});
-    CHECK(object.head_spheres.at(1) == std::array{1.0, 2.0, 3.0, 4.0});
-    CHECK(object.head_planes == std::vector{std::array{0.0, 0.63, -0.05, 0.0, 1.0, 0.0}});
+    CHECK(object.areas.at(0).spheres.at(0) == std::array{0.015, 0.82, -0.05, 0.215});
+    CHECK(object.areas.at(0).spheres.at(1) == std::array{1.0, 2.0, 3.0, 4.0});
+    CHECK(object.areas.at(0).planes == std::vector{std::array{0.0, 0.63, -0.05, 0.0, 1.0, 0.0}});
     CHECK(read.protocol->materials.at(0).kind == MaterialKind::coated_conductor);
     CHECK(read.protocol->materials.at(0).coat_absorbance == std::array{0.0, 0.1, 0.75});
     CHECK(read.protocol->tasks.at(0).stimuli == TaskCoverage::once_per_object);

@@ -1,6 +1,7 @@
 /// Lists of lights, motions and views beside objects and materials; columns of their entries, and series.
 #include <catch2/catch.hpp>
 
+#include "experiment/protocol/all_stimuli.h"
 #include "tests/experiment/protocol/protocol_fixtures.h"
 
 using namespace overt;

@@ -12,7 +12,8 @@ using namespace overt::testing;
 
 TEST_CASE("a session's header comes back from the disk in every field", "[unit]") {
     const TemporaryFolder root;
-    const SessionHeader in = example_header();
+    SessionHeader in = example_header();
+    in.objects[0].origin = {565400.0, 5934200.25, -35.5};
     const SessionRecord record(make_session(root.path(), in));
     const SessionHeader& out = record.header();
 
@@ -74,6 +75,7 @@ TEST_CASE("a session's header comes back from the disk in every field", "[unit]"
     CHECK(bust.bounds.min == given.bounds.min);
     CHECK(bust.bounds.max == given.bounds.max);
     CHECK(bust.unit == given.unit);
+    CHECK(bust.origin == given.origin);
     REQUIRE(out.stimuli.size() == 2);
     CHECK(out.stimuli[1].stimulus == in.stimuli[1].stimulus);
     CHECK(out.stimuli[1].source == in.stimuli[1].source);

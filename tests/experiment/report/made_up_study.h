@@ -21,7 +21,7 @@ inline StudyObject object(const std::string& id, double radius) {
     made.id = id;
     made.title = fmt::format("The {}", id);
     made.part_names = {"body", "head"};
-    made.head = PartIndex{1};
+    made.areas = Areas(made.part_names);
     made.camera = fit_camera(*mesh, Degrees{12.0}, {1024, 1024}, Degrees{25.0}, 0.05);
     made.mm_per_unit = 1.0;
     for (const glm::vec3& position : mesh->positions) {
@@ -152,32 +152,34 @@ inline StudyResults made_up_study() {
                 row.wss_deg2 = Estimate::of(0.5);
                 row.variance_mm2 = {100.0, 200.0, 200.0 + 20.0 * group};
                 study.distributions.push_back(row);
-                study.head_fractions.push_back(
-                    {.keys = study.groups.back().keys,
-                     .by_count = Estimate::of(0.3 + 0.05 * group, Interval{0.2, 0.8}),
-                     .by_duration = Estimate::none("one observer only"),
-                     .corrected = Estimate::of(0.33 + 0.05 * group, Interval{0.2, 0.9}),
-                     .pooled = 0.31,
-                     .pooled_interval = {},
-                     .planted = {},
-                     .observers = 3,
-                     .trials = 6,
-                     .fixations = 40,
-                     .of_observers = {0.2, 0.25 + 0.05 * group, 0.45}});
+                study.area_rows.push_back({.area = "head",
+                                           .keys = study.groups.back().keys,
+                                           .by_count = Estimate::of(0.3 + 0.05 * group, Interval{0.2, 0.8}),
+                                           .by_duration = Estimate::none("one observer only"),
+                                           .corrected = Estimate::of(0.33 + 0.05 * group, Interval{0.2, 0.9}),
+                                           .pooled = 0.31,
+                                           .pooled_interval = {},
+                                           .planted = {},
+                                           .observers = 3,
+                                           .trials = 6,
+                                           .fixations = 40,
+                                           .of_observers = {0.2, 0.25 + 0.05 * group, 0.45}});
             }
         }
-        study.head_fractions.push_back({.keys = {{"task", task}},
-                                        .by_count = Estimate::of(0.4, Interval{0.3, 0.5}),
-                                        .by_duration = {},
-                                        .corrected = {},
-                                        .pooled = 0.4,
-                                        .pooled_interval = {},
-                                        .planted = {},
-                                        .observers = 3,
-                                        .trials = 6,
-                                        .fixations = 40});
+        study.area_rows.push_back({.area = "head",
+                                   .keys = {{"task", task}},
+                                   .by_count = Estimate::of(0.4, Interval{0.3, 0.5}),
+                                   .by_duration = {},
+                                   .corrected = {},
+                                   .pooled = 0.4,
+                                   .pooled_interval = {},
+                                   .planted = {},
+                                   .observers = 3,
+                                   .trials = 6,
+                                   .fixations = 40});
         for (int second = 0; second < 8; ++second)
-            study.time_course.push_back({{"task", task},
+            study.time_course.push_back({"head",
+                                         {"task", task},
                                          1.0 * second,
                                          second + 1.0,
                                          Estimate::of(0.3 + 0.02 * second, Interval{0.2, 0.6}),
@@ -217,7 +219,29 @@ inline StudyResults made_up_study() {
     MapReliabilityRow reliability;
     reliability.reliability = Estimate::of(0.8, Interval{0.6, 0.9});
     study.reliabilities.push_back(reliability);
-    study.effects.push_back({"head fraction", "task", 0.4, 0.002, 0.004, 0.0002, 12, {}});
+    study.areas = study.compared_areas = {"body", "head"};
+    study.area = "head";
+    study.surface_transitions.push_back({{},
+                                         "body",
+                                         "head",
+                                         Estimate::of(0.3, Interval{0.2, 0.4}),
+                                         Estimate::of(0.35, Interval{0.3, 0.4}),
+                                         Estimate::of(-0.05, Interval{-0.1, 0.0}),
+                                         3,
+                                         120,
+                                         400});
+    study.area_pairs.push_back({"head",
+                                {},
+                                "material",
+                                "rough",
+                                "smooth",
+                                Estimate::of(0.07, Interval{0.01, 0.13}),
+                                0.02,
+                                0.04,
+                                0.04,
+                                3,
+                                6});
+    study.effects.push_back({"share on head", "task", 0.4, 0.002, 0.004, 0.0002, 12, {}});
     study.effects.push_back({"log WSS", "task:material", {}, {}, {}, {}, 0, "there is one level alone"});
     study.motions.push_back({{}, Estimate::of(0.9, Interval{0.7, 1.1}), Estimate::of(1.6), 3, 70});
     study.motions.push_back(

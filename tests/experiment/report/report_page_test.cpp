@@ -38,7 +38,7 @@ TEST_CASE("the report's data come back from the page, whatever a session's texts
     CHECK(data["remarks"][1] == study.remarks[1]);
     CHECK(data["maps"].size() == study.maps.size());
     CHECK(data["maps"].back()["absent"] == "No fixation was counted.");
-    CHECK(data["tables"]["heads"][0]["duration"]["v"].is_null());
+    CHECK(data["tables"]["surface_areas"][0]["duration"]["v"].is_null());
     CHECK(data["trials"][3]["excluded"] == "More than half of its samples were lost.");
     CHECK(page.find("<title>A &lt;/script>") != page.npos);
     CHECK(page.find("<script src") == page.npos);
@@ -186,13 +186,13 @@ TEST_CASE("nothing of the page is cut or lies on something else, in windows of a
     };
     for (StudyGroup& group : study.groups)
         rename(group.keys);
-    for (HeadFractionRow& row : study.head_fractions)
+    for (AreaRow& row : study.area_rows)
         rename(row.keys);
     for (StudyTrial& trial : study.trials)
         rename(trial.keys);
     for (int i = 0; i < 12; ++i) {
-        study.head_fractions.push_back(study.head_fractions.back());
-        study.head_fractions.back().keys = {{"task", fmt::format("{} and a task with a long name", i)}};
+        study.area_rows.push_back(study.area_rows.back());
+        study.area_rows.back().keys = {{"task", fmt::format("{} and a task with a long name", i)}};
         for (int second = 0; second < 8; ++second) {
             study.time_course.push_back(study.time_course.front());
             study.time_course.back().key.value = fmt::format("{} and a task with a long name", i);

@@ -34,9 +34,11 @@ class CountedTrials {
             StudyObject& object = results.objects.emplace_back();
             object.id = fmt::format("object {}", i);
             object.part_names = {"body", "head"};
-            object.head = PartIndex{1};
+            object.areas = Areas(object.part_names);
             object.mm_per_unit = 1.0;
         }
+        results.areas = results.compared_areas = {"body", "head"};
+        results.area = "head";
         results.by = options.by = {"task", "object", "material"};
         for (int observer = 0; observer < observers; ++observer) {
             results.sessions.emplace_back().observer = fmt::format("{:02}", observer + 1);

@@ -97,10 +97,10 @@ TEST_CASE("exposure is shared among the parts as the picture shows them", "[unit
     const Exposure exposure = exposure_of(ball.maps, seconds_of_poses(ball.animation, ball.poses, 0));
     const double away = glm::length(ball.maps.sight_lines(PoseIndex{1}).origin());
     const double px = ball.maps.sight_lines(PoseIndex{1}).pixel_width_at(away);
-    const std::vector<std::string> names{"below", "above"};
-    const auto rows = exposure_rows({exposure, ball.scene.mesh, 10.0, 100.0 * px * px}, 0, names);
+    const auto rows = exposure_rows({exposure, ball.scene.mesh, 10.0, 100.0 * px * px}, 0,
+                                    Areas(ball.scene.mesh.part_names));
     REQUIRE(rows.size() == 3);
-    CHECK(rows[0].part == "all");
+    CHECK(rows[0].area.empty());
     CHECK(rows[0].area_mm2 == Approx(4.0 * std::numbers::pi * 100.0).epsilon(0.01));
     double true_s = 0.0, never = 0.0;
     for (const glm::vec3& position : ball.scene.mesh.positions) {

@@ -35,9 +35,9 @@ TEST_CASE("effects that are planted are found, and others are not", "[unit]") {
     });
     const auto rows = factor_effects(study.results, {}, study.options);
     REQUIRE(rows.size() == 6);
-    CHECK(row_of(rows, "head fraction", "task").p < 0.01);
-    CHECK(row_of(rows, "head fraction", "material").p > 0.05);
-    CHECK(row_of(rows, "head fraction", "task:material").p > 0.05);
+    CHECK(row_of(rows, "share on head", "task").p < 0.01);
+    CHECK(row_of(rows, "share on head", "material").p > 0.05);
+    CHECK(row_of(rows, "share on head", "task:material").p > 0.05);
     CHECK(row_of(rows, "log WSS", "task").p > 0.05);
     CHECK(row_of(rows, "log WSS", "material").p < 0.001);
     CHECK(row_of(rows, "log WSS", "task:material").p > 0.05);
@@ -56,8 +56,8 @@ TEST_CASE("an interaction is found that no factor alone shows", "[unit]") {
         return LooksOfTrial{0.5 + 0.25 * turn, 20.0};
     });
     const auto rows = factor_effects(study.results, {}, study.options);
-    CHECK(row_of(rows, "head fraction", "task:material").p < 0.01);
-    CHECK(row_of(rows, "head fraction", "material").p > 0.05);
+    CHECK(row_of(rows, "share on head", "task:material").p < 0.01);
+    CHECK(row_of(rows, "share on head", "material").p > 0.05);
 }
 
 TEST_CASE("without an effect of a factor few studies find one, whatever objects and tasks do", "[unit]") {
@@ -83,9 +83,9 @@ TEST_CASE("without an effect of a factor few studies find one, whatever objects 
             static_cast<std::uint64_t>(100 + study));
         one.options.permutations = 40;
         const auto rows = factor_effects(one.results, {}, one.options);
-        material += *row_of(rows, "head fraction", "material").p <= 0.05;
-        both += *row_of(rows, "head fraction", "task:material").p <= 0.05;
-        task += study % 2 != 0 && *row_of(rows, "head fraction", "task").p <= 0.05;
+        material += *row_of(rows, "share on head", "material").p <= 0.05;
+        both += *row_of(rows, "share on head", "task:material").p <= 0.05;
+        task += study % 2 != 0 && *row_of(rows, "share on head", "task").p <= 0.05;
     }
     // Binomial with 5 % of 200 (of 100 for the task): no more than 20 (13) with probability 0.999.
     CHECK(material <= 20);
@@ -103,9 +103,9 @@ TEST_CASE("where an effect cannot be tested the row says why", "[unit]") {
         trial.keys.push_back({"hand", trial.session == 0 ? "left" : "right"});
     }
     const auto rows = factor_effects(study.results, {}, study.options);
-    CHECK(row_of(rows, "head fraction", "hand").absent ==
+    CHECK(row_of(rows, "share on head", "hand").absent ==
           "fewer than two observers have numbers in two levels");
-    CHECK(row_of(rows, "head fraction", "task:hand").absent ==
+    CHECK(row_of(rows, "share on head", "task:hand").absent ==
           "fewer than two observers have numbers in all combinations of both");
     study.options.by = {"task", "unknown"};
     const auto others = factor_effects(study.results, {}, study.options);
@@ -113,9 +113,9 @@ TEST_CASE("where an effect cannot be tested the row says why", "[unit]") {
     CHECK(row_of(others, "log WSS", "task:unknown").absent == "one of both has one level alone");
     // An object without a head has no share of it.
     for (StudyObject& object : study.results.objects)
-        object.head.reset();
+        object.areas = Areas();
     const auto headless = factor_effects(study.results, {}, study.options);
-    CHECK(row_of(headless, "head fraction", "task").absent ==
+    CHECK(row_of(headless, "share on head", "task").absent ==
           "no two levels were measured with all else alike");
     CHECK(row_of(headless, "log WSS", "task").p);
 }

@@ -33,12 +33,14 @@ class PaintedStudy {
         StudyObject ball;
         ball.id = "ball";
         ball.part_names = mesh->part_names;
-        ball.head = PartIndex{1};
+        ball.areas = Areas(ball.part_names);
         ball.mm_per_unit = 1.0;
         ball.seconds_visible.assign(mesh->positions.size(), 8.0f);
         ball.exposure_density.assign(mesh->positions.size(), 1.0f);
         ball.mesh = mesh;
         results.objects.push_back(std::move(ball));
+        results.areas = results.compared_areas = {"body", "head"};
+        results.area = "head";
         results.by = options.by = {"material"};
         options.resamples = 200;
         ObjectSurface& surface = surfaces.emplace_back();

@@ -85,17 +85,18 @@ StudyResults study_with(int factors, int levels, Naming name, double value) {
             keys.push_back({column, name(level + static_cast<int>(keys.size()))});
         study.groups.push_back({keys, {}, 12, 400});
         for (const StudyKey& key : keys)
-            study.head_fractions.push_back({.keys = {key},
-                                            .by_count = Estimate::of(1.0, Interval{0.0, 1.0}),
-                                            .by_duration = {},
-                                            .corrected = {},
-                                            .pooled = {},
-                                            .pooled_interval = {},
-                                            .planted = {},
-                                            .observers = 12,
-                                            .trials = 6,
-                                            .fixations = 40,
-                                            .of_observers = {0.0, 0.5, 1.0}});
+            study.area_rows.push_back({.area = {},
+                                       .keys = {key},
+                                       .by_count = Estimate::of(1.0, Interval{0.0, 1.0}),
+                                       .by_duration = {},
+                                       .corrected = {},
+                                       .pooled = {},
+                                       .pooled_interval = {},
+                                       .planted = {},
+                                       .observers = 12,
+                                       .trials = 6,
+                                       .fixations = 40,
+                                       .of_observers = {0.0, 0.5, 1.0}});
         DistributionRow row;
         row.group = level;
         row.wss_mm2 = level % 5 == 4 ? Estimate::none("one fixation only")

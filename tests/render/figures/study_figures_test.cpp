@@ -32,7 +32,7 @@ TEST_CASE("each figure is written as SVG and PDF of the stated width, the same e
 TEST_CASE("figure 4 shows each observer", "[unit]") {
     const test::TemporaryFolder folder;
     StudyResults study = test::made_up_study();
-    for (HeadFractionRow& row : study.head_fractions)
+    for (AreaRow& row : study.area_rows)
         row.of_observers = {0.25, 0.5};
     const auto dots_with = [&](const std::string& name) {
         write_figures(study, folder.path() / name);
@@ -43,7 +43,7 @@ TEST_CASE("figure 4 shows each observer", "[unit]") {
         return curves;
     };
     const std::size_t two = dots_with("two");
-    for (HeadFractionRow& row : study.head_fractions)
+    for (AreaRow& row : study.area_rows)
         row.of_observers.clear();
     CHECK(two > dots_with("none"));
 }

@@ -22,7 +22,7 @@ struct GivenBust {
         ObjectSettings object;
         object.id = "bust";
         object.lut = (folder.path() / "map_##.png").string();
-        object.head_spheres = {{0.0, -10.0, 245.0, 55.0}};
+        object.areas = {{"head", {{0.0, -10.0, 245.0, 55.0}}, {}, {}, {}}};
         protocol.objects.push_back(object);
         scene.view.image_px = {60, 80};
         scene.bounds = mesh.bounds();
@@ -107,7 +107,7 @@ TEST_CASE("a map of another size, of another angle or of another place than its 
     CHECK_THROWS_WITH(read_given_map(given.protocol, 0, {1}),
                       Catch::Contains("25 degrees") && Catch::Contains("20"));
     given.protocol.motions.front().amplitude = {25.0};
-    given.settings().head_spheres = {{0.0, 0.0, 2450.0, 55.0}};
+    given.settings().areas[0].spheres = {{0.0, 0.0, 2450.0, 55.0}};
     CHECK_THROWS_WITH(check_given_maps(given.protocol, 0), Catch::Contains("no pixel"));
     std::filesystem::remove(given.file(1));
     CHECK_THROWS_WITH(check_given_maps(given.protocol, 0), Catch::Contains("map_01.png"));
@@ -122,7 +122,7 @@ TEST_CASE("the hash of a ready-made map follows all that it is made from", "[uni
         CHECK(std::find(hashes.begin(), hashes.end(), hash) == hashes.end());
         hashes.push_back(hash);
     };
-    given.settings().head_spheres[0][3] = 50.0;
+    given.settings().areas[0].spheres[0][3] = 50.0;
     note();
     given.settings().lut_min = glm::dvec3(0.0);
     note();

@@ -1,104 +1,13 @@
 /// Recordings that other programs, other places and other options of edf2asc make, with their right values.
-#include <catch2/catch.hpp>
-
-#include <fmt/ranges.h>
-
-#include "experiment/base/error.h"
 #include "experiment/record/asc/asc_export.h"
-#include "experiment/record/asc/asc_import.h"
 #include "experiment/record/tables/table_export.h"
-#include "tests/experiment/record/session_fixture.h"
-#include "tests/support/asc_readers.h"
-#include "tests/support/asc_text.h"
+#include "tests/experiment/record/asc/field_case.h"
 
 using namespace overt;
 using namespace overt::testing;
+using namespace overt::field_case;
 namespace fs = std::filesystem;
 using Catch::Matchers::Contains;
-
-namespace {
-
-/// Imports recordings into a folder of its own.
-struct ImportBench {
-    test::TemporaryFolder root;
-    AscSurveyOptions reading;
-    AscImportSummary summary;
-    int sessions = 0;
-
-    fs::path file(const std::string& name, const std::string& text) {
-        return write_asc(root.path() / name, text);
-    }
-    SessionRecord import(const AscFiles& files) {
-        AscImportOptions options;
-        options.place = {root.path(), "imported", "07"};
-        options.out = root.path() / fmt::format("session_{}", ++sessions);
-        options.screen_mm = glm::dvec2(400.0, 300.0);
-        options.viewing_distance_mm = 600.0;
-        options.reading = reading;
-        summary = import_asc(files, options);
-        return SessionRecord(summary.session);
-    }
-    SessionRecord import(const std::string& text) { return import(AscFiles(file("text.asc", text))); }
-    SessionRecord field_case(const std::string& name) {
-        return import(AscFiles(fs::path(OVERT_SOURCE_DIR) / "tests/data/asc" / (name + ".asc")));
-    }
-    std::string remarks() const { return fmt::format("{}", fmt::join(summary.remarks, "\n")); }
-};
-
-std::vector<GazeSample> samples_of(const SessionRecord& record) {
-    std::vector<GazeSample> all;
-    for (const TrialRecord& trial : record.trials())
-        for (const GazeSample& sample : record.samples(trial))
-            all.push_back(sample);
-    return all;
-}
-
-std::vector<GazeEvent> events_of_kind(const SessionRecord& record, GazeEvent::Kind kind) {
-    std::vector<GazeEvent> all;
-    for (const TrialRecord& trial : record.trials())
-        record.read_gaze_events(trial, [&](const GazeEvent& event) {
-            if (event.kind == kind)
-                all.push_back(event);
-        });
-    return all;
-}
-
-std::int64_t lost_of(const std::vector<GazeSample>& samples) {
-    return std::ranges::count_if(samples, [](const GazeSample& sample) { return !sample.gaze; });
-}
-
-void check_same(const std::vector<GazeSample>& a, const std::vector<GazeSample>& b) {
-    REQUIRE(a.size() == b.size());
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        REQUIRE(a[i].sampled_at == b[i].sampled_at);
-        REQUIRE(a[i].eye == b[i].eye);
-        REQUIRE(a[i].gaze == b[i].gaze);
-        REQUIRE(a[i].pupil_area == b[i].pupil_area);
-    }
-}
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-    for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
-        text.replace(at, from.size(), to);
-    return text;
-}
-
-/// Samples at these places, 500 Hz, from 1000 ms on, in a recording of the right eye, with pupils.
-std::string made_recording(const std::vector<std::array<double, 3>>& values,
-                           const std::string& kind = "GAZE") {
-    std::string text = "** VERSION: EYELINK II 1\nMSG\t990 GAZE_COORDS 0.00 0.00 1279.00 1023.00\n"
-                       "START\t1000 \tRIGHT\tSAMPLES\tEVENTS\nPUPIL\tAREA\n"
-                       "EVENTS\tGAZE\tRIGHT\tRATE\t 500.00\tTRACKING\tCR\nSAMPLES\t" +
-                       kind + "\tRIGHT\tRATE\t 500.00\tTRACKING\tCR\n";
-    int ms = 1000;
-    for (const auto& [x, y, pupil] : values) {
-        text += fmt::format("{}\t{:7.1f}\t{:7.1f}\t{:7.1f}\t...\n", ms, x, y, pupil);
-        ms += 2;
-    }
-    return text + fmt::format("END\t{} \tSAMPLES\tEVENTS\tRES\t  35.00\t  36.00\n", ms);
-}
-
-} // namespace
 
 TEST_CASE("lost samples are lost, whatever edf2asc -miss wrote for them, in either eye", "[unit]") {
     ImportBench bench;
@@ -260,130 +169,6 @@ TEST_CASE("events of the head's frame with resolutions have their gaze, and with
     CHECK(bench.summary.survey.events_that_are_no_gaze == 1);
 }
 
-TEST_CASE("times rounded to single precision are told by the rate", "[unit]") {
-    ImportBench bench;
-    for (const double rate_hz : {250.0, 500.0, 1000.0, 2000.0})
-        for (const std::int64_t start_ms :
-             {8'388'607, 8'388'609, 16'777'215, 16'777'217, 20'000'003, 33'554'431, 33'554'435, 50'000'001}) {
-            CAPTURE(rate_hz, start_ms);
-            constexpr int count = 400;
-            const auto interval_us = static_cast<std::int64_t>(1e6 / rate_hz);
-            std::string text = fmt::format("START\t{} \tLEFT\tSAMPLES\tEVENTS\n"
-                                           "SAMPLES\tGAZE\tLEFT\tRATE\t{:.2f}\tTRACKING\tCR\n",
-                                           start_ms, rate_hz);
-            std::vector<std::int64_t> true_us;
-            for (int n = 0; n < count; ++n) {
-                true_us.push_back(1000 * start_ms + interval_us * n);
-                const auto rounded = static_cast<float>(1e-3 * static_cast<double>(true_us.back()));
-                text += fmt::format("{:.1f}\t  500.5\t  400.5\t 1000.0\t...\n", rounded);
-            }
-            text += fmt::format("END\t{} \tSAMPLES\tEVENTS\tRES\t  38.00\t  38.00\n",
-                                start_ms + interval_us * count / 1000 + 1);
-            const std::vector<GazeSample> samples = samples_of(bench.import(text));
-            CHECK(bench.summary.survey.skipped_lines == 0);
-            REQUIRE(samples.size() == static_cast<std::size_t>(count));
-            for (int n = 0; n < count; ++n)
-                REQUIRE(samples[static_cast<std::size_t>(n)].sampled_at.time_since_epoch().count() ==
-                        true_us[static_cast<std::size_t>(n)]);
-        }
-}
-
-TEST_CASE("a gap in rounded times stays one, and no time is farther off than the rounding", "[unit]") {
-    ImportBench bench;
-    std::string text; // no START, no rate
-    std::vector<std::int64_t> true_ms;
-    for (int n = 0; n < 600; ++n) {
-        true_ms.push_back(20'000'001 + n + (n >= 300 ? 5000 : n >= 200 ? 7 : 0));
-        text += fmt::format("{:.1f}\t  500.5\t  400.5\t 1000.0\t...\n", static_cast<float>(true_ms.back()));
-    }
-    const std::vector<GazeSample> samples = samples_of(bench.import(text));
-    REQUIRE(samples.size() == true_ms.size());
-    for (std::size_t i = 0; i < samples.size(); ++i)
-        CHECK(std::abs(samples[i].sampled_at.time_since_epoch().count() - 1000 * true_ms[i]) <= 1000);
-}
-
-TEST_CASE("an import that would lose more than it may is refused, in all or of one recording", "[unit]") {
-    ImportBench bench;
-    AscExample example;
-    const std::string sound = asc_text(example);
-    const auto broken = [&](int from, int to, const char* begin) {
-        std::string text;
-        int n = 0;
-        for (const std::string& line : lines_of(sound))
-            text +=
-                (line.starts_with(begin) && ++n > from && n <= to ? line.substr(0, 9) + "\tx" : line) + "\n";
-        return text;
-    };
-    CHECK(samples_of(bench.import(broken(0, 6, "5"))).size() == 114);
-    CHECK(bench.summary.survey.recordings.size() == 3);
-    CHECK(bench.summary.survey.recordings[1].sample_lines == 60);
-    CHECK(bench.summary.survey.recordings[1].samples_read == 54);
-    CHECK(bench.summary.survey.recordings[2].samples_read == 60);
-    const std::string bad = broken(0, 8, "5"), worse = broken(0, 14, "5"), no_events = broken(0, 9, "E");
-    CHECK_THROWS_WITH(bench.import(bad),
-                      Contains("52 of 60 lines of samples of the recording that began at 5000 ms") &&
-                          Contains("--least-read"));
-    CHECK_THROWS_WITH(bench.import(worse), Contains("106 of 120 lines of samples"));
-    CHECK_THROWS_WITH(bench.import(no_events), Contains("lines of fixations, saccades and blinks"));
-    CHECK_FALSE(fs::exists(bench.root.path() / fmt::format("session_{}", bench.sessions)));
-    bench.reading.least_read = 0.7;
-    CHECK(samples_of(bench.import(worse)).size() == 106);
-    bench.reading.least_read = 0.0;
-    CHECK(samples_of(bench.import(no_events)).size() == 120);
-}
-
-TEST_CASE("two files of different recordings are refused", "[unit]") {
-    ImportBench bench;
-    AscExample example;
-    const auto halves = [&](const std::string& text, const std::string& name) {
-        std::string of_samples, of_events;
-        for (const std::string& line : lines_of(text))
-            (!line.empty() && std::isdigit(static_cast<unsigned char>(line[0])) ? of_samples : of_events) +=
-                line + "\n";
-        return std::pair{bench.file(name + "_s.asc", of_samples), bench.file(name + "_e.asc", of_events)};
-    };
-    // The example's own fixation lies elsewhere: give it the place of its samples.
-    const std::string text = replaced(asc_text(example), "\t  512.8\t  394.5\t   1063",
-                                      "\t  101.7\t  694.9\t   1063"),
-                      second = replaced(text, "EFIX L   7030\t7038\t10\t  101.7",
-                                        "EFIX L   7030\t7038\t10\t  201.7");
-    const auto one = halves(second, "one");
-    CHECK(samples_of(bench.import(AscFiles(one.first, one.second))).size() == 120);
-    // Another hour of the tracker's clock.
-    std::string later = second;
-    for (const char* const thousand : {"5", "7"})
-        later = replaced(later, fmt::format("\n{}", thousand), fmt::format("\n1{}", thousand));
-    const auto other = halves(later, "other");
-    CHECK_THROWS_WITH(bench.import(AscFiles(other.first, one.second)), Contains("not of one recording"));
-    // The same time, another observer.
-    const auto elsewhere =
-        halves(replaced(replaced(second, "\t  101.", "\t  901."), "\t  201.", "\t  801."), "where");
-    CHECK_THROWS_WITH(bench.import(AscFiles(elsewhere.first, one.second)),
-                      Contains("other places than the samples"));
-}
-
-TEST_CASE("samples that are no gaze are refused by name, with what helps", "[unit]") {
-    ImportBench bench;
-    std::vector<std::array<double, 3>> raw, angles;
-    for (int n = 0; n < 100; ++n) {
-        raw.push_back({300.0 + n, 200.0 + n, -900.0});
-        angles.push_back({-2000.0 + 30 * n, -1500.0 + 3 * n, 900.0});
-    }
-    CHECK_THROWS_WITH(bench.import(made_recording(raw)), Contains("file_sample_raw_pcr"));
-    CHECK_THROWS_WITH(bench.import(made_recording(angles, "HREF")), Contains("-sg"));
-    CHECK_THROWS_WITH(bench.import(made_recording(raw, "PUPIL")), Contains("-sg"));
-    std::string alone;
-    for (const std::string& line : lines_of(made_recording(angles)))
-        if (!line.empty() && std::isdigit(static_cast<unsigned char>(line[0])))
-            alone += line + "\n";
-    CHECK_THROWS_WITH(bench.import(alone), Contains("lie off the screen") && Contains("--as-gaze"));
-    bench.reading.is_gaze = true;
-    CHECK(samples_of(bench.import(alone)).size() == 100);
-    bench.reading.least_read = 0.0;
-    CHECK(lost_of(samples_of(bench.import(made_recording(raw)))) == 100);
-    CHECK(samples_of(bench.import(made_recording(angles, "HREF"))).empty());
-}
-
 TEST_CASE("a line of one eye in a recording of both is that eye's", "[unit]") {
     ImportBench bench;
     const auto with_events = [](const char* eye) {
@@ -415,37 +200,6 @@ TEST_CASE("a line of one eye in a recording of both is that eye's", "[unit]") {
                           "1010\t  100.0\t  300.0\t  900.0\t  180.0\t  310.0\t  950.0\t.....",
                           "1010\t  100.0\t  300.0\t  900.0"));
     CHECK(bench.summary.survey.skipped_lines == 1);
-}
-
-TEST_CASE("files that are no plain text are refused by what they are, with the command that mends them",
-          "[unit]") {
-    ImportBench bench;
-    const std::string text = asc_text({});
-    std::string wide;
-    for (const char c : text)
-        wide += {c, '\0'};
-    std::string wide_the_other_way;
-    for (const char c : text)
-        wide_the_other_way += {'\0', c};
-    using namespace std::string_literals;
-    for (const auto& [bytes, words] : std::vector<std::pair<std::string, std::string>>{
-             {"\xff\xfe" + wide, "UTF-16"},
-             {"\xfe\xff" + wide_the_other_way, "UTF-16"},
-             {wide, "UTF-16LE"},
-             {wide_the_other_way, "UTF-16BE"},
-             {"\xff\xfe\0\0"s + wide, "UTF-32"},
-             {"\x1f\x8b\x08\x00\x00"s, "gzip -dc"},
-             {"PK\x03\x04"s + text, "unzip"},
-             {"BZh91AY", "bzip2"},
-             {"\xfd"
-              "7zXZ",
-              "xz"},
-             {replaced(text, "\n", "\r"), "carriage return"},
-             {replaced(text, "\n", "\r") + "\n", "carriage return"}}) {
-        CAPTURE(words);
-        CHECK_THROWS_WITH(bench.import(bytes), Contains(words));
-    }
-    CHECK(samples_of(bench.import(replaced(text, "\n", "\r\n"))).size() == 120);
 }
 
 TEST_CASE("areas and diameters of pupils are told recording by recording", "[unit]") {

@@ -9,6 +9,7 @@
 
 #include "experiment/base/error.h"
 #include "experiment/base/whole_file.h"
+#include "experiment/scene/areas.h"
 #include "experiment/scene/mesh_topology.h"
 #include "tests/experiment/scene/mesh_fixtures.h"
 
@@ -297,7 +298,7 @@ TEST_CASE("a row of a text PLY file may go on over lines, but begins and ends wi
                Catch::Contains("l.ply:10:7: the line of vertex 0 (counted from 0) goes on with '1'"));
 }
 
-TEST_CASE("a head stands beside labels: what lies in it stays a part, what reaches beyond is cut", "[unit]") {
+TEST_CASE("a head stands beside labels: a triangle belongs to both", "[unit]") {
     const TemporaryFolder folder;
     const Mesh ball = bumpy_ball(20, 30);
     const auto mesh_file = folder.file("ball.ply", as_ply(ball, PlyForm::little_endian));
@@ -318,18 +319,25 @@ TEST_CASE("a head stands beside labels: what lies in it stays a part, what reach
     import.regions = {{ "head", {}, { { {0, 0, 0.5}, { 0, 0, 1 } } } }};
     MeshCleaningReport report;
     const Mesh mesh = import_mesh(mesh_file, import, report);
-    CHECK(mesh.part_names == std::vector<std::string>{"base", "middle", "head/eyes", "head"});
-    const HeadParts head(mesh.part_names);
+    CHECK(mesh.part_names == std::vector<std::string>{"base", "middle", "middle/head", "head/eyes"});
+    const Areas areas(mesh.part_names);
     for (std::size_t i = 0; i < heights.size(); ++i) {
-        REQUIRE(head.has(mesh.triangle_parts[i]) == (heights[i] >= 0.5));
+        REQUIRE(areas.holds(*areas.find("head"), mesh.triangle_parts[i]) == (heights[i] >= 0.5));
+        REQUIRE(areas.holds(*areas.find("middle"), mesh.triangle_parts[i]) == (label_of[i] == 1));
         const std::string expected = label_of[i] == 2    ? "head/eyes"
-                                     : heights[i] >= 0.5 ? "head"
+                                     : heights[i] >= 0.5 ? "middle/head"
                                      : label_of[i] == 1  ? "middle"
                                                          : "base";
         REQUIRE(mesh.part_names[mesh.triangle_parts[i]] == expected);
     }
-    CHECK_THAT(describe(report).front(), Catch::Contains("'middle'") && Catch::Contains("lies in 'head'"));
-    CHECK_FALSE(HeadParts(std::vector<std::string>{"body", "headless", "forehead"}).has_value());
+    const std::vector<AreaOverlap> overlaps = overlapping_areas(mesh);
+    REQUIRE(overlaps.size() == 1); // the eyes lie in the head, and do not overlap it
+    CHECK(overlaps[0].a == "middle");
+    CHECK(overlaps[0].b == "head");
+    CHECK(overlaps[0].shared_area == Approx(mesh.part_areas()[2]));
+    CHECK(overlaps[0].share_of_b ==
+          Approx(mesh.part_areas()[2] / (mesh.part_areas()[2] + mesh.part_areas()[3])));
+    CHECK_FALSE(Areas(std::vector<std::string>{"body", "headless", "forehead"}).has("head"));
 
     // The labels of the mesh file itself are no different, and a part that is called head is head.
     std::string obj;
@@ -346,6 +354,6 @@ TEST_CASE("a head stands beside labels: what lies in it stays a part, what reach
     import.labels.clear();
     const Mesh grouped = import_mesh(folder.file("g.obj", obj), import, report);
     CHECK(std::set<std::string>(grouped.part_names.begin(), grouped.part_names.end()) ==
-          std::set<std::string>{"base", "middle", "head"});
+          std::set<std::string>{"base", "middle", "middle/head", "head"});
     CHECK_THAT(describe(report)[1] + describe(report)[0], Catch::Contains("'head' is labelled"));
 }

@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include "experiment/base/error.h"
+#include "experiment/scene/areas.h"
 #include "experiment/scene/files/mesh_reader.h"
 #include "experiment/scene/files/ply_writer.h"
 #include "tests/experiment/scene/mesh_fixtures.h"
@@ -57,23 +58,25 @@ TEST_CASE("a region is the union of its spheres on the positive side of every pl
     CHECK(PartRegion{"top", {}, {{{0, 0, 0}, {0, 0, 1}}}}.contains({9.0, 9.0, 1.0}));
 }
 
-TEST_CASE("each triangle gets the first region that contains its centroid, or the rest", "[unit]") {
+TEST_CASE("each triangle belongs to all areas that contain its centroid, or to the rest", "[unit]") {
     Mesh mesh = bumpy_ball(20, 30);
     const std::vector<PartRegion> regions{{"head", {{0, 0, 1.2, 0.5}}, {}},
                                           {"hand", {{0.9, 0, 0, 0.4}}, {}},
                                           {"head", {{0, 0, 0.9, 0.5}}, {{{0, 0, 0}, {1, 0, 0}}}}};
     label_parts(mesh, regions);
-    CHECK(mesh.part_names == std::vector<std::string>{"body", "head", "hand"});
+    const Areas areas(mesh.part_names);
+    CHECK(areas.names() == std::vector<std::string>{"body", "head", "hand"});
     std::set<int> seen;
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-        std::string expected = "body";
+        std::set<std::string> expected;
         for (const PartRegion& region : regions) {
-            if (!region.contains(centroid(mesh, i)))
-                continue;
-            expected = region.name;
-            break;
+            if (region.contains(centroid(mesh, i)))
+                expected.insert(region.name);
         }
-        REQUIRE(mesh.part_names[mesh.triangle_parts[i]] == expected);
+        if (expected.empty())
+            expected.insert("body");
+        for (std::size_t area = 0; area < areas.size(); ++area)
+            REQUIRE(areas.holds(area, mesh.triangle_parts[i]) == expected.contains(areas.names()[area]));
         seen.insert(mesh.triangle_parts[i]);
     }
     CHECK(seen == std::set<int>{0, 1, 2});

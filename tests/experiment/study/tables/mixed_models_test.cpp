@@ -72,7 +72,7 @@ TEST_CASE("mixed models find what was planted in the tables that are written", "
                     .c_str()) == 0);
     INFO(read_whole_file(folder.path() / "said.txt"));
     const TsvFile tests = table_of(folder.path() / "mixed_models_tests.csv", folder);
-    CHECK(tests.number(row_of(tests, "head fraction", "material"), "p") < 1e-3);
+    CHECK(tests.number(row_of(tests, "share on head", "material"), "p") < 1e-3);
     CHECK(tests.number(row_of(tests, "log WSS", "material"), "p") < 1e-3);
     CHECK(tests.integer(row_of(tests, "log WSS", "material"), "df") == 2);
     // With sum contrasts the first level's coefficient is its difference from the mean of all three.
@@ -83,6 +83,6 @@ TEST_CASE("mixed models find what was planted in the tables that are written", "
         CHECK(std::abs(terms.number(row, "estimate") - planted) < 3.5 * error);
         CHECK(error < 0.3);
     };
-    check("head fraction", -1.0);
+    check("share on head", -1.0);
     check("log WSS", -0.5);
 }

@@ -1,5 +1,5 @@
 /// What is found of planted head shares after a tracker's error, without drawing anything.
-#include "experiment/study/read/part_evidence.h"
+#include "experiment/study/read/area_evidence.h"
 
 #include <cmath>
 #include <memory>
@@ -30,7 +30,7 @@ class PlantedStudies {
         scene_.objects = {{&mesh_, SceneView{view, mesh_.bounds()}}};
         scene_.animations[0].frame_count = 31;
         for (const double share : planted)
-            scene_.tasks.push_back({"", share});
+            scene_.tasks.push_back({"", {share}});
         poses_ = distinct_poses(scene_.animations[0]);
         targets_ = std::make_unique<GazeTargets>(scene_.objects[0], scene_);
         turn_ = std::make_unique<PursuedTurn>(scene_);
@@ -71,22 +71,23 @@ class PlantedStudies {
                 }
             }
         }
-        const auto evidence = part_evidence(mesh_, head, scene_.objects[0].scene, poses_.angles, places);
+        const auto evidence =
+            area_evidence(mesh_, Areas(mesh_.part_names), scene_.objects[0].scene, poses_.angles, places);
         std::array<Found, 4> found;
         for (int task = 0; task < 4; ++task) {
             for (int observer = 0; observer < observers; ++observer) {
-                std::vector<PartEvidence> own;
+                std::vector<AreaEvidence> own;
                 double heads = 0.0, met = 0.0;
                 for (std::size_t i = 0; i < fixations.size(); ++i) {
                     if (fixations[i].observer != observer || fixations[i].task != task)
                         continue;
-                    if (evidence[i])
-                        own.push_back(*evidence[i]);
+                    if (!evidence[i].empty())
+                        own.push_back(evidence[i][head_index]);
                     heads += fixations[i].found == 1;
                     met += fixations[i].found >= 0;
                 }
                 found[static_cast<std::size_t>(task)].raw.push_back(heads / met);
-                found[static_cast<std::size_t>(task)].corrected.push_back(*most_probable_head_share(own));
+                found[static_cast<std::size_t>(task)].corrected.push_back(*most_probable_share(own));
             }
         }
         return found;
@@ -96,6 +97,7 @@ class PlantedStudies {
     const SceneView& view() const { return scene_.objects[0].scene; }
     const PoseTable& poses() const { return poses_; }
     static constexpr PartIndex head = 1;
+    static constexpr std::size_t head_index = 1; ///< of the areas
 
   private:
     Mesh mesh_ = test::bust();
@@ -139,20 +141,20 @@ TEST_CASE("without an error of the tracker the correction changes nothing", "[un
 }
 
 TEST_CASE("the most probable share is that of the likelihood's peak", "[unit]") {
-    CHECK_FALSE(most_probable_head_share({}));
-    const std::vector<PartEvidence> heads{{2.0, 0.0}, {1.0, 0.0}}, others{{0.0, 1.0}};
-    CHECK(most_probable_head_share(heads) == 1.0);
-    CHECK(most_probable_head_share(others) == 0.0);
+    CHECK_FALSE(most_probable_share({}));
+    const std::vector<AreaEvidence> heads{{2.0, 0.0}, {1.0, 0.0}}, others{{0.0, 1.0}};
+    CHECK(most_probable_share(heads) == 1.0);
+    CHECK(most_probable_share(others) == 0.0);
     // Of counts without doubt it is their share; what says nothing of the part changes nothing.
-    std::vector<PartEvidence> mixed{{1.0, 0.0}, {3.0, 0.0}, {0.0, 5.0}, {0.0, 1.0}, {0.0, 2.0}};
-    CHECK(*most_probable_head_share(mixed) == Approx(0.4));
+    std::vector<AreaEvidence> mixed{{1.0, 0.0}, {3.0, 0.0}, {0.0, 5.0}, {0.0, 1.0}, {0.0, 2.0}};
+    CHECK(*most_probable_share(mixed) == Approx(0.4));
     mixed.push_back({0.7, 0.7});
-    CHECK(*most_probable_head_share(mixed) == Approx(0.4));
+    CHECK(*most_probable_share(mixed) == Approx(0.4));
     // 1 / (1 + p) = 1 / (2 - p) for p in the middle; with weights 2 and 1 by hand: 2 (2 - p) = 1 + p.
-    const std::vector<PartEvidence> doubt{{2.0, 1.0}, {2.0, 1.0}, {1.0, 2.0}};
-    CHECK(*most_probable_head_share(doubt) == Approx(1.0));
-    const std::vector<PartEvidence> even{{2.0, 1.0}, {1.0, 2.0}};
-    CHECK(*most_probable_head_share(even) == Approx(0.5));
+    const std::vector<AreaEvidence> doubt{{2.0, 1.0}, {2.0, 1.0}, {1.0, 2.0}};
+    CHECK(*most_probable_share(doubt) == Approx(1.0));
+    const std::vector<AreaEvidence> even{{2.0, 1.0}, {1.0, 2.0}};
+    CHECK(*most_probable_share(even) == Approx(0.5));
 }
 
 TEST_CASE("fixations far from the object, too few of them and objects of one part have no evidence",
@@ -165,15 +167,18 @@ TEST_CASE("fixations far from the object, too few of them and objects of one par
         places.push_back({{0}, i % 3 == 0 ? head : body, {10.0, 10.0}});
     places.push_back({{0}, {5.0, 5.0}, {10.0, 10.0}});
     const auto angles = studies.poses().angles;
-    const auto evidence = part_evidence(studies.mesh(), PlantedStudies::head, studies.view(), angles, places);
+    const Areas areas(studies.mesh().part_names);
+    const auto evidence = area_evidence(studies.mesh(), areas, studies.view(), angles, places);
     REQUIRE(evidence.size() == 31);
-    CHECK(evidence[0]->head > 1e3 * evidence[0]->elsewhere);
-    CHECK(evidence[1]->elsewhere > 1e3 * evidence[1]->head);
-    CHECK_FALSE(evidence[30]);
-    const auto few = part_evidence(studies.mesh(), PlantedStudies::head, studies.view(), angles,
-                                   std::span(places).first(19));
+    const auto of_head = [&](std::size_t i) { return evidence[i].at(PlantedStudies::head_index); };
+    CHECK(of_head(0).inside > 1e3 * of_head(0).elsewhere);
+    CHECK(of_head(1).elsewhere > 1e3 * of_head(1).inside);
+    CHECK(evidence[30].empty());
+    const auto few =
+        area_evidence(studies.mesh(), areas, studies.view(), angles, std::span(places).first(19));
     CHECK(few.size() == 19);
-    CHECK_FALSE(few[0]);
-    constexpr PartIndex no_part = 77;
-    CHECK_FALSE(part_evidence(studies.mesh(), no_part, studies.view(), angles, places)[0]);
+    CHECK(few[0].empty());
+    const std::vector<std::string> whole(3, "all of it");
+    CHECK(area_evidence(studies.mesh(), Areas(whole), studies.view(), angles, places)[0].empty());
+    CHECK(area_evidence(studies.mesh(), Areas(), studies.view(), angles, places)[0].empty());
 }

@@ -1,4 +1,4 @@
-#include "experiment/study/read/part_evidence.h"
+#include "experiment/study/read/area_evidence.h"
 
 #include <algorithm>
 #include <array>
@@ -22,18 +22,18 @@ constexpr double least_sigma_cells = 0.6;
 /// Fewer fixations than these do not tell how they are spread over the surface.
 constexpr std::size_t least_fixations = 20;
 
-/// Steps of the EM: the share of the head no longer changes in its third decimal, and noise is not yet
+/// Steps of the EM: the share of an area no longer changes in its third decimal, and noise is not yet
 /// fitted.
 constexpr int em_steps = 60;
 
 /// Points of the surface that stand for equal areas about them.
 struct Cells {
     std::vector<glm::dvec3> positions;
-    std::vector<std::uint8_t> is_head;
+    std::vector<PartIndex> parts;
     double width = 0.0; ///< of a square of a cell's area, in the mesh's unit
 };
 
-Cells cells_of(const Mesh& mesh, const HeadParts& head) {
+Cells cells_of(const Mesh& mesh) {
     std::vector<double> up_to; // area up to and with each triangle
     double all = 0.0;
     const auto corner = [&](glm::uvec3 triangle, int i) { return glm::dvec3(mesh.positions[triangle[i]]); };
@@ -55,7 +55,7 @@ Cells cells_of(const Mesh& mesh, const HeadParts& head) {
         const glm::uvec3 t = mesh.triangles[triangle];
         cells.positions.push_back((1.0 - root) * corner(t, 0) + root * (1.0 - share) * corner(t, 1) +
                                   root * share * corner(t, 2));
-        cells.is_head.push_back(head.has(mesh.triangle_parts[triangle]));
+        cells.parts.push_back(mesh.triangle_parts[triangle]);
     }
     return cells;
 }
@@ -73,11 +73,12 @@ struct PosePicture {
     double cell_px = 0.0;           ///< width of a cell that faces the observer
 };
 
-class Deconvolution {
+/// What may have been looked at, whichever area is asked for.
+class LookedAt {
   public:
-    Deconvolution(const Mesh& mesh, const HeadParts& head, const SceneView& scene,
-                  std::span<const Degrees> poses, std::span<const MeasuredPlace> fixations)
-        : cells_(cells_of(mesh, head)), fixations_(fixations), pictures_(poses.size()),
+    LookedAt(const Mesh& mesh, const SceneView& scene, std::span<const Degrees> poses,
+             std::span<const MeasuredPlace> fixations)
+        : cells_(cells_of(mesh)), fixations_(fixations), pictures_(poses.size()),
           candidates_(fixations.size()) {
         std::vector<std::uint8_t> is_used(poses.size(), 0);
         for (const MeasuredPlace& fixation : fixations)
@@ -96,27 +97,11 @@ class Deconvolution {
         return static_cast<std::size_t>(
             std::ranges::count_if(candidates_, [](const auto& of) { return !of.empty(); }));
     }
-    bool has_both() const {
-        const auto heads = std::ranges::count(cells_.is_head, std::uint8_t{1});
-        return heads > 0 && heads < static_cast<std::ptrdiff_t>(cells_.is_head.size());
-    }
-
-    void climb() {
-        weights_.assign(cells_.positions.size(), 1.0);
-        head_share_ = 0.5;
-        for (int step = 0; step < em_steps; ++step)
-            climb_once();
-    }
-
-    std::vector<std::optional<PartEvidence>> evidence() const {
-        const std::vector<std::array<double, 2>> seen = seen_weights();
-        std::vector<std::optional<PartEvidence>> found(fixations_.size());
-        for (std::size_t i = 0; i < found.size(); ++i) {
-            const PartEvidence of = evidence_of(i, seen);
-            if (of.head + of.elsewhere > 0.0)
-                found[i] = of;
-        }
-        return found;
+    const Cells& cells() const { return cells_; }
+    const std::vector<PosePicture>& pictures() const { return pictures_; }
+    const std::vector<std::vector<Candidate>>& candidates() const { return candidates_; } ///< by fixation
+    std::size_t pose_of(std::size_t fixation) const {
+        return static_cast<std::size_t>(fixations_[fixation].pose.value);
     }
 
   private:
@@ -157,21 +142,58 @@ class Deconvolution {
             found.clear();
     }
 
-    /// By pose: weight of the head's cells that are seen in it, and of the others.
+    Cells cells_;
+    std::span<const MeasuredPlace> fixations_;
+    std::vector<PosePicture> pictures_; ///< by pose
+    std::vector<std::vector<Candidate>> candidates_;
+};
+
+/// Of one area.
+class Deconvolution {
+  public:
+    Deconvolution(const LookedAt& looks, const Areas& areas, std::size_t area) : looks_(looks) {
+        for (const PartIndex part : looks.cells().parts)
+            is_inside_.push_back(areas.holds(area, part));
+    }
+
+    bool has_both() const {
+        const auto inside = std::ranges::count(is_inside_, std::uint8_t{1});
+        return inside > 0 && inside < static_cast<std::ptrdiff_t>(is_inside_.size());
+    }
+
+    void climb() {
+        weights_.assign(is_inside_.size(), 1.0);
+        share_ = 0.5;
+        for (int step = 0; step < em_steps; ++step)
+            climb_once();
+    }
+
+    /// By fixation.
+    std::vector<AreaEvidence> evidence() const {
+        const std::vector<std::array<double, 2>> seen = seen_weights();
+        std::vector<AreaEvidence> found(looks_.candidates().size());
+        for (std::size_t i = 0; i < found.size(); ++i)
+            found[i] = evidence_of(i, seen);
+        return found;
+    }
+
+  private:
+    /// By pose: weight of the area's cells that are seen in it, and of the others.
     std::vector<std::array<double, 2>> seen_weights() const {
-        std::vector<std::array<double, 2>> seen(pictures_.size(), {0.0, 0.0});
-        for (std::size_t pose = 0; pose < pictures_.size(); ++pose) {
-            for (const std::uint32_t cell : pictures_[pose].visible)
-                seen[pose][cells_.is_head[cell]] += weights_[cell];
+        const std::vector<PosePicture>& pictures = looks_.pictures();
+        std::vector<std::array<double, 2>> seen(pictures.size(), {0.0, 0.0});
+        for (std::size_t pose = 0; pose < pictures.size(); ++pose) {
+            for (const std::uint32_t cell : pictures[pose].visible)
+                seen[pose][is_inside_[cell]] += weights_[cell];
         }
         return seen;
     }
 
-    PartEvidence evidence_of(std::size_t index, const std::vector<std::array<double, 2>>& seen) const {
+    AreaEvidence evidence_of(std::size_t index, const std::vector<std::array<double, 2>>& seen) const {
         std::array<double, 2> sums{0.0, 0.0};
-        for (const Candidate& candidate : candidates_[index])
-            sums[cells_.is_head[candidate.cell]] += weights_[candidate.cell] * candidate.density;
-        const auto& of_pose = seen[static_cast<std::size_t>(fixations_[index].pose.value)];
+        for (const Candidate& candidate : looks_.candidates()[index])
+            sums[is_inside_[candidate.cell]] += weights_[candidate.cell] * candidate.density;
+        const auto& of_pose = seen[looks_.pose_of(index)];
         return {of_pose[1] > 0.0 ? sums[1] / of_pose[1] : 0.0, of_pose[0] > 0.0 ? sums[0] / of_pose[0] : 0.0};
     }
 
@@ -180,71 +202,92 @@ class Deconvolution {
     void climb_once() {
         const std::vector<std::array<double, 2>> seen = seen_weights();
         std::vector<double> responsible(weights_.size(), 0.0);
-        std::vector<std::array<double, 2>> of_pose(pictures_.size(), {0.0, 0.0});
-        double heads = 0.0, all = 0.0;
-        for (std::size_t i = 0; i < candidates_.size(); ++i) {
-            if (candidates_[i].empty())
+        std::vector<std::array<double, 2>> of_pose(looks_.pictures().size(), {0.0, 0.0});
+        double inside = 0.0, all = 0.0;
+        const std::vector<std::vector<Candidate>>& candidates = looks_.candidates();
+        for (std::size_t i = 0; i < candidates.size(); ++i) {
+            if (candidates[i].empty())
                 continue;
-            const auto pose = static_cast<std::size_t>(fixations_[i].pose.value);
-            const std::array<double, 2> shares{1.0 - head_share_, head_share_};
-            const PartEvidence evidence = evidence_of(i, seen);
-            const double total = shares[1] * evidence.head + shares[0] * evidence.elsewhere;
+            const std::size_t pose = looks_.pose_of(i);
+            const std::array<double, 2> shares{1.0 - share_, share_};
+            const AreaEvidence evidence = evidence_of(i, seen);
+            const double total = shares[1] * evidence.inside + shares[0] * evidence.elsewhere;
             if (!(total > 0.0))
                 continue;
-            for (const Candidate& candidate : candidates_[i]) {
-                const std::uint8_t part = cells_.is_head[candidate.cell];
+            for (const Candidate& candidate : candidates[i]) {
+                const std::uint8_t part = is_inside_[candidate.cell];
                 responsible[candidate.cell] +=
                     shares[part] * weights_[candidate.cell] * candidate.density / (seen[pose][part] * total);
             }
-            of_pose[pose][1] += shares[1] * evidence.head / total;
+            of_pose[pose][1] += shares[1] * evidence.inside / total;
             of_pose[pose][0] += shares[0] * evidence.elsewhere / total;
-            heads += shares[1] * evidence.head / total;
+            inside += shares[1] * evidence.inside / total;
             all += 1.0;
         }
         std::vector<double> could(weights_.size(), 0.0);
-        for (std::size_t pose = 0; pose < pictures_.size(); ++pose) {
-            for (const std::uint32_t cell : pictures_[pose].visible) {
-                const std::uint8_t part = cells_.is_head[cell];
+        for (std::size_t pose = 0; pose < looks_.pictures().size(); ++pose) {
+            for (const std::uint32_t cell : looks_.pictures()[pose].visible) {
+                const std::uint8_t part = is_inside_[cell];
                 if (seen[pose][part] > 0.0)
                     could[cell] += of_pose[pose][part] / seen[pose][part];
             }
         }
         for (std::size_t cell = 0; cell < weights_.size(); ++cell)
             weights_[cell] = could[cell] > 0.0 ? responsible[cell] / could[cell] : 0.0;
-        head_share_ = all > 0.0 ? heads / all : 0.5;
+        share_ = all > 0.0 ? inside / all : 0.5;
     }
 
-    Cells cells_;
-    std::span<const MeasuredPlace> fixations_;
-    std::vector<PosePicture> pictures_; ///< by pose
-    std::vector<std::vector<Candidate>> candidates_;
-    std::vector<double> weights_; ///< by cell
-    double head_share_ = 0.5;
+    const LookedAt& looks_;
+    std::vector<std::uint8_t> is_inside_; ///< by cell
+    std::vector<double> weights_;         ///< by cell
+    double share_ = 0.5;
 };
 
 } // namespace
 
-std::vector<std::optional<PartEvidence>> part_evidence(const Mesh& mesh, const HeadParts& head,
-                                                       const SceneView& scene, std::span<const Degrees> poses,
-                                                       std::span<const MeasuredPlace> fixations) {
-    if (mesh.triangles.empty() || fixations.size() < least_fixations)
-        return std::vector<std::optional<PartEvidence>>(fixations.size());
-    Deconvolution deconvolution(mesh, head, scene, poses, fixations);
-    if (!deconvolution.has_both() || deconvolution.told() < least_fixations)
-        return std::vector<std::optional<PartEvidence>>(fixations.size());
-    deconvolution.climb();
-    return deconvolution.evidence();
+std::vector<std::vector<AreaEvidence>> area_evidence(const Mesh& mesh, const Areas& areas,
+                                                     const SceneView& scene, std::span<const Degrees> poses,
+                                                     std::span<const MeasuredPlace> fixations) {
+    std::vector<std::vector<AreaEvidence>> found(fixations.size());
+    if (mesh.triangles.empty() || areas.empty() || fixations.size() < least_fixations)
+        return found;
+    const LookedAt looks(mesh, scene, poses, fixations);
+    if (looks.told() < least_fixations)
+        return found;
+    std::vector<std::vector<AreaEvidence>> by_area(areas.size());
+    parallel_for(static_cast<int>(areas.size()), [&](int i) {
+        const auto area = static_cast<std::size_t>(i);
+        Deconvolution deconvolution(looks, areas, area);
+        if (!deconvolution.has_both())
+            return;
+        deconvolution.climb();
+        by_area[area] = deconvolution.evidence();
+    });
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        bool any = false;
+        std::vector<AreaEvidence> of(areas.size());
+        for (std::size_t area = 0; area < areas.size(); ++area) {
+            if (!by_area[area].empty())
+                of[area] = by_area[area][i];
+            any = any || of[area].tells();
+        }
+        if (any)
+            found[i] = std::move(of);
+    }
+    return found;
 }
 
-std::optional<double> most_probable_head_share(std::span<const PartEvidence> fixations) {
-    if (fixations.empty())
+std::optional<double> most_probable_share(std::span<const AreaEvidence> fixations) {
+    if (std::ranges::none_of(fixations, &AreaEvidence::tells))
         return std::nullopt;
     // The likelihood's logarithm is concave in the share: its slope falls, and has one root at most.
     const auto slope = [&](double share) {
         double sum = 0.0;
-        for (const PartEvidence& of : fixations) {
-            const double mixed = share * of.head + (1.0 - share) * of.elsewhere;
-            sum += mixed > 0.0 ? (of.head - of.elsewhere) / mixed : (share < 0.5 ? 1e300 : -1e300);
+        for (const AreaEvidence& of : fixations) {
+            if (!of.tells())
+                continue;
+            const double mixed = share * of.inside + (1.0 - share) * of.elsewhere;
+            sum += mixed > 0.0 ? (of.inside - of.elsewhere) / mixed : (share < 0.5 ? 1e300 : -1e300);
         }
         return sum;
     };

@@ -1,0 +1,70 @@
+#include "experiment/record/session_header.h"
+
+#include <algorithm>
+#include <type_traits>
+
+namespace overt {
+
+std::vector<ListEntry> entries_of(const SessionHeader& header, std::size_t list) {
+    std::vector<ListEntry> entries;
+    std::size_t at = 0;
+    const auto take = [&](auto of_list) {
+        if (at++ == list)
+            for (const auto& entry : header.*of_list)
+                entries.push_back({entry.id, entry.title, entry.columns, {}});
+    };
+    std::apply([&](auto... of_list) { (take(of_list), ...); }, recorded_lists);
+    if (entries.empty()) {
+        const std::string name(stimulus_lists[list].name);
+        entries.push_back({name, name, {}, {}});
+    }
+    return entries;
+}
+
+void record_entries(SessionHeader& header, std::size_t list, const std::vector<const ListEntry*>& entries) {
+    std::size_t at = 0;
+    const auto put = [&](auto of_list) {
+        if (at++ != list)
+            return;
+        auto& recorded = header.*of_list;
+        if constexpr (std::is_same_v<std::remove_reference_t<decltype(recorded)>, std::vector<ListEntry>>)
+            for (const ListEntry* entry : entries)
+                recorded.push_back({entry->id, entry->title, entry->columns, {}});
+        else
+            for (std::size_t i = 0; i < std::min(recorded.size(), entries.size()); ++i)
+                recorded[i].columns = entries[i]->columns;
+    };
+    std::apply([&](auto... of_list) { (put(of_list), ...); }, recorded_lists);
+}
+
+std::array<std::size_t, stimulus_lists.size()> entry_counts(const SessionHeader& header) {
+    std::array<std::size_t, stimulus_lists.size()> counts{};
+    for (std::size_t list = 0; list < counts.size(); ++list)
+        counts[list] = entries_of(header, list).size();
+    return counts;
+}
+
+Factors factors_of(const SessionHeader& header) {
+    FactorSources sources;
+    for (const RecordedTask& task : header.tasks)
+        sources.tasks.push_back(task.id);
+    sources.blocks = header.blocks;
+    for (std::size_t list = 0; list < stimulus_lists.size(); ++list)
+        sources.lists[list] = entries_of(header, list);
+    return Factors(sources);
+}
+
+std::string stimulus_name(const SessionHeader& header, const Stimulus& stimulus, std::string_view between) {
+    std::string name;
+    for (std::size_t list = 0; list < stimulus_lists.size(); ++list) {
+        const std::vector<ListEntry> entries = entries_of(header, list);
+        if (entries.size() < 2 && !stimulus_lists[list].is_always_named)
+            continue;
+        if (!name.empty())
+            name += between;
+        name += entries.at(static_cast<std::size_t>(stimulus.*stimulus_lists[list].index)).id;
+    }
+    return name;
+}
+
+} // namespace overt

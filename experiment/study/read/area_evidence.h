@@ -1,0 +1,46 @@
+/// What the measured places of fixations say of the areas that were looked at, given the tracker's error.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "experiment/animation.h"
+#include "experiment/scene/areas.h"
+#include "experiment/scene/viewing.h"
+#include "experiment/study/results/study_results.h"
+
+namespace overt {
+
+/// Where the tracker saw a fixation, halfway through.
+struct MeasuredPlace {
+    PoseIndex pose; ///< lit then
+    glm::dvec2 image_px{0.0};
+    glm::dvec2 sigma_px{0.0}; ///< standard deviation of the tracker's error along each axis, > 0
+};
+
+/// A measured place farther than this from everything that is seen of the object says nothing of its areas:
+/// 99 % of normal errors in the plane are smaller (Rayleigh's distribution).
+inline constexpr double farthest_sigmas = 3.035;
+
+/// Which places of the surface were looked at is estimated from all fixations together: cells of the surface,
+/// equal in area, get the weights under which the measured places are most probable, with each place
+/// normally distributed about the picture of the cell that was looked at. That is maximum likelihood for a
+/// mixture (Laird, Journal of the American Statistical Association 73, 1978), climbed by EM as in
+/// Richardson's and Lucy's deconvolution (1972, 1974); in each pose only cells that nothing hides can be
+/// looked at. Each area of the object is asked apart: of its weights and those of all else together the
+/// area's alone give the one probability of a fixation, the others' alone the other.
+///
+/// By fixation and area. Empty for fixations of which no area tells, such as those beyond farthest_sigmas,
+/// and all if they are a few only; of an area that has no triangle, or all of them, nothing tells. `poses` by
+/// PoseIndex. The same on any number of processors. Throws GraphicsError if the mesh's rays cannot be cast.
+std::vector<std::vector<AreaEvidence>> area_evidence(const Mesh& mesh, const Areas& areas,
+                                                     const SceneView& scene, std::span<const Degrees> poses,
+                                                     std::span<const MeasuredPlace> fixations);
+
+/// The share of fixations on an area under which what was measured is most probable, 0 … 1; nothing without
+/// any that tells. Each fixation counts for inside and elsewhere by its evidence.
+std::optional<double> most_probable_share(std::span<const AreaEvidence> fixations);
+
+} // namespace overt

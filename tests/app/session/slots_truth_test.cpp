@@ -1,0 +1,117 @@
+/// Objects side by side: each sample of gaze belongs to the one it fell on.
+#include <catch2/catch.hpp>
+
+#include <map>
+#include <string>
+
+#include "tests/app/session/exact_sitting.h"
+#include "tests/support/tsv_file.h"
+
+using namespace overt;
+using namespace overt::test;
+
+namespace {
+
+std::string side_by_side() {
+    std::string text(small_protocol);
+    for (const char* const task : {"id = \"face\"", "id = \"clothes\"", "id = \"free\""})
+        text = with(text, task, std::string(task) + "\nslots = [\"left\", \"right\"]");
+    text = with(text, "rate_hz = 1000", "rate_hz = 2000");
+    return text + "\n[[slot]]\nid = \"left\"\nright_deg = -7\nsize_deg = 6.4\n"
+                  "[[slot]]\nid = \"right\"\nright_deg = 7\nup_deg = 0.5\nsize_deg = 6.4\n";
+}
+
+} // namespace
+
+TEST_CASE("of two objects side by side each sample is on the surface it fell on", "[session]") {
+    ExactSitting sitting(side_by_side());
+    // Another object at the right, and in some trials another material.
+    for (Trial& trial : sitting.schedule.trials) {
+        REQUIRE(trial.beside.size() == 1);
+        trial.beside[0].stimulus.object = 1 - trial.stimulus.object;
+        trial.beside[0].stimulus.material = trial.index % 2;
+    }
+    const std::filesystem::path tables = sitting.run();
+    const TsvFile samples(tables / "samples.tsv");
+    REQUIRE(samples.size() > 20000);
+    const SessionRecord record(sitting.folder);
+    // The record has the trials as they were planned, and what was shown.
+    CHECK(record.header().schedule.trials == sitting.schedule.trials);
+    for (const TrialRecord& trial : record.trials())
+        CHECK(trial.trial == sitting.schedule.trials[static_cast<std::size_t>(trial.trial.index)]);
+
+    int all_on_surface = 0, elsewhere = 0, missing = 0, invented = 0, misplaced = 0, on_another_frame = 0;
+    std::map<std::string, int> on_surface;
+    double last_s = -1.0;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        const TrackerTime sampled_at{TrackerClock::duration(samples.integer(i, "tracker_time_us"))};
+        const GazeTruth truth = sitting.observer.truth_at(sitting.tracker.session_time_at(sampled_at));
+        CHECK(samples.number(i, "time_s") > last_s); // each once, in the order of time
+        last_s = samples.number(i, "time_s");
+        all_on_surface += samples.has(i, "surface_x");
+        const auto number = static_cast<std::size_t>(samples.integer(i, "trial") - 1);
+        const Trial& trial = sitting.schedule.trials.at(number);
+        if (!samples.has(i, "x_px"))
+            continue;
+        const bool has_frame = samples.has(i, "frame");
+        const bool is_in_slot = truth.shown.has_value() && truth.frame.has_value();
+        if (has_frame != is_in_slot || (has_frame && samples.integer(i, "frame") != truth.frame->value)) {
+            ++on_another_frame;
+            continue;
+        }
+        if (truth.shown) {
+            const PlacedStimulus shown = trial.shown(*truth.shown);
+            const char* const slot = shown.slot == 0 ? "left" : "right";
+            const char* const object = shown.stimulus.object == 0 ? "bust" : "tall";
+            misplaced += samples.text(i, "slot") != slot || samples.text(i, "object") != object;
+        } else if (truth.frame) {
+            misplaced += samples.has(i, "slot") || samples.has(i, "object");
+        }
+        const bool has_surface = samples.has(i, "surface_x");
+        missing += truth.surface && !has_surface;
+        invented += !truth.surface && has_surface;
+        if (!truth.surface || !has_surface)
+            continue;
+        ++on_surface[samples.text(i, "slot")];
+        const glm::dvec3 exported(samples.number(i, "surface_x"), samples.number(i, "surface_y"),
+                                  samples.number(i, "surface_z"));
+        elsewhere += glm::distance(exported, truth.surface->position) > 1e-6;
+    }
+    CHECK(on_surface["left"] > 4000);
+    CHECK(on_surface["right"] > 4000);
+    CHECK(misplaced == 0);
+    CHECK(elsewhere == 0);
+    CHECK(missing == 0);
+    CHECK(invented == 0);
+    CHECK(on_another_frame <= static_cast<int>(samples.size()) / 1000);
+
+    // A row for each presentation, and for each flip in each slot.
+    const TsvFile presentations(tables / "presentations.tsv");
+    REQUIRE(presentations.size() == 2 * sitting.schedule.trials.size());
+    std::int64_t on_object = 0;
+    for (std::size_t i = 0; i < presentations.size(); ++i) {
+        CHECK(presentations.text(i, "slot") == (i % 2 == 0 ? "left" : "right"));
+        on_object += presentations.integer(i, "samples_on_object");
+    }
+    CHECK(on_object == all_on_surface);
+    const TsvFile flips(tables / "flips.tsv");
+    std::map<std::string, int> of_slot;
+    for (std::size_t i = 0; i < flips.size(); ++i)
+        ++of_slot[flips.text(i, "slot")];
+    CHECK(of_slot["left"] > 1000);
+    CHECK(of_slot["left"] == of_slot["right"]);
+
+    // A fixation lies in a slot or in none, and stands in the table once.
+    const TsvFile events(tables / "gaze_events.tsv");
+    int fixations = 0, in_slots = 0;
+    for (std::size_t i = 0; i < events.size(); ++i) {
+        if (events.text(i, "kind") != "fixation")
+            continue;
+        ++fixations;
+        in_slots += events.has(i, "slot");
+        if (events.has(i, "slot"))
+            CHECK(events.text(i, "slot") == (events.number(i, "x_px") < 272.0 ? "left" : "right"));
+    }
+    CHECK(in_slots > 10);
+    CHECK(in_slots < fixations);
+}
