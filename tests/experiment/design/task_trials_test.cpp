@@ -390,7 +390,7 @@ TEST_CASE("all trials of a block of practice are practice, whatever else they ar
 TEST_CASE("a search fills some places of a circle, and leaves the others empty", "[unit]") {
     std::string text(two_slots);
     text.erase(text.find("[[slot]]"));
-    text += "[[slot]]\nid = \"ring\"\ncircle = 6\nradius_deg = 7\n[[task]]\nid = \"find\"\nquestion = \"Is "
+    text += "[[slot]]\nid = \"ring\"\ncircle = 6\nradius_deg = 4\n[[task]]\nid = \"find\"\nquestion = \"Is "
             "there one?\"\n"
             "slots = \"ring\"\ntrials = { rule = \"search\", of = \"material\", target = \"g3\", set_sizes = "
             "[2, 6], "
