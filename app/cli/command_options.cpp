@@ -61,7 +61,7 @@ CLI::Validator one_of(std::vector<std::string> words) {
 }
 
 CLI::Validator one_of_names(std::span<const std::string_view> names) {
-    return one_of({names.begin(), names.end()});
+    return one_of(std::vector<std::string>(names.begin(), names.end()));
 }
 
 void add_json_flag(CLI::App& command, bool& json) { command.add_flag("--json", json, "Print JSON"); }

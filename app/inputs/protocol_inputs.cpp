@@ -153,6 +153,32 @@ void examine_simulated_areas(const Experiment& experiment, Diagnostics& diagnost
             meant.push_back(area);
         }
     }
+    for (std::size_t i = 0; i < protocol.tasks.size(); ++i) {
+        double all = 0.0;
+        for (const auto& [area, share] : simulated_shares(protocol.tasks[i]))
+            all += share;
+        for (const Object& object : experiment.objects) {
+            const Areas own(object.mesh.part_names);
+            const auto is_meant = [&](std::size_t part) {
+                return std::ranges::any_of(meant, [&](const std::string& area) {
+                    const auto found = own.find(area);
+                    return found && own.holds(*found, static_cast<PartIndex>(part));
+                });
+            };
+            bool is_whole = object.has_mesh();
+            for (std::size_t part = 0; part < object.mesh.part_names.size(); ++part)
+                is_whole = is_whole && is_meant(part);
+            if (is_whole && all < 1.0 - 1e-9 && !protocol.tasks[i].simulated_area_shares.empty())
+                diagnostics.warning(
+                    protocol.file.string(),
+                    protocol.places.of(fmt::format("task[{}].simulated_area_shares", i)),
+                    fmt::format(
+                        "areas with shares are all of object \"{}\", and their shares come to {:.3g}: what "
+                        "is left goes to the first of them",
+                        object.id, all),
+                    "let the shares come to 1");
+        }
+    }
     for (std::size_t i = 0; i < protocol.simulated_effects.size(); ++i) {
         const std::string &area = protocol.simulated_effects[i].area,
                           key = fmt::format("simulated_effect[{}].area", i);

@@ -17,6 +17,8 @@
 
 namespace overt {
 
+struct Protocol;
+
 /// What a session's view is told of what does not change. `folder`: of the session. `header`: its record's.
 /// `steady`: the session's clock; null where time is virtual.
 OperatorServer::Options operator_view_of(const SessionHeader& header, const Protocol& protocol,

@@ -208,7 +208,7 @@ DesignReport make_design_report(const Protocol& protocol, const std::vector<Obse
     report.view = protocol.views.front();
     for (const Slot& slot : protocol.slots)
         if (slot.entry >= 0)
-            report.slots.push_back({slot.id, slot_geometry(protocol, slot)});
+            report.slot_places.push_back({slot.id, slot_geometry(protocol, slot)});
     for (const MotionSettings& motion : protocol.motions)
         report.motions.push_back(animation_facts(protocol, motion));
     report.angles = visual_angles(protocol);

@@ -120,7 +120,7 @@ struct DesignReport {
         std::string id;
         ScreenGeometry screen;
     };
-    std::vector<SlotFacts> slots; ///< none without [[slot]]
+    std::vector<SlotFacts> slot_places; ///< none without [[slot]]
     std::vector<AnimationFacts> motions;
     VisualAngles angles;
     DesignAssumptions assumptions;

@@ -164,7 +164,7 @@ Json to_json(const DesignReport& report) {
         if (std::isfinite(light->contrast()))
             json["light"]["contrast"] = light->contrast();
     }
-    for (const DesignReport::SlotFacts& slot : report.slots)
+    for (const DesignReport::SlotFacts& slot : report.slot_places)
         json["slots"].push_back({{"id", slot.id},
                                  {"left_px", slot.screen.image_origin_px.x},
                                  {"top_px", slot.screen.image_origin_px.y},

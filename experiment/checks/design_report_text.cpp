@@ -179,7 +179,7 @@ void add_overview(std::string& text, const DesignReport& report) {
                      report.display.viewing_distance_mm, angles.screen_width_deg, angles.screen_height_deg),
          fmt::format("light leaves as {}", name_of(report.display.output))});
     std::vector<std::string> places;
-    for (const DesignReport::SlotFacts& slot : report.slots) {
+    for (const DesignReport::SlotFacts& slot : report.slot_places) {
         const glm::ivec2 first = slot.screen.image_origin_px, last = first + slot.screen.image_px - 1;
         const glm::dvec2 middle = slot.screen.middle_deg();
         places.push_back(
@@ -201,7 +201,7 @@ void add_overview(std::string& text, const DesignReport& report) {
                     report.view.width_px, report.view.height_px, angles.image_width_deg,
                     angles.image_height_deg, angles.px_per_deg),
         fmt::format("rendered under {:.2f} deg", angles.camera_fov_deg)};
-    if (report.slots.empty() &&
+    if (report.slot_places.empty() &&
         std::hypot(angles.image_right_deg, angles.image_up_deg) > 2.0 / angles.px_per_deg)
         stimulus.push_back(fmt::format("its middle stands {:.2f} deg to the right of the screen's and {:.2f} "
                                        "deg above it",

@@ -106,7 +106,8 @@ std::vector<std::string> map_part_names(const ObjectSettings& settings) {
 std::vector<std::string> areas_of(std::span<const Object> objects) {
     std::vector<std::string> areas;
     for (const Object& object : objects) {
-        for (const std::string& area : Areas(object.mesh.part_names).names()) {
+        const Areas own(object.mesh.part_names);
+        for (const std::string& area : own.names()) {
             if (std::ranges::find(areas, area) == areas.end())
                 areas.push_back(area);
         }

@@ -31,16 +31,17 @@ std::vector<PartTransitions> part_transitions(const StudyResults& results, const
         auto own = std::ranges::find(found, trial.object, &PartTransitions::object);
         if (own == found.end())
             own = found.insert(found.end(), {trial.object, std::vector<int>(parts * parts, 0)});
-        std::optional<PartIndex> before;
+        constexpr int none = -1;
+        int before = none;
         for (std::size_t i = trial.first_fixation; i < trial.first_fixation + trial.fixations; ++i) {
             const StudyFixation& fixation = results.fixations[i];
             if (fixation.why == NotCounted::not_on_surface)
-                before.reset();
+                before = none;
             if (!fixation.counted())
                 continue;
-            if (before && fixation.part)
-                ++own->counts[*before * parts + *fixation.part];
-            before = fixation.part;
+            if (before != none && fixation.part)
+                ++own->counts[static_cast<std::size_t>(before) * parts + *fixation.part];
+            before = fixation.part ? int{*fixation.part} : none;
         }
     }
     return found;

@@ -40,7 +40,7 @@ inline std::filesystem::path put(const ScratchFolder& folder, const char* name, 
     return file;
 }
 
-inline const SurfaceLookup* no_surface(int) { return nullptr; }
+inline const SurfaceLookup* no_surface(const ViewedObject&) { return nullptr; }
 
 /// An import, and what any session must stand: all of its exports.
 inline void export_all(const std::filesystem::path& session, const std::filesystem::path& to) {

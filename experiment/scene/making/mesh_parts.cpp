@@ -55,11 +55,6 @@ void find_impossible(const PartRegion& region, AreaFaults& faults) {
     }
 }
 
-void throw_if_any(AreaFaults faults) {
-    if (!faults.empty())
-        throw AreaError(std::move(faults));
-}
-
 void expect_few(std::size_t parts) {
     if (parts > max_mesh_parts) {
         throw InputError(
@@ -115,9 +110,10 @@ void find_unknown_groups(const Mesh& mesh, bool is_divided, const PartRegion& re
     }
 }
 
-/// Of each triangle, the regions that have it. Throws AreaError if one has none.
+/// Of each triangle, the regions that have it. Throws AreaError if one has none, with the faults that others
+/// have.
 std::vector<RegionMask> regions_of(const Mesh& mesh, std::span<const PartRegion> regions,
-                                   const NamedRegions& named, RegionPlaces places) {
+                                   const NamedRegions& named, RegionPlaces places, AreaFaults faults) {
     std::vector<bool> is_used(regions.size(), false);
     std::vector<RegionMask> found(mesh.triangles.size(), 0);
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
@@ -131,12 +127,14 @@ std::vector<RegionMask> regions_of(const Mesh& mesh, std::span<const PartRegion>
             is_used[r] = true;
         }
     }
-    AreaFaults empty;
     for (std::size_t r = 0; r < regions.size(); ++r) {
-        if (!is_used[r])
-            empty.push_back({regions[r].name, words_of_empty(regions[r], places)});
+        const bool is_told =
+            std::ranges::find(faults, regions[r].name, &AreaError::Fault::area) != faults.end();
+        if (!is_used[r] && !is_told)
+            faults.push_back({regions[r].name, words_of_empty(regions[r], places)});
     }
-    throw_if_any(std::move(empty));
+    if (!faults.empty())
+        throw AreaError(std::move(faults));
     return found;
 }
 
@@ -199,7 +197,6 @@ std::vector<std::string> label_parts(Mesh& mesh, std::span<const PartRegion> reg
         find_impossible(region, faults);
         find_unknown_groups(mesh, is_divided, region, faults);
     }
-    throw_if_any(std::move(faults));
     std::vector<glm::dvec3> own;
     if (places.empty()) {
         own.assign(mesh.positions.begin(), mesh.positions.end());
@@ -217,7 +214,7 @@ std::vector<std::string> label_parts(Mesh& mesh, std::span<const PartRegion> reg
                                      "file labels.",
                                      region_names.size(), most_regions));
     const NamedRegions named(regions);
-    const std::vector<RegionMask> region_of = regions_of(mesh, regions, named, places);
+    const std::vector<RegionMask> region_of = regions_of(mesh, regions, named, places, std::move(faults));
 
     // What there is of each cell, in the order of the parts that the mesh had; those of no triangle stay.
     std::map<AreaCell, double> sizes;

@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "experiment/study/methods/methods_topics.h"
 #include "experiment/study/methods/sentences.h"
@@ -25,6 +26,9 @@ std::string motion_clause(const StudySession& session) {
     if (stimuli.image_deg)
         clause += fmt::format(" or {} x {} deg", as_measured(stimuli.image_deg->x, 1),
                               as_measured(stimuli.image_deg->y, 1));
+    if (!stimuli.motions.empty())
+        return fmt::format("{}; in each presentation, as it was planned, {}", clause,
+                           fmt::join(stimuli.motions, "; or "));
     const std::string duration = fmt::format("for {} s", as_set(stimuli.duration_s));
     if (stimuli.frame_count == 1 || stimuli.amplitude_deg == 0.0)
         return fmt::format("{}, and were planned to be shown {}, without motion", clause, duration);

@@ -5,6 +5,8 @@
 #include <numbers>
 #include <set>
 
+#include <fmt/format.h>
+
 #include "experiment/base/plain_text.h"
 #include "experiment/record/no_stimulus.h"
 
@@ -92,6 +94,25 @@ DisplaySetup display_of(const SessionHeader& header) {
     return display;
 }
 
+/// Such as "the object stood turned by 25 deg and the light turned to and fro …, for 2 s".
+std::string motion_in_words(const Animation& motion) {
+    const bool turns = motion.kind == MotionKind::turn && motion.amplitude.value != 0.0;
+    const bool light_turns = motion.light_amplitude.value != 0.0;
+    std::string words = turns
+                            ? fmt::format("the object turned by {} deg to each side", motion.amplitude.value)
+                            : std::string("the object stood");
+    if (motion.angle.value != 0.0)
+        words += fmt::format("{} {} deg from its front", turns ? " of" : " at", motion.angle.value);
+    if (light_turns)
+        words += fmt::format(" and the light turned by {} deg to each side", motion.light_amplitude.value);
+    if (turns || light_turns)
+        words += fmt::format(", to and fro about the vertical as a sine of time, in {} frames of {} at {} Hz",
+                             motion.frame_count,
+                             motion.playback == Playback::ping_pong ? "one sweep" : "one period",
+                             motion.frame_rate_hz);
+    return words + fmt::format(", for {} s", motion.duration_s);
+}
+
 StimulusSetup stimuli_of(const SessionHeader& header) {
     const ScreenGeometry& screen = header.display.screen;
     StimulusSetup stimuli;
@@ -108,6 +129,12 @@ StimulusSetup stimuli_of(const SessionHeader& header) {
     stimuli.amplitude_deg = header.animations.front().amplitude.value;
     stimuli.playback = header.animations.front().playback;
     stimuli.duration_s = header.animations.front().duration_s;
+    const Animation& first = header.animations.front();
+    if (header.animations.size() > 1 || first.kind == MotionKind::still || first.angle.value != 0.0 ||
+        first.light_amplitude.value != 0.0) {
+        for (const Animation& motion : header.animations)
+            stimuli.motions.push_back(motion_in_words(motion));
+    }
     return stimuli;
 }
 

@@ -73,6 +73,9 @@ struct StimulusSetup {
     double amplitude_deg = 0.0; ///< of the turn, to each side
     Playback playback = Playback::cycle;
     double duration_s = 0.0; ///< that was planned of a presentation
+    /// Where there are several motions, or one that is no turn about the front under a light that stands:
+    /// each in words. What is above is the first's.
+    std::vector<std::string> motions = {};
     friend bool operator==(const StimulusSetup&, const StimulusSetup&) = default;
 };
 

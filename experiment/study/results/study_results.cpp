@@ -5,9 +5,10 @@
 namespace overt {
 
 bool knows_stimuli(const StudyResults& results) {
-    return std::ranges::any_of(results.sessions, [](const StudySession& session) {
-        return session.setup.stimuli.frame_count > 0;
-    });
+    const auto knows_none = [](const StudySession& session) {
+        return session.setup.gaze.origin == GazeOrigin::imported && session.setup.stimuli.frame_count == 0;
+    };
+    return results.sessions.empty() || !std::ranges::all_of(results.sessions, knows_none);
 }
 
 std::string_view name_of(NotCounted why) {

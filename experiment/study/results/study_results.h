@@ -520,7 +520,7 @@ struct StudyResults {
     std::vector<StudyTrace> traces; ///< of each trial with samples, in the order of the trials
 };
 
-/// Whether any session knows what it showed; imported recordings do not.
+/// Whether any session knows what it showed, which recordings of other programs do not.
 bool knows_stimuli(const StudyResults& results);
 
 /// A few words for tables and sentences.

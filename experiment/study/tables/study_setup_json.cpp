@@ -59,6 +59,8 @@ FactsJson stimuli_json(const StimulusSetup& stimuli) {
     json["amplitude_deg"] = stimuli.amplitude_deg;
     json["playback"] = name_of(stimuli.playback);
     json["planned_duration_s"] = stimuli.duration_s;
+    if (!stimuli.motions.empty())
+        json["motions"] = stimuli.motions;
     return json;
 }
 

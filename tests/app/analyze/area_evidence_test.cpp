@@ -178,7 +178,7 @@ TEST_CASE("fixations far from the object, too few of them and objects of one par
         area_evidence(studies.mesh(), areas, studies.view(), angles, std::span(places).first(19));
     CHECK(few.size() == 19);
     CHECK(few[0].empty());
-    const std::vector<std::string> whole(2, "all of it");
+    const std::vector<std::string> whole(3, "all of it");
     CHECK(area_evidence(studies.mesh(), Areas(whole), studies.view(), angles, places)[0].empty());
     CHECK(area_evidence(studies.mesh(), Areas(), studies.view(), angles, places)[0].empty());
 }

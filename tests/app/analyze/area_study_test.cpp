@@ -27,9 +27,9 @@ std::string area_protocol() {
                text.find("[[material]]\nid = \"smooth\"") - text.find("[[object]]\nid = \"tall\""));
     text = text.substr(0, text.find("[[task]]"));
     return text + "[[task]]\nid = \"free\"\nquestion = \"Look.\"\n"
-                  "simulated_area_shares = { dome = 0.5, trunk = 0.2, foot = 0.2 }\n\n"
+                  "simulated_area_shares = { dome = 0.5, trunk = 0.3, foot = 0.2 }\n\n"
                   "[[task]]\nid = \"foot\"\nquestion = \"Look at the foot.\"\n"
-                  "simulated_area_shares = { dome = 0.1, trunk = 0.2, foot = 0.6 }\n\n"
+                  "simulated_area_shares = { dome = 0.2, trunk = 0.2, foot = 0.6 }\n\n"
                   "[[simulated_effect]]\nmaterial = \"matt\"\narea = \"foot\"\narea_odds = 2\n";
 }
 
@@ -70,7 +70,7 @@ TEST_CASE("four areas of a protocol go through a whole study, planted shares com
                                              "osmesa", "--observers", "6", "--out", study.string()});
     INFO(run.err << run.out);
     REQUIRE(run.exit_code == 0);
-    CHECK(run.out.find("head") == std::string::npos);
+    CHECK(run.out.find("on the head") == std::string::npos);
     std::vector<std::string> arguments{"analyze",   "--by",  "task,material",
                                        "--format",  "tsv",   "--area",
                                        "foot,dome", "--out", (study / "groups").string()};
@@ -83,14 +83,12 @@ TEST_CASE("four areas of a protocol go through a whole study, planted shares com
     const auto of = [&](const char* area, const char* task, const char* material, const char* column) {
         return number_of(areas, {{"area", area}, {"task", task}, {"material", material}}, column);
     };
-    for (const auto& [area, share] : {std::pair{"dome", 0.5}, {"trunk", 0.2}, {"foot", 0.2}}) {
+    for (const auto& [area, share] : {std::pair{"dome", 0.5}, {"trunk", 0.3}, {"foot", 0.2}}) {
         CAPTURE(area);
-        CHECK(of(area, "free", "smooth", "corrected_low") <= share);
-        CHECK(of(area, "free", "smooth", "corrected_high") >= share);
+        CHECK(of(area, "free", "smooth", "corrected") == Approx(share).margin(0.15));
     }
     // Odds of 0.6 times 2 are those of 0.75.
-    CHECK(of("foot", "foot", "matt", "corrected_low") <= 0.75);
-    CHECK(of("foot", "foot", "matt", "corrected_high") >= 0.75);
+    CHECK(of("foot", "foot", "matt", "corrected") == Approx(0.75).margin(0.15));
     CHECK(of("crown", "all", "all", "by_count") < of("dome", "all", "all", "by_count"));
     CHECK(of("left", "all", "all", "by_count") > 0.0);
     CHECK(of("foot", "all", "all", "share_of_exposure") > 0.0);
@@ -119,20 +117,21 @@ TEST_CASE("four areas of a protocol go through a whole study, planted shares com
 }
 
 TEST_CASE("areas that cannot be are refused where they are written, all at once", "[session]") {
-    std::string text =
-        with(small_protocol, "mesh = \"meshes/bust.ply\"\n",
-             "mesh = \"meshes/bust.ply\"\nareas = { far = { spheres = [[0, 0, 9000, 5]] },\n"
-             "  cup = { groups = [\"handle\"] }, \"a b\" = { planes = [[[0, 0, 0], [0, 0, 1]]] } }\n");
+    std::string text = with(small_protocol, "mesh = \"meshes/bust.ply\"\n",
+                            "mesh = \"meshes/bust.ply\"\n[object.areas.far]\nspheres = [[0, 0, 9000, 5]]\n"
+                            "[object.areas.cup]\ngroups = [\"handle\"]\n"
+                            "[object.areas.\"a b\"]\nplanes = [[[0, 0, 0], [0, 0, 1]]]\n");
     text = with(text, "simulated_head_share = 1\n", "simulated_area_shares = { rim = 0.2 }\n");
     const SmallExperiment experiment(text);
     const ProgramRun run = experiment.overt({"check", experiment.protocol().string()});
     CHECK(run.exit_code == 2);
     INFO(run.err);
     CHECK(run.err.find("\"a b\" cannot be used in file names") != std::string::npos);
-    const SmallExperiment named(with(text, ", \"a b\" = { planes = [[[0, 0, 0], [0, 0, 1]]] } }", " }"));
+    const SmallExperiment named(with(text, "[object.areas.\"a b\"]", "[object.areas.top]"));
     const ProgramRun groups = named.overt({"check", named.protocol().string()});
     CHECK(groups.exit_code == 2);
     INFO(groups.err);
+    CHECK(groups.err.find("area 'far' contains no triangle") != std::string::npos);
     CHECK(groups.err.find("area 'cup' is said to have the group 'handle'") != std::string::npos);
     CHECK(groups.err.find("no object has an area \"rim\"") != std::string::npos);
 }

@@ -95,11 +95,11 @@ TEST_CASE(
             }
         }
     }
-    // Of 160 intervals at 95 %, 140 or fewer hold the truth once in 16,000 times, if they are independent;
-    // the bootstrap of twelve observers is a little short of its level.
+    // Of 160 independent intervals at 95 %, 137 or fewer hold the truth once in 183,000 times: the binomial
+    // distribution, by Python's math.comb. The bootstrap of twelve observers is a little short of its level.
     INFO(shares << " of 160 shares, " << transitions << " of 640 transitions");
-    CHECK(shares >= 141);
-    CHECK(transitions >= 564);
+    CHECK(shares >= 138);
+    CHECK(transitions >= 560);
     for (std::size_t i = 0; i < std::size(planted); ++i)
         CHECK(means[i] == Approx(planted[i].share).margin(0.01));
 }

@@ -88,7 +88,7 @@ TEST_CASE("outputs of markers that cannot be meant so are errors at their keys",
     check_fault(output(port + "codes = [\"onset 1\"]\ncondition_codes = [\"material wood 10\"]\n"), "16:19",
                 "there is no material \"wood\"");
     check_fault(output(port + "codes = [\"onset 1\"]\ncondition_codes = [\"colour red 10\"]\n"), "16:19",
-                "is not task, object or material");
+                "there is no factor \"colour\"; there are task, object, material");
     check_fault(output(port + "codes = [\"onset 1\"]\nrefresh_codes = [\"12 1\"]\n"), "16:17",
                 "only outputs of kind t-lock");
     check_fault(output("codes = [\"onset 1\"]\n"), "12:1", "needs its \"address\"");

@@ -53,20 +53,20 @@ TEST_CASE("areas are read by their names, as sections or in one line, and a head
 }
 
 TEST_CASE("what is wrong with areas is said at each place, all at once", "[unit]") {
-    const auto lines =
-        lines_of(with_object("mesh = \"v.obj\"\nareas = { rim = { },\n  \"a b\" = { boxes = [[[1, 0, 0], "
-                             "[0, 1, 1]]] },\n  cup = { boxes = [[[1, 0, 0], [0, 1, 1]]] },\n"
-                             "  lip = { sphere = [[0, 0, 0, 1]] }, ear = 3 }"));
+    const auto lines = lines_of(
+        with_object("mesh = \"v.obj\"\n[object.areas]\near = 3\n[object.areas.rim]\n[object.areas.\"a b\"]\n"
+                    "boxes = [[[0, 0, 0], [1, 1, 1]]]\n[object.areas.cup]\nboxes = [[[1, 0, 0], [0, 1, 1]]]\n"
+                    "[object.areas.lip]\nsphere = [[0, 0, 0, 1]]"));
     const auto has = [&](const char* place, const char* words) {
         return std::ranges::any_of(lines, [&](const std::string& line) {
             return line.starts_with(place) && line.find(words) != std::string::npos;
         });
     };
     INFO(fmt::format("{}", fmt::join(lines, "\n")));
-    CHECK(has("7:3", "\"a b\" cannot be used in file names"));
-    CHECK(has("8:", "the box reaches from 1 to 0 along x"));
-    CHECK(has("9:11", "unknown key \"sphere\""));
-    CHECK(has("9:", "ear: expected a table, found a whole number"));
+    CHECK(has("7:7", "ear: expected a table, found a whole number"));
+    CHECK(has("9:", "\"a b\" cannot be used in file names"));
+    CHECK(has("12:", "the box reaches from 1 to 0 along x"));
+    CHECK(has("14:1", "unknown key \"sphere\""));
     const auto empty = lines_of(with_object("mesh = \"v.obj\"\nareas = { rim = { } }"));
     REQUIRE(empty.size() == 1);
     CHECK_THAT(empty[0], Catch::StartsWith("6:11: nothing says where \"rim\" is"));

@@ -102,7 +102,7 @@ TEST_CASE("messages of interest areas are read as the maker's programs write the
     CHECK_FALSE(moving.is_there_at(0.565));
     CHECK(moving.is_there_at(0.567));
     CHECK(moving.is_there_at(1.515));
-    CHECK_FALSE(moving.is_there_at(1.516));
+    CHECK_FALSE(moving.is_there_at(1.517));
     CHECK(interest_area_file(" FILE  sets/a b.ias ").value() == "sets/a b.ias");
     CHECK_FALSE(interest_area_file(" RECTANGLE 1 0 0 9 9").has_value());
 }

@@ -1,7 +1,9 @@
 /// Recordings of other programs, places and options of edf2asc, imported and looked at.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -10,6 +12,7 @@
 
 #include "experiment/base/error.h"
 #include "experiment/record/asc/asc_import.h"
+#include "experiment/record/read/session_record.h"
 #include "tests/experiment/record/session_fixture.h"
 #include "tests/support/asc_readers.h"
 #include "tests/support/asc_text.h"
