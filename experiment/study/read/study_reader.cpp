@@ -298,7 +298,7 @@ class StudyReader {
         std::vector<double> trials(header.animations.size(), 0.0);
         // Sessions of one object have the same poses; motions have their numbers in the session.
         for (std::size_t session = 0; session < open_.size(); ++session) {
-            for (const TrialRecord& trial : open_[session].record().trials()) {
+            for (const TrialRecord& trial : open_[session].presentations) {
                 const auto motion = static_cast<std::size_t>(trial.trial.stimulus.motion);
                 if (is_of(session, trial, index) && motion < trials.size())
                     trials[motion] += 1.0;
