@@ -386,3 +386,79 @@ TEST_CASE("all trials of a block of practice are practice, whatever else they ar
     for (const Trial& trial : schedule.trials)
         CHECK(trial.role == (trial.block == 2 ? TrialRole::practice : TrialRole::trial));
 }
+
+TEST_CASE("a search fills some places of a circle, and leaves the others empty", "[unit]") {
+    std::string text(two_slots);
+    text.erase(text.find("[[slot]]"));
+    text += "[[slot]]\nid = \"ring\"\ncircle = 6\nradius_deg = 4\n[[task]]\nid = \"find\"\nquestion = \"Is "
+            "there one?\"\n"
+            "slots = \"ring\"\ntrials = { rule = \"search\", of = \"material\", target = \"g3\", set_sizes = "
+            "[2, 6], "
+            "absent = 0.5 }\n[schedule]\nmax_run = { target = 2, set_size = 3 }\n";
+    const Protocol protocol = sound(text);
+    const Schedule schedule = make_schedule(protocol, {"P", 1}, 3);
+    // 2 objects, 2 set sizes, with and without.
+    REQUIRE(schedule.trials.size() == 8);
+    for (const Trial& trial : schedule.trials) {
+        const std::vector<PlacedStimulus> shown = trial.all_shown();
+        CHECK(level_of_trial(trial, "set_size") == std::to_string(shown.size()));
+        std::set<int> places, objects;
+        int targets = 0;
+        for (const PlacedStimulus& one : shown) {
+            places.insert(one.slot);
+            objects.insert(one.stimulus.object);
+            targets += one.stimulus.material == 2;
+            if (one.stimulus.material == 2)
+                CHECK(level_of_trial(trial, "side") == protocol.slots[static_cast<std::size_t>(one.slot)].id);
+        }
+        CHECK(places.size() == shown.size());
+        CHECK(objects.size() == 1);
+        CHECK(targets == (trial.correct == "present" ? 1 : 0));
+    }
+}
+
+TEST_CASE("a match is under another light than its sample", "[unit]") {
+    std::string text(two_slots);
+    text.replace(
+        text.find("slots = [\"left\", \"right\"]"), 25,
+        "slots = [\"centre\", \"left\", \"right\"]\ntrials = { rule = \"match\", sample = \"centre\", of = "
+        "\"material\", differs = \"light\", side = \"crossed\" }");
+    text += "[[slot]]\nid = \"centre\"\nup_deg = -3\n[[light]]\nid = \"hall\"\nprobe = "
+            "\"gallery\"\n[[light]]\nid = \"cloudy\"\n";
+    const std::vector<Trial> trials = trials_of(sound(text), 1);
+    // 2 objects, 3 materials under 2 lights, the other light, 2 others, 2 sides.
+    REQUIRE(trials.size() == 2 * 3 * 2 * 2 * 2);
+    for (const Trial& trial : trials) {
+        std::map<int, Stimulus> in_slot;
+        for (const PlacedStimulus& shown : trial.all_shown())
+            in_slot[shown.slot] = shown.stimulus;
+        REQUIRE(in_slot.size() == 3);
+        const Stimulus sample = in_slot[2], match = in_slot[trial.correct == "left" ? 0 : 1],
+                       other = in_slot[trial.correct == "left" ? 1 : 0];
+        CHECK(sample.material == match.material);
+        CHECK(sample.light != match.light);
+        CHECK(other.material != match.material);
+        CHECK(other.light == match.light);
+        CHECK(sample.object == match.object);
+        CHECK(other.object == match.object);
+    }
+}
+
+TEST_CASE("a stream keeps its order, and asks for a block that does", "[unit]") {
+    std::string text(study_and_test);
+    text.erase(text.find("[[task]]"));
+    text += "[[task]]\nid = \"n-back\"\nquestion = \"Again?\"\ntrials = { rule = \"stream\", of = "
+            "\"object\", length = 40, back = 2 }\n";
+    CHECK(ReadWithTable(text).lines() ==
+          std::vector<std::string>{"p.toml:27:19: the trials of the rule \"stream\" come in its own order"});
+    const Protocol protocol = sound(text + "[[block]]\nid = \"stream\"\norder = \"sequential\"\n");
+    const Schedule schedule = make_schedule(protocol, {"P", 1}, 9);
+    REQUIRE(schedule.trials.size() == 40);
+    int repeats = 0;
+    for (std::size_t i = 2; i < 40; ++i) {
+        const bool does_repeat = schedule.trials[i].stimulus == schedule.trials[i - 2].stimulus;
+        CHECK(schedule.trials[i].correct == (does_repeat ? "repeat" : "new"));
+        repeats += does_repeat;
+    }
+    CHECK(repeats == 10); // a quarter of 38
+}
