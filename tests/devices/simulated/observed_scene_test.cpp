@@ -17,6 +17,8 @@ TEST_CASE("simulated devices take their numbers from the protocol", "[unit]") {
     protocol.tracker.simulated_noise_deg = 0.01;
     std::vector<Object> objects(2);
     objects[0].mesh = test::bust();
+    for (Object& object : objects)
+        object.scenes.resize(1);
 
     const ObservedScene scene = make_observed_scene(protocol, objects, ScreenGeometry{});
     CHECK(scene.objects[0].mesh == &objects[0].mesh);

@@ -36,8 +36,8 @@ TEST_CASE("light that is written is read again, and only for the stimulus that i
         CHECK(read.coverage[i] == light.coverage[i]);
     }
     CHECK_THROWS_WITH(read_light_pictures(file, {10, 4}, 3),
-                      Contains("ball_gold_light.exr") && Contains("3 poses of 10 x 4"));
-    CHECK_THROWS_WITH(read_light_pictures(file, {10, 8}, 2), Contains("2 poses of 10 x 8"));
+                      Contains("ball_gold_light.exr") && Contains("3 pictures of 10 x 4"));
+    CHECK_THROWS_WITH(read_light_pictures(file, {10, 8}, 2), Contains("2 pictures of 10 x 8"));
     std::filesystem::resize_file(file, std::filesystem::file_size(file) / 2);
     CHECK_THROWS_AS(read_light_pictures(file, {10, 4}, 2), InputError);
     CHECK_THROWS_AS(read_light_pictures(folder.path() / "none.exr", {10, 4}, 2), InputError);
