@@ -58,7 +58,9 @@ std::vector<std::string> remarks_on(const TrialOutcome& outcome, double drift_li
     if (outcome.drift && outcome.drift->value > drift_limit_deg)
         remarks.push_back(fmt::format("the drift check found {:.2f} deg, more than {}", outcome.drift->value,
                                       drift_limit_deg));
-    if (has_tracker && outcome.shown_refreshes > 0 && !outcome.drift)
+    const bool has_checked =
+        std::ranges::find(outcome.steps, "drift_check", &AttemptStep::kind) != outcome.steps.end();
+    if (has_tracker && has_checked && outcome.shown_refreshes > 0 && !outcome.drift)
         remarks.emplace_back("the drift check found no eye");
     if (outcome.gaze && 1.0 - outcome.gaze->share() > gaze_lost_limit)
         remarks.push_back(fmt::format("only {:.1f} % of its gaze came", 100.0 * outcome.gaze->share()));
