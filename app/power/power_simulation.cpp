@@ -56,7 +56,7 @@ std::vector<StudyParameter> parameters_of(const Protocol& protocol, const PowerS
     for (const Task& task : protocol.tasks) {
         std::string of_task = task.id;
         for (const auto& [area, share] : simulated_shares(task))
-            of_task += share > 0.0 || area == head_area ? fmt::format(" {} {}", area, share) : std::string();
+            of_task += share > 0.0 ? fmt::format(" {} {}", area, share) : std::string();
         shares.push_back(std::move(of_task));
     }
     return {

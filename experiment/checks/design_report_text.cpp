@@ -139,11 +139,12 @@ std::string movement_of(const Animation& motion) {
 }
 
 void add_motion(std::string& text, const DesignReport& report, const AnimationFacts& animation) {
+    const bool is_one_of_several = report.motions.size() > 1;
     add_facts(
-        text, report.motions.size() > 1 ? "Motion " + animation.id : "Animation",
-        {fmt::format("{} ({}), {}, {}", counted(animation.frames, "frame"),
-                     name_of(animation.motion.playback), counted(animation.distinct_poses, "distinct pose"),
-                     movement_of(animation.motion)),
+        text, is_one_of_several ? "Motion" : "Animation",
+        {fmt::format("{}{} ({}), {}, {}", is_one_of_several ? animation.id + ": " : "",
+                     counted(animation.frames, "frame"), name_of(animation.motion.playback),
+                     counted(animation.distinct_poses, "distinct pose"), movement_of(animation.motion)),
          fmt::format("shown: {} at {:.6g} Hz = {:.3f} s = {:.4g} swings to and fro",
                      counted(animation.shown_frames, "frame"), animation.shown_frames / animation.duration_s,
                      animation.duration_s, animation.periods),

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "experiment/keys/toml_order.h"
 #include "experiment/keys/toml_remedy.h"
 
 // toml++ 3.3 takes a few things for granted that a damaged file does not keep to, and goes on with undefined
@@ -174,6 +175,14 @@ TomlFile parse_toml(std::string_view text, const std::string& file, Diagnostics&
             return result;
         }
     }
+}
+
+std::vector<const TomlEntry*> in_order_of_file(const TomlTable& table) {
+    std::vector<const TomlEntry*> entries;
+    for (const TomlEntry& entry : table)
+        entries.push_back(&entry);
+    std::ranges::stable_sort(entries, {}, [](const TomlEntry* entry) { return entry->key_place; });
+    return entries;
 }
 
 } // namespace overt

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiment/base/error.h"
+#include "experiment/keys/toml_order.h"
 
 namespace overt {
 
@@ -297,7 +298,8 @@ ValueResult check_word(const TomlValue& value, const KeyRule& rule, std::string_
 ValueResult read_value(const TomlValue& value, const KeyRule& rule, NamedNumbers& out) {
     if (!value.table())
         return wrong_kind<NamedNumbers>(value, rule);
-    for (const TomlEntry& entry : *value.table()) {
+    for (const TomlEntry* written : in_order_of_file(*value.table())) {
+        const TomlEntry& entry = *written;
         NamedNumber& named = out.emplace_back(NamedNumber{entry.key});
         if (ValueResult fault = read_value(entry.value, rule, named.number))
             return fault;
@@ -308,7 +310,8 @@ ValueResult read_value(const TomlValue& value, const KeyRule& rule, NamedNumbers
 ValueResult read_value(const TomlValue& value, const KeyRule& rule, NamedWords& out) {
     if (!value.table())
         return wrong_kind<NamedWords>(value, rule);
-    for (const TomlEntry& entry : *value.table()) {
+    for (const TomlEntry* written : in_order_of_file(*value.table())) {
+        const TomlEntry& entry = *written;
         NamedWord& named = out.emplace_back(NamedWord{entry.key, {}, {}});
         if (const auto* word = std::get_if<std::string>(&entry.value.content)) {
             if (ValueResult fault = check_word(entry.value, rule, entry.key, *word))
@@ -333,8 +336,8 @@ ValueResult read_value(const TomlValue& value, const KeyRule& rule, NamedWords& 
 ValueResult read_value(const TomlValue& value, const KeyRule& rule, Series& out) {
     if (!value.table())
         return wrong_kind<Series>(value, rule);
-    for (const TomlEntry& entry : *value.table())
-        out.keys.push_back(entry.key);
+    for (const TomlEntry* written : in_order_of_file(*value.table()))
+        out.keys.push_back(written->key);
     return std::nullopt;
 }
 

@@ -143,6 +143,7 @@ class StepReader {
                               value.kind()));
             return;
         }
+        const std::size_t before = faults.size();
         for (const TomlEntry& key : *table) {
             if (key.key == "answered")
                 take(key.value, key.key, step.answered, required());
@@ -152,7 +153,7 @@ class StepReader {
                 fault(key.key_place, fmt::format("feedback: unknown key \"{}\"", key.key),
                       "keys are answered, missed");
         }
-        if (step.answered.empty() && step.missed.empty() && faults.empty())
+        if (step.answered.empty() && step.missed.empty() && faults.size() == before)
             fault(value.place, "feedback: no words are given",
                   "write answered = \"…\", missed = \"…\", or one of them");
     }
@@ -290,9 +291,10 @@ class StepReader {
             return;
         }
         GazeWait& wait = step.gaze.emplace();
+        const std::size_t before = faults.size();
         for (const TomlEntry& key : *table)
             read_wait(key, wait, step);
-        if (!wait.within_deg && wait.area.empty() && faults.empty())
+        if (!wait.within_deg && wait.area.empty() && faults.size() == before)
             fault(value.place, "until: nothing says where gaze is waited for",
                   "write gaze_within_deg = 1.5, or gaze_on with a part of the object");
         if (wait.within_deg && !wait.area.empty())

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "experiment/base/counted.h"
+#include "experiment/keys/toml_order.h"
 #include "experiment/protocol/protocol_keys.h"
 #include "experiment/stimulus_lists.h"
 
@@ -53,12 +54,16 @@ class SeriesWriter {
     TomlList written_out(TomlValue entry) {
         auto* table = std::get_if<TomlTable>(&entry.content);
         TomlEntry* series = table ? entry_called(*table, "series") : nullptr;
-        const TomlTable* keys = series ? series->value.table() : nullptr;
-        if (!keys || !is_sound(*table, *series, *keys))
+        if (!series || !series->value.table())
+            return {std::move(entry)};
+        TomlTable keys;
+        for (const TomlEntry* key : in_order_of_file(*series->value.table()))
+            keys.push_back(*key);
+        if (!is_sound(*table, *series, keys))
             return {std::move(entry)};
         TomlList entries;
-        for (std::size_t i = 0; i < keys->front().value.list()->size(); ++i)
-            entries.push_back(at(entry, *keys, i));
+        for (std::size_t i = 0; i < keys.front().value.list()->size(); ++i)
+            entries.push_back(at(entry, keys, i));
         return entries;
     }
 

@@ -51,8 +51,7 @@ CREATE TABLE trial (
     response_screen_onset_ns INTEGER, responded_ns INTEGER,
     shown_refreshes INTEGER, missed_refreshes INTEGER, drift_deg REAL, answer TEXT,
     lost_flips INTEGER, lost_samples INTEGER,
-    failure TEXT, comes_again TEXT CHECK (comes_again IN ('never', 'now', 'end-of-block')),
-    light INTEGER NOT NULL DEFAULT 0, motion INTEGER NOT NULL DEFAULT 0, view INTEGER NOT NULL DEFAULT 0
+    failure TEXT, comes_again TEXT CHECK (comes_again IN ('never', 'now', 'end-of-block'))
 ) STRICT;
 CREATE TABLE superseded (attempt_id INTEGER PRIMARY KEY, sitting INTEGER NOT NULL, why TEXT NOT NULL) STRICT;
 CREATE TABLE given_up (trial INTEGER PRIMARY KEY, sitting INTEGER NOT NULL, why TEXT NOT NULL) STRICT;

@@ -89,7 +89,6 @@ RowLayout<LedgerRow> ledger_layout(const SharedColumns& shared, const SessionHea
               [&header](auto& row) -> std::optional<Fixed> {
                   if (row.lit.shown == no_frame)
                       return std::nullopt;
-                  constexpr int angle_decimals = 6;
                   const Animation& motion = item(header.animations, row.motion);
                   return Fixed{motion.pose_of(row.lit.shown).light.value, angle_decimals};
               }}});

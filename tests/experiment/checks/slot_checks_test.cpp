@@ -132,12 +132,12 @@ TEST_CASE("slots that overlap, leave the screen or are unknown are errors at the
     CHECK(beyond[0].starts_with("15:13: slot \"far\" takes columns "));
     const Lines sizes = slot_lines("\"left\"", left + slot_of("small", "right_deg = 5\nsize_deg = 4"));
     REQUIRE(sizes.size() == 1);
-    CHECK(sizes[0].starts_with("19:12: slot \"small\" is "));
+    CHECK(sizes[0].starts_with("20:12: slot \"small\" is "));
     // One finding for all the places of a circle.
     CHECK(slot_lines("\"ring\"", slot_of("ring", "circle = 8\nradius_deg = 9\nsize_deg = 8")).size() == 1);
     // Neighbours of a circle meet.
     CHECK(slot_lines("\"ring\"", slot_of("ring", "circle = 8\nradius_deg = 3\nsize_deg = 3")).size() == 1);
-    const Lines rows = slot_lines("\"high\"", slot_of("high", "up_deg = 4.4\nsize_deg = 3.75") +
+    const Lines rows = slot_lines("\"high\"", slot_of("high", "up_deg = 4.535\nsize_deg = 3.75") +
                                                   "[display]\noutput = \"bits++\"\n");
     REQUIRE(rows.size() == 1);
     CHECK(rows[0].find("for messages to the display") != std::string::npos);

@@ -78,8 +78,9 @@ TEST_CASE("what is wrong with a step is said at its place, and all of it at once
                 "20:18: a step is one kind, and this one is \"blank\" already",
                 "21:18: a step \"blank\" has no key \"colour\"",
                 "22:16: fixation: from 1 to 0.5 s there is nothing to draw",
-                "23:44: fixation: the mean of 0.9 s does not lie between 0.5 s and the middle, 0.75 s",
+                "23:47: fixation: the mean of 0.9 s does not lie between 0.5 s and the middle, 0.75 s",
                 "24:14: answer: unknown value \"sung\"", "25:30: until: unknown value \"soon\"",
+                "26:30: until: nothing says where gaze is waited for",
                 "27:3: steps: expected a step such as { blank = 0.5 }, found a number"});
 }
 
@@ -104,5 +105,5 @@ TEST_CASE("steps that could not go together are found where they stand", "[unit]
             "  { fixation = { until = { gaze_within_deg = 1, patience_s = 2 } } },\n  { text = \"Go on\" },\n"
             "  { show = \"centre\" },") == Lines{"17:3: no gaze is recorded during this step"});
     CHECK(lines_of("  { blank = 0.5, until = { gaze_on = \"head\" } },\n  { show = \"centre\" },") ==
-          Lines{"17:37: a step blank shows no head"});
+          Lines{"17:38: a step blank shows no head"});
 }

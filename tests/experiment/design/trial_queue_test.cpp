@@ -177,9 +177,9 @@ TEST_CASE("what is not to be repeated counts, however it went, but for a rejecte
 
 TEST_CASE("practice and instructions come before their block, breaks where they are due", "[unit]") {
     Protocol protocol = three_blocks();
-    protocol.practice = {{"age", "muse", "rough", "two", "Well done."},
-                         {"free", "muse", "rough", "", ""},
-                         {"free", "runner", "rough", "", ""}};
+    protocol.practice = {{"age", {"muse", "rough"}, "two", "Well done."},
+                         {"free", {"muse", "rough"}, "", ""},
+                         {"free", {"runner", "rough"}, "", ""}};
     protocol.blocks[1].instructions = "Now something else.";
     protocol.breaks.every_trials = 4;
     protocol.breaks.between_blocks = true;

@@ -65,6 +65,7 @@ TEST_CASE("an effect is read with its measure, its levels and its size", "[unit]
 TEST_CASE("an effect is in a level of any factor of the protocol", "[unit]") {
     Protocol protocol = small_plan();
     protocol.materials[1].columns = {{"gloss", "0.2", 0.2}};
+    protocol.motions[0].id = "motion";
     protocol.lights.resize(2);
     protocol.lights[0].id = "sky";
     protocol.lights[1].id = "hall";

@@ -242,7 +242,7 @@ TEST_CASE("a limit of the schedule that a block's order drops is warned of, unle
                              "by = \"stimulus\"\n";
     const ReadText read(minimal_protocol, more);
     REQUIRE(read.protocol);
-    REQUIRE(read.lines() == Lines{"16:21: this limit does not hold in block \"one\" (blocked by stimulus), "
+    REQUIRE(read.lines() == Lines{"16:18: this limit does not hold in block \"one\" (blocked by stimulus), "
                                   "whose order says otherwise"});
     CHECK(ReadText(minimal_protocol, more + "max_object_run = 0\n").lines().empty());
     // The default of 2 was never asked for.

@@ -166,7 +166,7 @@ TEST_CASE("columns hold words or numbers, under names of their own", "[unit]") {
     CHECK(lines("task = 1") == Lines{"12:20: tables have a column \"task\" already"});
     CHECK(lines("\"a b\" = 1") == Lines{"12:21: \"a b\" is no name for a column"});
     CHECK(lines("gloss = true") ==
-          Lines{"12:21: columns.gloss: expected a word or a number, found true or false"});
+          Lines{"12:21: columns.gloss: expected a word or a number, found a truth value"});
     CHECK(lines("gloss = \"\"") == Lines{"12:21: columns.gloss: the word is empty"});
     CHECK(
         lines("gloss = 1", "[[material]]\nid = \"b\"\nkind = \"diffuse\"\ncolumns = { gloss = \"low\" }\n") ==

@@ -34,7 +34,7 @@ TEST_CASE("effects that are planted are found, and others are not", "[unit]") {
         return LooksOfTrial{1.0 / (1.0 + std::exp(-odds)), 20.0 * spread};
     });
     const auto rows = factor_effects(study.results, {}, study.options);
-    REQUIRE(rows.size() == 6);
+    REQUIRE(rows.size() == 9); // of two areas and of WSS
     CHECK(row_of(rows, "share on head", "task").p < 0.01);
     CHECK(row_of(rows, "share on head", "material").p > 0.05);
     CHECK(row_of(rows, "share on head", "task:material").p > 0.05);

@@ -1,6 +1,7 @@
 /// Where a mesh lies, and what belongs to it: far from the origin, not quite at the same place, nowhere.
 #include "experiment/scene/files/mesh_reader.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <set>
@@ -355,5 +356,8 @@ TEST_CASE("a head stands beside labels: a triangle belongs to both", "[unit]") {
     const Mesh grouped = import_mesh(folder.file("g.obj", obj), import, report);
     CHECK(std::set<std::string>(grouped.part_names.begin(), grouped.part_names.end()) ==
           std::set<std::string>{"base", "middle", "middle/head", "head"});
-    CHECK_THAT(describe(report)[1] + describe(report)[0], Catch::Contains("'head' is labelled"));
+    const std::vector<std::string> remarks = describe(report);
+    CHECK(std::ranges::any_of(remarks, [](const std::string& remark) {
+        return remark.find("'head' is labelled") != std::string::npos;
+    }));
 }
