@@ -1,5 +1,6 @@
 #include "experiment/checks/checked_protocol.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 
@@ -21,6 +22,16 @@ void require_lists(ProtocolExamination& examination) {
         examination.error({"object"}, "there is no [[object]]", "add [[object]] with id and shipped or mesh");
     if (protocol.materials.empty())
         examination.error({"material"}, "there is no [[material]]", "add [[material]] with id and kind");
+}
+
+/// Errors in tables of trials, which say nothing of the protocol itself.
+int errors_in_tables(const Protocol& protocol, const Diagnostics& diagnostics) {
+    int errors = 0;
+    for (const Finding& finding : diagnostics.findings())
+        errors += finding.severity == Severity::error &&
+                  std::ranges::find(protocol.trial_tables, finding.file, &TrialTable::file) !=
+                      protocol.trial_tables.end();
+    return errors;
 }
 
 std::optional<Protocol> read_text(std::string_view text, const std::filesystem::path& file,
@@ -51,7 +62,7 @@ std::optional<Protocol> read_text(std::string_view text, const std::filesystem::
         check_frames(examination);
         check_steps(examination);
         check_slots(examination);
-        if (diagnostics.error_count() == errors_before)
+        if (diagnostics.error_count() == errors_before + errors_in_tables(protocol, diagnostics))
             check_trials(examination);
         check_bake(examination);
         if (look_at_files)

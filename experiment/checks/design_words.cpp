@@ -140,8 +140,7 @@ Texts words_of_table(const Protocol& protocol, int task) {
 std::string words_of_catch(const CatchSettings& checks) {
     const std::string file = checks.trials_file.filename().string();
     if (checks.share)
-        return fmt::format("{:g} % more as catch trials, of {}",
-                           100.0 * *checks.share / (1.0 - *checks.share), file);
+        return fmt::format("{:g} % of them catch trials, of {}", 100.0 * *checks.share, file);
     return checks.count ? fmt::format("{} catch trials of {} among them", *checks.count, file)
                         : fmt::format("catch trials among them, the rows of {}", file);
 }

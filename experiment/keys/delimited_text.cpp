@@ -150,15 +150,17 @@ std::optional<DelimitedText> parse_delimited(std::string_view text, const std::s
             table.header = std::move(cells);
             continue;
         }
-        if (cells.size() != table.header.size() && !fault)
+        const bool is_ragged = cells.size() != table.header.size();
+        if (is_ragged && !fault)
             error(cells.front().place,
                   fmt::format("{} in this row, {} in the header", counted(cells.size(), "cell"),
                               table.header.size()),
                   fmt::format("cells lie between {}; one that holds any stands in quotes",
                               name_of_separator(table.separator)));
-        cells.resize(table.header.size());
-        table.rows.push_back(std::move(cells));
+        if (!is_ragged && !fault)
+            table.rows.push_back(std::move(cells));
     }
+    const int errors_in_rows = diagnostics.error_count();
     for (auto column = table.header.begin(); column != table.header.end(); ++column) {
         const auto earlier = std::ranges::find(table.header, column->text, &TextCell::text);
         if (column->text.empty())
@@ -169,9 +171,9 @@ std::optional<DelimitedText> parse_delimited(std::string_view text, const std::s
     }
     if (table.header.empty())
         error({1, 1, number}, "the table is empty", "its first line names the columns");
-    else if (table.rows.empty())
+    else if (table.rows.empty() && errors_in_rows == errors_before)
         error(table.header.front().place, "the table has no rows below its header");
-    if (diagnostics.error_count() > errors_before)
+    if (diagnostics.error_count() > errors_in_rows)
         return std::nullopt;
     return table;
 }

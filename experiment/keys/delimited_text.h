@@ -24,9 +24,9 @@ struct DelimitedText {
 /// Reads a text with a header line. The separator is the one that the header has: a tab where there is one,
 /// or else the more frequent of semicolon and comma. A cell in quotes may hold the separator, a line's end,
 /// and a quote written twice. A byte order mark, CR LF and empty lines are passed over. What is wrong goes to
-/// `diagnostics` under `file`, all of it; nothing then. Files of another encoding, columns without a name or
-/// of one name, rows with more or fewer cells, and a table without rows are wrong. `number` is Place::file of
-/// all places.
+/// `diagnostics` under `file`, all of it. Files of another encoding, columns without a name or of one name,
+/// and a table without rows give nothing; rows with more or fewer cells are left out. `number` is Place::file
+/// of all places.
 std::optional<DelimitedText> parse_delimited(std::string_view text, const std::string& file, int number,
                                              Diagnostics& diagnostics);
 

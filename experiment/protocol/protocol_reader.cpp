@@ -98,7 +98,8 @@ int read_trial_table(ProtocolExamination& examination, const IncludeReader& read
     const std::string name = text->file.string();
     const auto table = parse_delimited(text->text, name, text->number, examination.diagnostics());
     protocol.trial_tables.push_back(
-        table ? trial_table_of(*table, protocol, task, name, examination.diagnostics()) : TrialTable{});
+        table ? trial_table_of(*table, protocol, task, name, examination.diagnostics())
+              : TrialTable{name, {}, {}});
     return static_cast<int>(protocol.trial_tables.size()) - 1;
 }
 

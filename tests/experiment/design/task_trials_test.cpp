@@ -104,7 +104,9 @@ TEST_CASE("a rule's trials have each pair as often as it is asked for, on both s
 
 TEST_CASE("what is drawn is each observer's own, the same from the same seed, or everyone's", "[unit]") {
     const std::string rule = "trials = { rule = \"pairs\", of = \"material\", draw = 3";
-    const Protocol own = sound(with(rule + " }\n")), common = sound(with(rule + ", per = \"everyone\" }\n"));
+    const std::string no_limit = "[schedule]\nmax_object_run = 0\n";
+    const Protocol own = sound(with(rule + " }\n" + no_limit)),
+                   common = sound(with(rule + ", per = \"everyone\" }\n" + no_limit));
     std::set<std::vector<Stimulus>> own_lists, common_lists;
     for (int number = 1; number <= 20; ++number) {
         const auto list_of = [&](const Protocol& protocol) {
