@@ -29,7 +29,7 @@ const seconds_of_fixation = () => (data.knows_stimuli ? data.glance.seconds : da
   else card(g.fixations.toLocaleString('en'), 'fixations on the screen');
   card(digits(seconds_of_fixation() / 60), 'minutes of fixation');
   if (data.knows_stimuli) card(data.maps.filter(m => m.values && m.by === 'duration').length, 'maps');
-  if (data.tables.surface_areas.length) card(new Set(data.tables.surface_areas.map(a => a.area)).size - 1, 'areas of the screen');
+  if (data.tables.areas.length) card(new Set(data.tables.areas.map(a => a.area)).size - 1, 'areas of the screen');
   for (const remark of data.remarks) by_id('remarks').append(element('p', {class: 'remark'}, remark));
 }
 
