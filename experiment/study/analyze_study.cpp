@@ -219,6 +219,8 @@ StudyResults analyze_study(std::span<const std::filesystem::path> sessions, cons
 
 StudyResults analyze_study(ReadStudy study, const StudyOptions& options, const StudyProgress& progress) {
     StudyResults& results = study.results;
+    if (options.is_by_asked)
+        check_asked_factors(options.by, study.levels);
     results.parameters = parameters_of(options);
     results.by = options.by;
     results.confidence = options.confidence;
