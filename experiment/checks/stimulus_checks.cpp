@@ -204,7 +204,10 @@ void check_areas(ProtocolExamination& examination, std::size_t index) {
                                   "write it either as \"head\" or in \"areas\"");
         }
         const bool is_anywhere = !area.spheres.empty() || !area.boxes.empty() || !area.groups.empty();
-        if (!is_anywhere && area.planes.empty())
+        const bool is_said = std::ranges::any_of(
+            std::array{"spheres", "boxes", "groups", "planes"},
+            [&](const char* key) { return examination.is_written(fmt::format("{}.{}", path, key)); });
+        if (!is_anywhere && area.planes.empty() && !is_said)
             examination.error({path}, fmt::format("nothing says where \"{}\" is", area.name),
                               "give it \"spheres\", \"boxes\", \"groups\" or \"planes\"");
         else if (!is_anywhere && area.name == head_area)

@@ -102,7 +102,7 @@ std::vector<Key> task() {
          "Share of a simulated observer's fixations that go to the head."},
         {"simulated_area_shares", &T::simulated_area_shares,
          range(0, 1).left_out("none but the head has one"),
-         "Shares that go to other areas, such as { rim = 0.2, base = 0.3 }: the rest goes to the rest of the "
+         "Shares that go to other areas, by their names: what they leave goes to the rest of the "
          "surface. Areas that have shares must not overlap."},
     };
 }
