@@ -55,11 +55,11 @@ std::vector<Key> schedule() {
          "Least distance of trials with the same stimulus, in trials: 2 is never twice in a row, 3 leaves "
          "two others between them; 0 for no limit."},
         {"max_run", &S::max_run, range(0, 1000).left_out("no further limits"),
-         "Longest run of trials with the same level, for any factors: { gloss = 3, light = 2 }; 0 for no "
+         "Longest run of trials with the same level, for any factors: `{gloss=3, light=2}`; 0 for no "
          "limit. Factors are the task, the lists that stimuli are made of, the columns of their entries, "
          "and the stimulus."},
         {"min_distance", &S::min_distance, range(0, 1000).left_out("no further limits"),
-         "Least distance of trials with the same level, for any factors: { gloss = 2 }; 0 for no limit."},
+         "Least distance of trials with the same level, for any factors: `{gloss=2}`; 0 for no limit."},
         {"rotated_list", &S::rotated_list, one_of(lists_to_rotate),
          "Which list goes round over the observers in tasks that are asked once per object; of the others "
          "each entry is shown."},
@@ -88,8 +88,8 @@ std::vector<Key> task() {
         {"steps", &T::steps,
          left_out("the question until a key is pressed, the drift check, the stimulus for the motion's "
                   "duration, the spoken answer"),
-         "What a trial does, one step after another, such as `[{ fixation = 0.5 }, { show = \"centre\" }, "
-         "{ answer = \"spoken\" }]`; see [design.md](design.md)."},
+         "What a trial does, one step after another, such as `[{fixation=0.5}, {show=\"centre\"}, "
+         "{answer=\"spoken\"}]`; see [design.md](design.md)."},
         {"slots", &T::slots, identifier().left_out("the only slot there is"),
          "Ids of the `[[slot]]`s in which the task's stimuli are shown, all at once; of a circle or a grid, "
          "all its places. Each shows the stimulus that the trial has for it."},

@@ -59,10 +59,10 @@ std::vector<Key> block() {
          "block begins afresh, and its order does not depend on any other block."},
         {"max_run", &B::max_run, limit,
          "Longest run of trials with the same level of a factor in this block, for any factors: "
-         "{ gloss = 3 }; 0 for no limit."},
+         "`{gloss=3}`; 0 for no limit."},
         {"min_distance", &B::min_distance, limit,
          "Least distance of trials with the same level of a factor in this block, for any factors: "
-         "{ gloss = 2 }; 0 for no limit."},
+         "`{gloss=2}`; 0 for no limit."},
         {"max_task_run", &B::max_task_run, limit,
          "Longest run of trials with the same task in this block; 0 for no limit."},
         {"max_object_run", &B::max_object_run, limit,

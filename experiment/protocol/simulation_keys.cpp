@@ -13,7 +13,7 @@ std::vector<Key> simulated_effect() {
     using E = SimulatedEffect;
     std::vector<Key> keys{
         {"task", &E::task, identifier().left_out("any"), "Id of the task."},
-        {"where", &E::where, left_out("any"), "Levels of columns of the entries: { gloss = \"high\" }."},
+        {"where", &E::where, left_out("any"), "Levels of columns of the entries: `{gloss=\"high\"}`."},
         {"head_odds", &E::head_odds, range(0.001, 1000),
          "How many times the odds of the task's `simulated_head_share` those of a fixation on the head are; "
          "1: the same."},

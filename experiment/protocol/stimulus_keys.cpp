@@ -18,11 +18,11 @@ template <class Entry> std::vector<Key> entry_keys(std::vector<Key> own, bool is
          "Short name, used in file names and tables."},
         {"title", member_of<Entry>(&ListEntry::title), left_out("the id"), "Name for figures and reports."},
         {"columns", member_of<Entry>(&ListEntry::columns), left_out("none"),
-         "What tables are to say of it besides, words or numbers: { gloss = \"high\", size_cm = 12 }. Each "
+         "What tables are to say of it besides, words or numbers: `{gloss=\"high\", size_cm=12}`. Each "
          "name is a factor, by which trials are ordered, limited and analysed as by the list itself."},
         {"series", member_of<Entry>(&ListEntry::series), left_out("one entry"),
          "Several entries in place of this one, which differ in the value of a key that takes a number, a "
-         "word or a file: { roughness = [0.02, 0.05, 0.1] } makes three, with the ids ID-0.02 and so on, and "
+         "word or a file: `{roughness=[0.02, 0.05, 0.1]}` makes three, with the ids ID-0.02 and so on, and "
          "a "
          "column of the key's name. Of several keys the first values belong together, then the second."},
     };
