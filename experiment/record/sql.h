@@ -76,7 +76,7 @@ constexpr std::size_t marks_of = std::is_same_v<Value, Stimulus> ? stimulus_list
 /// Runs a statement that gives no rows with these values for its question marks, and makes it ready for the
 /// next run. Throws SQLite::Exception.
 template <class... Values> void run_statement(SQLite::Statement& statement, const Values&... values) {
-    int index = 0;
+    [[maybe_unused]] int index = 0;
     (bind_next(statement, index, values), ...);
     statement.exec();
     statement.reset();

@@ -51,7 +51,7 @@ std::set<std::string> commands_below(const std::vector<std::string>& path) {
 }
 
 /// The options that the help of a command names at the beginnings of lines.
-std::set<std::string> options_of(const std::string& command) {
+std::set<std::string> options_in_help_of(const std::string& command) {
     std::istringstream words(command);
     std::vector<std::string> call{std::istream_iterator<std::string>(words), {}};
     call.emplace_back("--help");
@@ -94,7 +94,7 @@ TEST_CASE("each command has a manual page, with each option of its help", "[unit
             pages / fmt::format("overt-{}.1", std::regex_replace(command, std::regex(" "), "-"));
         REQUIRE(fs::exists(file));
         const std::string page = without_escapes(test::text_of(file));
-        const std::set<std::string> options = options_of(command);
+        const std::set<std::string> options = options_in_help_of(command);
         CHECK_FALSE(options.empty());
         for (const std::string& option : options)
             CHECK(page.find(fmt::format("\\fB{}\\fR", option)) != std::string::npos);
@@ -128,7 +128,7 @@ TEST_CASE("bash completes commands, options, their choices and files", "[unit][m
         std::vector<std::string> words{std::istream_iterator<std::string>(parts), {}};
         words.emplace_back("--");
         CAPTURE(command);
-        CHECK(completed(script, words, in) == options_of(command));
+        CHECK(completed(script, words, in) == options_in_help_of(command));
     }
 }
 

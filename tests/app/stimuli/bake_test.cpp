@@ -303,23 +303,23 @@ TEST_CASE("shards share out all units once, and evenly by cost", "[unit]") {
     RandomStream random(3, "units");
     double all = 0.0, dearest = 0.0;
     for (int i = 0; i < 97; ++i) {
-        units.push_back({{i / 30, i % 30 / 10}, {i % 10}, random.uniform(1.0, 20.0)});
+        units.push_back({{i / 30, i % 30 / 10}, {Degrees{1.0 * (i % 10)}, {}}, random.uniform(1.0, 20.0)});
         all += units.back().cost;
         dearest = std::max(dearest, units.back().cost);
     }
     for (const int count : {1, 2, 7, 97, 200}) {
-        std::map<std::tuple<int, int, int>, int> seen;
+        std::map<std::tuple<int, int, double>, int> seen;
         for (int number = 1; number <= count; ++number) {
             double load = 0.0;
             for (const BakeUnit& unit : dealt_to({number, count}, units)) {
-                ++seen[{unit.stimulus.object, unit.stimulus.material, unit.pose.value}];
+                ++seen[{unit.stimulus.object, unit.stimulus.material, unit.pose.object.value}];
                 load += unit.cost;
             }
             CHECK(load <= all / count + dearest);
         }
-        std::map<std::tuple<int, int, int>, int> wanted;
+        std::map<std::tuple<int, int, double>, int> wanted;
         for (const BakeUnit& unit : units)
-            ++wanted[{unit.stimulus.object, unit.stimulus.material, unit.pose.value}];
+            ++wanted[{unit.stimulus.object, unit.stimulus.material, unit.pose.object.value}];
         CHECK(seen == wanted);
     }
 }

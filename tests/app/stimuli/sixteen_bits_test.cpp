@@ -82,8 +82,10 @@ TEST_CASE("every level of a ramp comes through film, cache, frame store and enco
             frame.radiance[i * spectral_bins + bin] = static_cast<float>(share * double{light[bin]});
         frame.alpha[i] = 1.0f;
     }
-    for (int pose = 0; pose < poses; ++pose)
-        cache.store(matt_bust, {pose}, quality, frame);
+    const std::vector<Pose> missing = cache.missing_frames(matt_bust, quality);
+    REQUIRE(missing.size() == poses);
+    for (const Pose& pose : missing)
+        cache.store(matt_bust, pose, quality, frame);
     library.take_frames(quality);
 
     VirtualClock clock;

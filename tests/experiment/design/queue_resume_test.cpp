@@ -23,9 +23,9 @@ Protocol blocks_with_everything(RandomStream& random) {
         protocol.blocks.back().tasks = {protocol.blocks.size() == 2 ? "age" : "free"};
         protocol.blocks.back().instructions = random.below(2) ? "Read this." : "";
     }
-    protocol.practice = {{"age", "muse", "rough", "two", "Well done."},
-                         {"free", "muse", "rough", "", ""},
-                         {"free", "runner", "rough", "", ""}};
+    protocol.practice = {{"age", {"muse", "rough"}, "two", "Well done."},
+                         {"free", {"muse", "rough"}, "", ""},
+                         {"free", {"runner", "rough"}, "", ""}};
     constexpr RepeatWhen whens[] = {RepeatWhen::never, RepeatWhen::now, RepeatWhen::end_of_block};
     protocol.repeat.rejected = whens[random.below(3)];
     protocol.repeat.most_attempts = 1 + static_cast<int>(random.below(4));

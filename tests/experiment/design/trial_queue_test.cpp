@@ -198,7 +198,7 @@ TEST_CASE("practice and instructions come before their block, breaks where they 
 TEST_CASE("practice, breaks and repetition reshuffle no trial", "[unit]") {
     Protocol protocol = three_blocks();
     const std::vector<Trial> before = make_schedule(protocol, {"P", 4}, 9).trials;
-    protocol.practice = {{"age", "muse", "rough", "", ""}};
+    protocol.practice = {{"age", {"muse", "rough"}, "", ""}};
     protocol.breaks.every_trials = 3;
     protocol.repeat.missed_refreshes = RepeatWhen::now;
     CHECK(make_schedule(protocol, {"P", 4}, 9).trials == before);
@@ -206,7 +206,7 @@ TEST_CASE("practice, breaks and repetition reshuffle no trial", "[unit]") {
 
 TEST_CASE("the stimulus that is expected is the one that comes, unless a trial fails", "[unit]") {
     Protocol protocol = three_blocks();
-    protocol.practice = {{"age", "scholar", "coated", "three", ""}};
+    protocol.practice = {{"age", {"scholar", "coated"}, "three", ""}};
     const Schedule schedule = make_schedule(protocol, {"P", 1}, 1);
     TrialQueue queue(protocol, schedule);
     std::optional<Trial> expected = queue.expected();

@@ -65,10 +65,10 @@ TEST_CASE("earlier words mean what today's do, and one note tells of them", "[un
         CHECK(protocol->objects[1].id == "b");
         CHECK(protocol->tasks.at(0).stimuli == TaskCoverage::once_per_object);
         CHECK(protocol->schedule.max_object_run == 3);
-        CHECK(protocol->blocks.at(0).objects == std::vector<std::string>{"b", "a"});
+        CHECK(protocol->blocks.at(0).chosen[0] == std::vector<std::string>{"b", "a"});
         CHECK(protocol->blocks.at(0).max_object_run == 1);
-        CHECK(protocol->practice.at(0).object == "a");
-        CHECK(name_of(protocol->blocks.at(0).by) == "object");
+        CHECK(protocol->practice.at(0).entries[0] == "a");
+        CHECK(protocol->blocks.at(0).by == "object");
     }
 }
 
@@ -81,7 +81,7 @@ TEST_CASE("an object whose id is an earlier word keeps it, and so do words that 
     CHECK(read.lines().empty());
     REQUIRE(read.protocol);
     CHECK(read.protocol->objects.at(0).id == "sculpture");
-    CHECK(read.protocol->practice.at(0).object == "sculpture");
+    CHECK(read.protocol->practice.at(0).entries[0] == "sculpture");
 }
 
 TEST_CASE("one list under both words is refused", "[unit]") {

@@ -5,6 +5,7 @@
 #include "tests/experiment/protocol/protocol_fixtures.h"
 
 using namespace overt;
+using Lines = std::vector<std::string>;
 using namespace overt::test;
 using Catch::Contains;
 
@@ -130,7 +131,6 @@ TEST_CASE("several keys of a series go together, of any list, and of files the n
 
 TEST_CASE("faults of a series are found where they are written, each once", "[unit]") {
     const auto lines = [](std::string_view keys) { return ReadText(with_rough(keys)).lines(); };
-    using Lines = std::vector<std::string>;
     CHECK(lines("series = { roughness = [0.1, 0.2, 7] }\n") ==
           Lines{"12:35: roughness: 7 is out of range, which is 0.001 … 1"});
     CHECK(lines("series = { roughnes = [0.1, 0.2] }\n") ==
@@ -160,7 +160,6 @@ TEST_CASE("columns hold words or numbers, under names of their own", "[unit]") {
     const auto lines = [](std::string_view columns, std::string_view more = "") {
         return ReadText(with_rough(fmt::format("columns = {{ {} }}\n{}", columns, more))).lines();
     };
-    using Lines = std::vector<std::string>;
     CHECK(lines("gloss = \"high\", size_cm = 12").empty());
     CHECK(lines("object = 1") == Lines{"12:22: tables have a column \"object\" already"});
     CHECK(lines("task = 1") == Lines{"12:20: tables have a column \"task\" already"});

@@ -245,7 +245,9 @@ TEST_CASE("attempts that follow at once stand one after the other by their times
         record_attempt(store, 0, header.schedule.trials[1], 2999, 200, TrialOutcome::Status::completed);
     }
     const SessionRecord record(session);
-    export_asc(record, root.path() / "asc", {.opensesame_messages = true});
+    AscExportOptions options;
+    options.opensesame_messages = true;
+    export_asc(record, root.path() / "asc", options);
     const std::string text = read_whole_file(root.path() / "asc/sub-AB7_ses-01_run-01.asc");
     INFO(text.substr(0, 3000));
     for (const auto& [first, last] :
