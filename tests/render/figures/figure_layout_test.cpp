@@ -115,8 +115,8 @@ StudyResults study_with(int factors, int levels, Naming name, double value) {
         pair.cc.value = Estimate::of(0.123456, Interval{-0.998, 0.997});
         study.pairs.push_back(pair);
         for (int second = 0; second < 8; ++second)
-            study.time_course.push_back(
-                {keys.front(), 1.0 * second, second + 1.0, Estimate::of(1.0, Interval{0.0, 1.0}), 12});
+            study.time_course.push_back({"head", keys.front(), 1.0 * second, second + 1.0,
+                                         Estimate::of(1.0, Interval{0.0, 1.0}), 12});
         StudyQuality quality;
         quality.accuracy_deg = value;
         quality.lost = quality.samples = 1.0;
