@@ -204,13 +204,14 @@ void check_areas(ProtocolExamination& examination, std::size_t index) {
                                   "write it either as \"head\" or in \"areas\"");
         }
         const bool is_anywhere = !area.spheres.empty() || !area.boxes.empty() || !area.groups.empty();
-        const bool is_said = std::ranges::any_of(
-            std::array{"spheres", "boxes", "groups", "planes"},
-            [&](const char* key) { return examination.is_written(fmt::format("{}.{}", path, key)); });
+        const bool is_said =
+            std::ranges::any_of(std::array{"spheres", "boxes", "groups", "planes"}, [&](const char* key) {
+                return examination.is_written(fmt::format("{}.{}", path, key));
+            });
         if (!is_anywhere && area.planes.empty() && !is_said)
             examination.error({path}, fmt::format("nothing says where \"{}\" is", area.name),
                               "give it \"spheres\", \"boxes\", \"groups\" or \"planes\"");
-        else if (!is_anywhere && area.name == head_area)
+        else if (!is_anywhere && !area.planes.empty() && area.name == head_area)
             examination.warning({path}, "\"planes\" alone make no head", "give \"spheres\" that hold it");
         if (!object.lut.empty() && !area.groups.empty())
             examination.error({path}, "ready-made maps have no groups", "give spheres, boxes or planes");

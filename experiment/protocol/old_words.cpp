@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -34,17 +35,15 @@ class Reword {
     Reword(const std::string& file, Diagnostics& diagnostics) : file_(file), diagnostics_(diagnostics) {}
 
     void go_through(TomlTable& table) {
+        std::set<std::string> twice;
+        for (const TomlEntry& entry : table)
+            if (is_there_twice(entry, table))
+                twice.insert(entry.key);
+        std::erase_if(table, [&](const TomlEntry& entry) { return twice.contains(entry.key); });
         for (TomlEntry& entry : table) {
             const auto found = std::ranges::find(names, entry.key, &Word::old_word);
             if (found != std::end(names)) {
                 count(entry.key_place);
-                if (const auto both = std::ranges::find(table, found->word, &TomlEntry::key);
-                    both != table.end())
-                    diagnostics_.error(
-                        file_, entry.key_place,
-                        fmt::format("\"{}\" is the earlier word for \"{}\", which is written, too", entry.key,
-                                    found->word),
-                        fmt::format("write \"{}\" in all places", found->word));
                 entry.key = found->word;
             }
             go_through(entry.value, entry.key);
@@ -63,6 +62,18 @@ class Reword {
     }
 
   private:
+    /// Reports an entry that stands there under the word of today, too.
+    bool is_there_twice(const TomlEntry& entry, const TomlTable& table) {
+        const auto found = std::ranges::find(names, entry.key, &Word::old_word);
+        if (found == std::end(names) || std::ranges::find(table, found->word, &TomlEntry::key) == table.end())
+            return false;
+        diagnostics_.error(file_, entry.key_place,
+                           fmt::format("\"{}\" is the earlier word for \"{}\", which is written, too",
+                                       entry.key, found->word),
+                           fmt::format("write \"{}\" in all places", found->word));
+        return true;
+    }
+
     void go_through(TomlValue& value, std::string_view key) {
         if (auto* table = std::get_if<TomlTable>(&value.content))
             go_through(*table);

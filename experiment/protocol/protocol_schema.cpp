@@ -35,7 +35,12 @@ Json section_schema(const Section& section) {
                      {"propertyNames", {{"pattern", "^[A-Za-z0-9_-]{1,40}$"}}},
                      {"additionalProperties", std::move(inner)}};
         Json& property = schema["properties"][std::string(table.name)];
-        property = property.is_null() ? std::move(inner) : Json{{"anyOf", {property, std::move(inner)}}};
+        if (property.is_null()) {
+            property = std::move(inner);
+        } else {
+            Json description = property["description"];
+            property = {{"description", std::move(description)}, {"anyOf", {property, std::move(inner)}}};
+        }
     }
     schema["description"] = without_links(section.explanation);
     if (!required.empty())

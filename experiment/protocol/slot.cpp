@@ -96,6 +96,8 @@ std::vector<glm::ivec2> slot_places(const Protocol& protocol) {
 }
 
 void fit_view_to_slots(Protocol& protocol) {
+    if (protocol.slots.front().entry < 0)
+        return; // the only slot is made of the view
     const glm::ivec2 size = slot_geometry(protocol, protocol.slots.front()).image_px;
     for (ViewSettings& view : protocol.views) {
         if (size == glm::ivec2(view.width_px, view.height_px))

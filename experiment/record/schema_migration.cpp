@@ -79,6 +79,9 @@ void make_tables_of_today(SQLite::Database& database) {
     SQLite::Database today(":memory:", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
     make_session_tables(today);
     const auto before = statements_of(database, "table");
+    // A view forbids that its tables are made anew.
+    for (const auto& [view, statement] : statements_of(database, "view"))
+        database.exec(fmt::format("DROP VIEW \"{}\"", view));
     for (const auto& [table, statement] : statements_of(today, "table")) {
         const auto old = before.find(table);
         if (old == before.end())
@@ -87,8 +90,7 @@ void make_tables_of_today(SQLite::Database& database) {
             remake(database, table, statement, columns_of(today, table));
     }
     for (const auto& [view, statement] : statements_of(today, "view"))
-        if (!statements_of(database, "view").contains(view))
-            database.exec(statement);
+        database.exec(statement);
 }
 
 /// Into a file that is whole or not there.

@@ -19,7 +19,20 @@ namespace {
 constexpr std::string_view begun_columns[] = {"trial_id", "sitting", "trial",
                                               "attempt",  "task",    "started_ns"};
 
-bool is_of_begin(std::string_view column) {
+/// What is filled in when an attempt ends, in rows that are there from its begin or that tell of its course.
+constexpr std::pair<std::string_view, std::string_view> ended_columns[] = {{"presentation", "first_refresh"},
+                                                                           {"presentation", "last_refresh"},
+                                                                           {"step", "begin_ns"},
+                                                                           {"step", "end_ns"},
+                                                                           {"step", "ended_by"},
+                                                                           {"step", "gaze_onset_us"},
+                                                                           {"step", "gaze_detected_us"}};
+
+/// Whether the value stands fixed from an attempt's begin: of an attempt that was cut off, nothing else need
+/// be the same.
+bool is_of_begin(std::string_view table, std::string_view column) {
+    if (table != "trial")
+        return std::ranges::find(ended_columns, std::pair(table, column)) == std::end(ended_columns);
     return std::ranges::find(begun_columns, column) != std::end(begun_columns) ||
            std::ranges::find(stimulus_lists, column, &StimulusList::name) != stimulus_lists.end();
 }
@@ -175,10 +188,10 @@ class TableComparison {
     std::optional<Ranked> compare_values() const {
         if (is_left_out(recorded_))
             return std::nullopt;
-        const bool is_begun_only = table_.name == "trial" && is_in_cut_attempt(recorded_);
+        const bool is_begun_only = is_in_cut_attempt(recorded_);
         for (const int column : compared_) {
             const std::string& name = table_.columns[static_cast<std::size_t>(column)];
-            if (is_begun_only && !is_of_begin(name))
+            if (is_begun_only && !is_of_begin(table_.name, name))
                 continue;
             if (recorded_.is_same(column, replayed_))
                 continue;

@@ -49,7 +49,7 @@ duration_s = 1
 [[motion]]
 id = "lamp"
 kind = "still"
-angle_deg = 25
+angle_deg = 23.776412907378838
 light_amplitude_deg = 40
 frame_count = 5
 frame_rate_hz = 10

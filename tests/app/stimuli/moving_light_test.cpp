@@ -52,14 +52,19 @@ TEST_CASE("a light that turns makes frames and no maps", "[session]") {
 }
 
 TEST_CASE("a frame under a turned light is that under the light standing there", "[session]") {
-    const SmallExperiment moving(with_motions(lamp), Cache::own);
+    // A camera that is fitted stands farther off where one of the motions sweeps more room.
+    const auto with_camera = [](const std::string& text) {
+        return with(text, "height_px = 48\n",
+                    "height_px = 48\ncamera_position = [0, -900, 150]\ncamera_target = [0, 0, 150]\n");
+    };
+    const SmallExperiment moving(with_camera(with_motions(lamp)), Cache::own);
     const std::filesystem::path out = moving.folder().path() / "out";
     REQUIRE(bake(moving, {"--quality", "draft", "--stimulus", "bust/smooth/lamp", "--out", out.string()})
                 .exit_code == 0);
     const SmallExperiment standing(
-        with(with(traced_protocol(), animation,
-                  "[animation]\nkind = \"still\"\nframe_rate_hz = 6\nduration_s = 1\n"),
-             "[schedule]", "[light]\nrotation_deg = 60\n\n[schedule]"),
+        with_camera(with(with(traced_protocol(), animation,
+                              "[animation]\nkind = \"still\"\nframe_rate_hz = 6\nduration_s = 1\n"),
+                         "[schedule]", "[light]\nrotation_deg = 60\n\n[schedule]")),
         Cache::own);
     const std::filesystem::path other = standing.folder().path() / "out";
     const ProgramRun run =

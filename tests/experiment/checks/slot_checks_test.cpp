@@ -71,14 +71,14 @@ TEST_CASE("a slot's place and size are angles from the middle of the screen", "[
 
 TEST_CASE("a circle and a grid are written out as places with numbers", "[unit]") {
     const ReadText read(minimal_protocol,
-                        "slots = \"ring\"\n" + slot_of("ring", "circle = 4\nradius_deg = 6\nsize_deg = 3") +
+                        "slots = \"ring\"\n" + slot_of("ring", "circle = 4\nradius_deg = 4\nsize_deg = 3") +
                             slot_of("page", "grid = [3, 2]\ndistance_deg = 4\nsize_deg = 3"));
     CHECK(read.lines() == Lines{});
     REQUIRE(read.protocol);
     const std::vector<Slot>& slots = read.protocol->slots;
     REQUIRE(slots.size() == 10);
     CHECK(slots[0].id == "ring-1");
-    const double places[][2] = {{0, 6}, {6, 0}, {0, -6},  {-6, 0}, {-4, 2},
+    const double places[][2] = {{0, 4}, {4, 0}, {0, -4},  {-4, 0}, {-4, 2},
                                 {0, 2}, {4, 2}, {-4, -2}, {0, -2}, {4, -2}};
     for (std::size_t i = 0; i < slots.size(); ++i) {
         CAPTURE(i, slots[i].id);

@@ -71,14 +71,15 @@ TEST_CASE("tables have a column for each list with several entries and for each 
     CHECK(names == std::vector<std::string>{"object", "material"});
 }
 
-TEST_CASE("an index that leads out of a list, and a column of an entry that is not there, are damage", "[unit]") {
+TEST_CASE("an index that leads out of a list, and a column of an entry that is not there, are damage",
+          "[unit]") {
     const TemporaryFolder folder;
     const auto damaged = [&](const char* sql) {
-        const auto session = make_session(folder.path() / std::to_string(std::hash<std::string>()(sql)),
-                                          with_lists());
+        const auto session =
+            make_session(folder.path() / std::to_string(std::hash<std::string>()(sql)), with_lists());
         SQLite::Database(session.string() + "/session.sqlite", SQLite::OPEN_READWRITE).exec(sql);
         CHECK_THROWS_AS(SessionRecord(session), RecordError);
     };
     damaged("UPDATE schedule SET light = 2 WHERE trial = 0");
-    damaged("UPDATE entry_column SET entry = 7 WHERE list = 'light'");
+    damaged("UPDATE entry_column SET entry = 7 WHERE list = 'light' AND entry = 0");
 }
