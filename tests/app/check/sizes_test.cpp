@@ -160,7 +160,7 @@ TEST_CASE("labels and a head are both areas of the object, and a head that is la
     experiment.folder().file("labels.txt", labels);
     const nlohmann::json parts = surfaces_of(experiment)[0]["part_shares"];
     INFO(parts.dump());
-    for (const char* part : {"low", "head", "head/crown"})
+    for (const char* part : {"low", "low/head", "head/crown"})
         CHECK(parts.value(part, 0.0) > 0.0);
     CHECK(parts.size() == 3);
 }

@@ -95,7 +95,8 @@ TEST_CASE("a session of an earlier format that goes on becomes one of today, and
 
     const SessionRecord record(session);
     REQUIRE(record.trials().size() == 5);
-    CHECK(record.trials()[2].outcome.afterwards == TrialOutcome::Afterwards::end_of_block);
+    if (version < 3) // which told it in words
+        CHECK(record.trials()[2].outcome.afterwards == TrialOutcome::Afterwards::end_of_block);
     CHECK(record.trials()[3].status == TrialRecord::Status::interrupted);
     CHECK(record.trials()[4].counts);
     const Verification found = verify_session(session);

@@ -115,7 +115,7 @@ StudyResults study_with(int factors, int levels, Naming name, double value) {
         pair.cc.value = Estimate::of(0.123456, Interval{-0.998, 0.997});
         study.pairs.push_back(pair);
         for (int second = 0; second < 8; ++second)
-            study.time_course.push_back({"head", keys.front(), 1.0 * second, second + 1.0,
+            study.time_course.push_back({"", keys.front(), 1.0 * second, second + 1.0,
                                          Estimate::of(1.0, Interval{0.0, 1.0}), 12});
         StudyQuality quality;
         quality.accuracy_deg = value;
@@ -155,6 +155,10 @@ TEST_CASE("no text of a figure lies on another one, and nothing leaves its page,
     }
     for (std::size_t i = 0; i < studies.size(); ++i) {
         const std::vector<StudyFigure> figures = study_figures(studies[i]);
+        std::string names;
+        for (const StudyFigure& figure : figures)
+            names += figure.name + " ";
+        CAPTURE(i, names);
         CHECK(figures.size() >= 7);
         for (const StudyFigure& figure : figures) {
             MeasuringPen pen;
