@@ -100,9 +100,9 @@ std::vector<RowLayout<GazeEventRow>::Column> surface_columns(const SessionHeader
 
 std::vector<RowLayout<TrackerEventRow>::Column>
 event_value_columns(const std::string& pixels, const std::string& of_pupil, const std::string& pupil) {
-    using Place = std::optional<ScreenPoint> GazeEvent::*;
+    using PlaceOfEvent = std::optional<ScreenPoint> GazeEvent::*;
     using Number = std::optional<double> GazeEvent::*;
-    const auto coordinate = [](Place place, double ScreenPoint::*axis) {
+    const auto coordinate = [](PlaceOfEvent place, double ScreenPoint::*axis) {
         return [=](const TrackerEventRow& row) {
             return of_maybe(row.event.*place, [axis](auto& point) {
                 return Fixed{point.*axis, pixel_decimals};
