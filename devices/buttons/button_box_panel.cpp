@@ -89,6 +89,7 @@ std::optional<ResponsePress> ButtonBoxPanel::press_of(const Hand& hand, const Bu
     case Awaited::decision: // the operator's
     case Awaited::entry:    // letters are typed
     case Awaited::setup:
+    case Awaited::answer: // told by next_input()
         break;
     }
     return std::nullopt;

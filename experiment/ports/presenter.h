@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "experiment/flip_report.h"
+#include "experiment/ports/answer_view.h"
 #include "experiment/ports/setup_screen.h"
 #include "experiment/session_time.h"
 #include "experiment/swap_modes.h"
@@ -38,7 +39,8 @@ struct Screen {
         target,     ///< to be looked at
         validation, ///< where gaze was measured beside the targets; `text` below
         camera,     ///< what a tracker's camera sees
-        noise       ///< squares of random light where the stimulus stands
+        noise,      ///< squares of random light where the stimulus stands
+        answers     ///< what is answered, and how; `text` above its items
     };
     Kind kind = Kind::blank;
     /// For text and form; paragraphs split by newlines, emphasis by <b>, <i>, <u>, <big> and <small>. A first
@@ -54,6 +56,7 @@ struct Screen {
     CameraImage camera = {};
     std::uint64_t noise_seed = 0;
     Degrees noise_cell{0.25}; ///< side of a square of noise, at the middle of the screen
+    AnswerView answers = {};
 };
 
 /// How the display shows things: known once the presenter is open.
@@ -94,6 +97,12 @@ class Presenter {
     /// Draws a screen and shows it at the next refresh; it stays until the next call. Lays out text, so not
     /// for use between a presentation's first and last flip.
     virtual FlipReport show(const Screen& screen) = 0;
+
+    /// What of the answers on the screen that was shown last lies at this place, from the middle of the
+    /// screen in pixels of the display: decided by where it was drawn. Nothing on any other screen.
+    virtual AnswerPlace place_in_answers(double /*right_px*/, double /*down_px*/) const noexcept {
+        return {};
+    }
 
     /// Draws a level meter below the middle of the screen that is shown, at the next refresh. Not for use
     /// between a presentation's first and last flip.

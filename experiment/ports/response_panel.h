@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "experiment/base/enum_names.h"
+#include "experiment/ports/observer_input.h"
 #include "experiment/ports/session_phase.h"
 #include "experiment/ports/setup_screen.h"
 #include "experiment/session_time.h"
@@ -64,7 +65,8 @@ enum class Awaited : std::uint8_t {
     consent,  ///< yes or no: the observer decides whether to take part
     decision, ///< yes or no, or a digit, of the operator
     entry,    ///< a form is being filled in: keys of letters are letters
-    setup     ///< a tracker is set up: keys are told as they are, by next_setup_key()
+    setup,    ///< a tracker is set up: keys are told as they are, by next_setup_key()
+    answer    ///< answers are given: what the observer does is told as it is, by next_input()
 };
 
 /// Keys that the operator pressed are never forgotten, whatever is waited for.
@@ -79,8 +81,13 @@ class ResponsePanel {
         await(is_consent ? Awaited::consent : Awaited::decision, since, nullptr);
     }
     void await_entry(SessionTime since) { await(Awaited::entry, since, nullptr); }
+    void await_answer(SessionTime since, const Trial* trial) { await(Awaited::answer, since, trial); }
     void await_setup(SessionTime since) { await(Awaited::setup, since, nullptr); }
     virtual std::optional<SetupKey> next_setup_key() { return std::nullopt; }
+    /// While an answer is awaited, the next of what the observer did, in the order of each device. Poll
+    /// first: that is where devices are looked at, and where the operator's keys come out. Allocates and
+    /// throws nothing: it is called during presentations.
+    virtual std::optional<ObserverInput> next_input() noexcept { return std::nullopt; }
     /// The next press, if there was one. Allocates and throws nothing: it is called during presentations.
     virtual std::optional<ResponsePress> poll() noexcept = 0;
     /// Whether what is typed comes here; false once it has gone to another window. Told by poll().

@@ -128,7 +128,8 @@ std::optional<ResponsePress> WindowResponsePanel::meaning_of(const WindowKeyPres
             return meant(ResponseKey::no);
         return is_character && !is_consent ? meant(ResponseKey::character) : std::nullopt;
     }
-    case Awaited::setup: // keys are asked for by next_setup_key()
+    case Awaited::setup:  // keys are asked for by next_setup_key()
+    case Awaited::answer: // by next_input()
         return std::nullopt;
     case Awaited::entry:
         return is_held && press.key == WindowKey::enter
