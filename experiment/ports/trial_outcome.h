@@ -6,8 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "experiment/ports/gaze_yield.h"
 #include "experiment/ports/attempt_step.h"
+#include "experiment/ports/gaze_yield.h"
+#include "experiment/ports/given_answer.h"
 #include "experiment/session_time.h"
 #include "experiment/swap_modes.h"
 #include "experiment/units.h"
@@ -37,6 +38,10 @@ struct TrialOutcome {
     /// Of the trial's plan, in its order; one that began anew has a row for each time. None of imported
     /// trials, and of sessions of earlier programs.
     std::vector<AttemptStep> steps = {};
+    /// Of a task with [[task.answer]]: a row for each that was asked, missed ones too, and what was done
+    /// meanwhile, in time.
+    std::vector<GivenAnswer> given = {};
+    std::vector<AnswerInput> inputs = {};
 };
 
 } // namespace overt

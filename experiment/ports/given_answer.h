@@ -1,0 +1,78 @@
+/// What an observer answered in an attempt at a trial, and every press that was made meanwhile.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "experiment/base/enum_names.h"
+#include "experiment/ports/observer_input.h"
+#include "experiment/session_time.h"
+
+namespace overt {
+
+/// From where a response time counts.
+enum class AnswerZero : std::uint8_t {
+    stimulus, ///< the onset of the stimulus shown last
+    window,   ///< when answers began to count
+    screen    ///< the onset of the answer's own screen
+};
+template <>
+inline constexpr auto names_of<AnswerZero> = enum_names<AnswerZero>("stimulus", "window", "screen");
+
+/// One answer of [[task.answer]], of a scale with several items one of its items. It is a row also where
+/// nothing was answered: then it is missed, which is not the same as wrong.
+struct GivenAnswer {
+    std::string id;   ///< as the protocol has it
+    std::string item; ///< of a scale with several; else empty
+    std::string kind; ///< as in `answer_kinds`
+    bool is_missed = true;
+    std::string value;            ///< what was meant: a choice, a step's label or number, what was typed
+    std::optional<double> number; ///< of a scale and of a number
+    std::string key, device;      ///< by which it was given, or accepted where it is accepted apart
+    /// What a trial says is right, as a value; empty: nothing is, or nobody knows it.
+    std::string correct;
+    std::optional<bool> is_correct; ///< nothing: missed, or nothing is correct
+
+    AnswerZero zero = AnswerZero::window;
+    std::optional<SessionTime> stimulus_onset, window_onset, window_end, screen_onset;
+    std::optional<SessionTime> first_input_at;  ///< the first that changed it, in time
+    std::optional<SessionTime> answered_at;     ///< when it was given, or accepted
+    std::optional<SessionDuration> uncertainty; ///< of answered_at; nothing: missed
+    bool is_tied = false; ///< two keys that answer differently were pressed at the same time
+
+    int place = 0;   ///< which of the trial's answers and items it was in turn, from 0
+    int mapping = 0; ///< by how many places keys, or the sides of a scale, are turned; 0: as written
+    int changes = 0; ///< how often it was changed before it stood
+
+    /// The instant that its response time counts from; nothing if the trial did not come to it.
+    std::optional<SessionTime> zero_at() const {
+        return zero == AnswerZero::stimulus ? stimulus_onset
+               : zero == AnswerZero::window ? window_onset
+                                            : screen_onset;
+    }
+    /// Negative: before what it counts from. Nothing: missed.
+    std::optional<SessionDuration> response_time() const {
+        const std::optional<SessionTime> from = zero_at();
+        return answered_at && from ? std::optional(*answered_at - *from) : std::nullopt;
+    }
+};
+
+/// Where an input fell.
+enum class InputState : std::uint8_t {
+    before, ///< the window opened
+    open,
+    late ///< after the window closed
+};
+template <> inline constexpr auto names_of<InputState> = enum_names<InputState>("before", "open", "late");
+
+/// An input of an attempt, as one answer saw it.
+struct AnswerInput {
+    std::string id; ///< of the answer
+    ObserverInput input;
+    InputState state = InputState::open;
+    bool has_counted = false;     ///< it changed the answer, or gave it
+    std::optional<double> number; ///< where a scale's marker stood after it
+};
+
+} // namespace overt
