@@ -154,6 +154,21 @@ void add_motion(std::string& text, const DesignReport& report, const AnimationFa
                      difference_of_rates(report, animation))});
 }
 
+/// "7.98 deg to the left of the screen's middle and 2.00 deg above it".
+std::string from_the_middle(double right_deg, double up_deg) {
+    constexpr double least_deg = 0.005; // what is written as 0.00
+    std::string words;
+    if (std::abs(right_deg) >= least_deg)
+        words =
+            fmt::format("{:.2f} deg to the {} of", std::abs(right_deg), right_deg > 0.0 ? "right" : "left");
+    const std::string height =
+        fmt::format("{:.2f} deg {}", std::abs(up_deg), up_deg > 0.0 ? "above" : "below");
+    if (std::abs(up_deg) < least_deg)
+        return (words.empty() ? "in" : words) + " the screen's middle";
+    return words.empty() ? height + " the screen's middle"
+                         : words + " the screen's middle, " + height + " it";
+}
+
 void add_overview(std::string& text, const DesignReport& report) {
     const int tasks = static_cast<int>(report.tasks.size());
     const int stimuli = static_cast<int>(report.factors.stimulus_count());
@@ -183,9 +198,8 @@ void add_overview(std::string& text, const DesignReport& report) {
     for (const DesignReport::SlotFacts& slot : report.slot_places) {
         const glm::ivec2 first = slot.screen.image_origin_px, last = first + slot.screen.image_px - 1;
         const glm::dvec2 middle = slot.screen.middle_deg();
-        places.push_back(
-            fmt::format("{}: middle {:.2f} deg to the right, {:.2f} up; columns {} to {}, rows {} to {}",
-                        slot.id, middle.x, middle.y, first.x, last.x, first.y, last.y));
+        places.push_back(fmt::format("{}: {}; columns {} to {}, rows {} to {}", slot.id,
+                                     from_the_middle(middle.x, middle.y), first.x, last.x, first.y, last.y));
     }
     if (!places.empty())
         add_facts(text, "Slots", places);
@@ -204,9 +218,8 @@ void add_overview(std::string& text, const DesignReport& report) {
         fmt::format("rendered under {:.2f} deg", angles.camera_fov_deg)};
     if (report.slot_places.empty() &&
         std::hypot(angles.image_right_deg, angles.image_up_deg) > 2.0 / angles.px_per_deg)
-        stimulus.push_back(fmt::format("its middle stands {:.2f} deg to the right of the screen's and {:.2f} "
-                                       "deg above it",
-                                       angles.image_right_deg, angles.image_up_deg));
+        stimulus.push_back(
+            fmt::format("it stands {}", from_the_middle(angles.image_right_deg, angles.image_up_deg)));
     add_facts(text, "Stimulus", stimulus);
     const MemoryNeed& memory = report.memory;
     add_facts(

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -200,11 +201,26 @@ ValueResult read_value(const TomlValue& value, const KeyRule& rule, std::vector<
     return std::nullopt;
 }
 
+namespace {
+
+/// The items of a list of lists; what is one such item itself, as its first element tells, counts as a list
+/// of it: `[x, y, z, r]` as `[[x, y, z, r]]`. `depth`: of lists in an item.
+std::span<const TomlValue> items_of(const TomlValue& value, int depth) {
+    const TomlValue* first = &value;
+    for (int level = 0; level < depth && first->list() && !first->list()->empty(); ++level)
+        first = &first->list()->front();
+    if (first->list())
+        return *value.list();
+    return {&value, 1};
+}
+
+} // namespace
+
 ValueResult read_value(const TomlValue& value, const KeyRule& rule, std::vector<std::array<double, 4>>& out) {
     using Spheres = std::vector<std::array<double, 4>>;
     if (!value.list())
         return wrong_kind<Spheres>(value, rule);
-    for (const TomlValue& item : *value.list()) {
+    for (const TomlValue& item : items_of(value, 1)) {
         std::array<double, 4> sphere{};
         if (ValueResult fault = read_numbers<Spheres>(item, rule, sphere.size(), sphere.data()))
             return fault;
@@ -220,7 +236,7 @@ ValueResult read_value(const TomlValue& value, const KeyRule& rule, std::vector<
     using Planes = std::vector<std::array<double, 6>>;
     if (!value.list())
         return wrong_kind<Planes>(value, rule);
-    for (const TomlValue& item : *value.list()) {
+    for (const TomlValue& item : items_of(value, 2)) {
         const TomlList* pair = item.list();
         if (!pair || pair->size() != 2)
             return ValueFault{
@@ -461,9 +477,9 @@ constexpr ValueType truth_type = plain<bool>("true or false", truth), whole_type
                     numbers_type = optional<std::vector<double>>("a list of numbers", numbers),
                     texts_type = optional<std::vector<std::string>>("a list of texts", texts),
                     spheres_type = optional<std::vector<std::array<double, 4>>>(
-                        "a list of spheres [x, y, z, radius]", spheres),
+                        "a sphere [x, y, z, radius], or a list of spheres", spheres),
                     planes_type = optional<std::vector<std::array<double, 6>>>(
-                        "a list of planes [[x, y, z], [nx, ny, nz]]", planes),
+                        "a plane [[x, y, z], [nx, ny, nz]], or a list of planes", planes),
                     boxes_type = optional<Boxes>("a list of boxes [[x, y, z], [x, y, z]]", planes),
                     named_shares_type =
                         optional<NamedShares>("a table of names with a number each", named_shares),

@@ -133,6 +133,19 @@ TEST_CASE("an empty file is told what it needs", "[unit]") {
                                         "1:1: there is no [[object]]", "1:1: there is no [[material]]"});
 }
 
+TEST_CASE("a single sphere or plane needs no list around it", "[unit]") {
+    const std::string mesh = "[[object]]\nid = \"m\"\nmesh = \"m.ply\"\n";
+    const ReadText one(minimal_protocol,
+                       mesh + "head = { spheres = [1, 2, 3, 4], planes = [[1, 2, 3], [0, 0, 1]] }\n");
+    const ReadText list(minimal_protocol,
+                        mesh + "head = { spheres = [[1, 2, 3, 4]], planes = [[[1, 2, 3], [0, 0, 1]]] }\n");
+    REQUIRE((one.protocol && list.protocol));
+    const AreaSettings& shape = one.protocol->objects.at(0).areas.at(0);
+    CHECK(shape.spheres == list.protocol->objects.at(0).areas.at(0).spheres);
+    CHECK(shape.planes == list.protocol->objects.at(0).areas.at(0).planes);
+    CHECK(shape.planes.size() == 1);
+}
+
 TEST_CASE("head shapes that cannot be are found where they stand", "[unit]") {
     const std::string mesh = "[[object]]\nid = \"m\"\nmesh = \"m.ply\"\n"; // lines 12 to 14
     CHECK(ReadText(minimal_protocol, mesh + "head = { spheres = [[1, 2, 3, 0]] }\n").lines() ==
@@ -141,7 +154,7 @@ TEST_CASE("head shapes that cannot be are found where they stand", "[unit]") {
           Lines{"15:21: spheres: expected 4 numbers, found 3"});
     CHECK(ReadText(minimal_protocol, mesh + "head = { spheres = [[1, 2, 3, 4]], planes = [[0, 1]] }\n")
               .lines() ==
-          Lines{"15:47: planes: expected a list of planes [[x, y, z], [nx, ny, nz]], found a whole number"});
+          Lines{"15:46: planes: expected a point and a direction, [[x, y, z], [nx, ny, nz]]"});
     CHECK(ReadText(minimal_protocol, mesh + "head = 3\n").lines() ==
           Lines{"15:8: head: expected a table, found a whole number"});
 }
