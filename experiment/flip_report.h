@@ -48,14 +48,16 @@ inline constexpr AnimationFrameIndex no_frame{-1};
 /// A row of the ledger: what was planned for a refresh of a presentation, and what was shown.
 struct FlipRecord {
     int trial = 0;
-    int refresh_in_trial = 0;    ///< since the presentation's onset, by the display's count
-    AnimationFrameIndex planned; ///< for this refresh; no_frame where the plan had ended
-    AnimationFrameIndex shown;
+    int refresh_in_trial = 0;    ///< since the onset of the attempt's first show, by the display's count
+    AnimationFrameIndex planned; ///< for this refresh; no_frame where the plan had ended, or the slot was empty
+    AnimationFrameIndex shown;   ///< no_frame: the slot was empty
     PoseIndex pose;
     FlipReport report;
     /// Refreshes that went by with the picture before since the one that this was for. The ledger says so
     /// while it is written, and LedgerFit again where the source of the times counts none.
     int missed_refreshes = 0;
+    /// Which of the attempt's steps shows it, from 1; 0: the only one that shows anything.
+    int step = 0;
 };
 
 /// What a flip showed in a further slot; that of the trial's first stimulus is in the FlipRecord. A refresh

@@ -13,6 +13,10 @@ struct SwapModes {
     int all_copied() const { return copied + suboptimal_copied; }
     int all() const { return flipped + all_copied() + skipped; }
     friend bool operator==(const SwapModes&, const SwapModes&) = default;
+    friend SwapModes operator+(const SwapModes& a, const SwapModes& b) {
+        return {a.flipped + b.flipped, a.copied + b.copied, a.suboptimal_copied + b.suboptimal_copied,
+                a.skipped + b.skipped};
+    }
 };
 
 } // namespace overt

@@ -71,6 +71,17 @@ struct Trial {
         all.insert(all.end(), beside.begin(), beside.end());
         return all;
     }
+    /// The same trial, as if it had no more than these of its stimuli, rising and one at least.
+    Trial only(const std::vector<int>& places) const {
+        Trial part = *this;
+        const PlacedStimulus first = shown(static_cast<std::size_t>(places.front()));
+        part.stimulus = first.stimulus;
+        part.slot = first.slot;
+        part.beside.clear();
+        for (std::size_t i = 1; i < places.size(); ++i)
+            part.beside.push_back(shown(static_cast<std::size_t>(places[i])));
+        return part;
+    }
     /// The i-th that it shows, `stimulus` being the 0th.
     PlacedStimulus shown(std::size_t i) const {
         return i == 0 ? PlacedStimulus{stimulus, slot} : beside[i - 1];

@@ -85,7 +85,7 @@ SimulatedPresentation simulate_presentation(const FaultScript& script) {
     VirtualRefresh display(clock, script.refresh_hz, script.faults);
     RefreshLedger ledger(presentation.plan, script.when_late);
     clock.wait_until(clock.now() + std::chrono::milliseconds(1234));
-    display.presentation_begins({});
+    display.presentation_begins({}, 0);
     ledger.begin(0);
     std::int64_t onset = 0;
     while (!ledger.is_complete()) {

@@ -12,12 +12,20 @@ namespace overt {
 
 namespace {
 
-SessionTime first_light_of(const SessionRecord& record, const TrialRecord& trial,
-                           const std::optional<TrialLedger>& ledger) {
-    if (!ledger)
+/// The vertical blanks of the first and the last flip of the steps that lit its slot.
+std::pair<SessionTime, SessionTime> shown_span(const SessionRecord& record, const TrialRecord& trial,
+                                               const std::optional<TrialLedger>& ledger) {
+    std::optional<std::pair<SessionTime, SessionTime>> span;
+    if (ledger)
+        for (const RecordedShow& show : shows_of(record.header(), trial, ledger->recorded))
+            if (show.is_lit) {
+                const SessionTime last = ledger->recorded[show.end - 1].report.vertical_blank;
+                span = {span ? span->first : ledger->recorded[show.begin].report.vertical_blank, last};
+            }
+    if (!span)
         throw InputError(fmt::format("{}: nothing was shown in trial {}: choose another with --trial",
                                      record.directory().string(), trial.trial.index + 1));
-    return ledger->recorded.front().report.vertical_blank + record.header().display.latency;
+    return *span;
 }
 
 } // namespace
@@ -26,12 +34,13 @@ ShownFrames::ShownFrames(const SessionRecord& record, const TrialRecord& trial, 
     : record_(record), lookup_(lookup), history_(record.flip_history(trial, record.ledger(trial))) {
     const SessionHeader& header = record.header();
     const std::optional<TrialLedger> ledger = record.ledger(trial);
-    first_light_ = first_light_of(record, trial, ledger);
+    const auto [onset, last_flip] = shown_span(record, trial, ledger);
+    first_light_ = onset + header.display.latency;
     const double refresh_hz = header.display.refresh_hz;
     const int held =
         std::max(1, refreshes_per_frame(header.animation_of(trial.trial.stimulus).frame_rate_hz, refresh_hz));
     period_s_ = held / refresh_hz;
-    const SessionTime last = ledger->recorded.back().report.vertical_blank + header.display.latency;
+    const SessionTime last = last_flip + header.display.latency;
     const double lit_s = to_seconds(last - first_light_) + 1.0 / refresh_hz;
     // The last period counts if it was lit for half of its time.
     count_ = std::max(1, static_cast<int>(std::lround(lit_s / period_s_)));

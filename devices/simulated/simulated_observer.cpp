@@ -17,6 +17,12 @@ ScreenPoint between(ScreenPoint from, ScreenPoint to, double share) {
     return {from.x_px + share * (to.x_px - from.x_px), from.y_px + share * (to.y_px - from.y_px)};
 }
 
+/// Further shows of an attempt are looked at anew.
+int number_of_script(const Trial& trial, int show) {
+    constexpr int most_trials = 1 << 20;
+    return trial.index + most_trials * show;
+}
+
 double share_of(SessionTime time, SessionTime begin, SessionTime end) {
     return to_seconds(time - begin) / to_seconds(end - begin);
 }
@@ -52,8 +58,8 @@ void SimulatedObserver::prepare_next() {
         presentations_.push_back(std::make_unique<Presentation>(scene_, settings_));
 }
 
-void SimulatedObserver::presentation_begins(const Trial& trial) noexcept {
-    OVERT_EXPECTS(begun_ < presentations_.size());
+void SimulatedObserver::presentation_begins(const Trial& trial, int show) noexcept {
+    prepare_next(); // a show may follow another directly
     Presentation& presentation = *presentations_[begun_++];
     presentation.trial = trial.index;
     presentation.shown.clear();
@@ -63,7 +69,7 @@ void SimulatedObserver::presentation_begins(const Trial& trial) noexcept {
                                       gaze_plan(scene_, seed_, trial.task, stimulus),
                                       &motions_[static_cast<std::size_t>(stimulus.motion)].turn});
     }
-    presentation.script.compose(scene_, presentation.shown, settings_, seed_, trial.index);
+    presentation.script.compose(scene_, presentation.shown, settings_, seed_, number_of_script(trial, show));
 }
 
 void SimulatedObserver::flipped(const FlipRecord& flip) noexcept {

@@ -58,9 +58,9 @@ class SimulatedObserver final : public PresentationListener {
     /// Throws GraphicsError if an object's rays cannot be cast. The scene's meshes must outlive this.
     SimulatedObserver(ObservedScene scene, std::uint64_t seed, const ObserverSettings& settings = {});
 
-    /// A screen must have been seen since the presentation before. Casts some thousand rays, which takes
-    /// about a millisecond.
-    void presentation_begins(const Trial& trial) noexcept override;
+    /// Casts some thousand rays, which takes about a millisecond. Where a show follows another directly, room
+    /// for it is made as well.
+    void presentation_begins(const Trial& lit, int show) noexcept override;
     void flipped(const FlipRecord& flip) noexcept override;
     /// Ends a presentation: 150 ms later the eye returns to the middle of the screen. Of a target, it goes
     /// there 200 ms after its onset, and stays until another screen is shown.

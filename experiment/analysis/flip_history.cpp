@@ -6,10 +6,20 @@
 
 namespace overt {
 
-FlipHistory::FlipHistory(std::span<const FlipRecord> flips, const ScanOut& scan_out, const PageCycle& plan)
+FlipHistory::FlipHistory(std::span<const Show> shows, const ScanOut& scan_out)
     : scan_out_(scan_out), refresh_ns_(1e9 / scan_out.refresh_hz) {
     OVERT_EXPECTS(scan_out.refresh_hz > 0.0 && scan_out.screen_rows > 0.0);
-    std::vector<FlipRecord> ordered(flips.begin(), flips.end());
+    for (const Show& show : shows)
+        if (!show.flips.empty())
+            shows_.emplace_back(show, scan_out.refresh_hz);
+    std::ranges::stable_sort(shows_, {}, &ShowHistory::onset);
+}
+
+FlipHistory::FlipHistory(std::span<const FlipRecord> flips, const ScanOut& scan_out, const PageCycle& plan)
+    : FlipHistory(std::vector<Show>{{flips, plan}}, scan_out) {}
+
+FlipHistory::ShowHistory::ShowHistory(const Show& show, double refresh_hz) : refresh_ns_(1e9 / refresh_hz) {
+    std::vector<FlipRecord> ordered(show.flips.begin(), show.flips.end());
     std::stable_sort(ordered.begin(), ordered.end(), [](const FlipRecord& a, const FlipRecord& b) {
         return a.report.vertical_blank < b.report.vertical_blank;
     });
@@ -19,13 +29,11 @@ FlipHistory::FlipHistory(std::span<const FlipRecord> flips, const ScanOut& scan_
         blanks_.push_back(flip.report.vertical_blank);
         pictures_.push_back({flip.shown, flip.pose, flip.report.refresh});
     }
-    if (blanks_.empty())
-        return;
-    end_ = blanks_.back() + from_seconds(1.0 / scan_out_.refresh_hz);
-    for (int refresh = 0; refresh <= plan.total_refreshes; ++refresh) {
-        planned_blanks_.push_back(blanks_.front() + from_seconds(refresh / scan_out_.refresh_hz));
-        if (refresh < plan.total_refreshes)
-            planned_frames_.push_back(plan.entry_at(refresh).frame);
+    end_ = blanks_.back() + from_seconds(1.0 / refresh_hz);
+    for (int refresh = 0; refresh <= show.plan.total_refreshes; ++refresh) {
+        planned_blanks_.push_back(blanks_.front() + from_seconds(refresh / refresh_hz));
+        if (refresh < show.plan.total_refreshes)
+            planned_frames_.push_back(show.plan.entry_at(refresh).frame);
     }
     // Two steps for each blank, so that hardly a step holds more than one.
     const std::size_t steps = 2 * blanks_.size();
@@ -41,8 +49,17 @@ FlipHistory::FlipHistory(std::span<const FlipRecord> flips, const ScanOut& scan_
     }
 }
 
-std::ptrdiff_t FlipHistory::picture_at(SessionTime blank) const {
-    if (blanks_.empty() || blank < blanks_.front() || blank >= end_)
+const FlipHistory::ShowHistory* FlipHistory::show_at(SessionTime blank) const {
+    if (shows_.empty())
+        return nullptr;
+    std::size_t i = shows_.size() - 1;
+    while (i > 0 && blank < shows_[i].onset())
+        --i;
+    return &shows_[i];
+}
+
+std::ptrdiff_t FlipHistory::ShowHistory::picture_at(SessionTime blank) const {
+    if (blank < blanks_.front() || blank >= end_)
         return -1;
     const auto step =
         static_cast<std::size_t>(static_cast<double>((blank - blanks_.front()).count()) * steps_per_ns_);
@@ -54,8 +71,8 @@ std::ptrdiff_t FlipHistory::picture_at(SessionTime blank) const {
     return next - blanks_.begin() - 1;
 }
 
-std::ptrdiff_t FlipHistory::planned_at(SessionTime blank) const {
-    if (blanks_.empty() || blank < planned_blanks_.front() || blank >= planned_blanks_.back())
+std::ptrdiff_t FlipHistory::ShowHistory::planned_at(SessionTime blank) const {
+    if (blank < planned_blanks_.front() || blank >= planned_blanks_.back())
         return -1;
     auto refresh =
         static_cast<std::size_t>(static_cast<double>((blank - blanks_.front()).count()) / refresh_ns_);
@@ -68,40 +85,43 @@ std::ptrdiff_t FlipHistory::planned_at(SessionTime blank) const {
     return static_cast<std::ptrdiff_t>(refresh);
 }
 
-std::optional<LitFrame> FlipHistory::frame_shown_at(SessionTime time, double row_px) const {
-    return lighting_at(time, row_px).shown;
-}
-
-std::optional<AnimationFrameIndex> FlipHistory::frame_planned_at(SessionTime time, double row_px) const {
-    const std::ptrdiff_t refresh = planned_at(blank_lighting(scan_out_, refresh_ns_, time, row_px));
-    return refresh < 0 ? std::nullopt : std::optional(planned_frames_[static_cast<std::size_t>(refresh)]);
-}
-
-bool FlipHistory::is_on_plan(std::ptrdiff_t picture, SessionTime blank) const {
+bool FlipHistory::ShowHistory::is_on_plan(std::ptrdiff_t picture, SessionTime blank) const {
     const std::ptrdiff_t planned = planned_at(blank);
     return picture < 0 || planned < 0 ? picture == planned
                                       : pictures_[static_cast<std::size_t>(picture)].frame ==
                                             planned_frames_[static_cast<std::size_t>(planned)];
 }
 
-bool FlipHistory::is_off_plan(std::ptrdiff_t picture, SessionTime blank) const {
+bool FlipHistory::ShowHistory::is_off_plan(std::ptrdiff_t picture, SessionTime blank) const {
     constexpr SessionDuration rounding = std::chrono::microseconds(1);
     return !is_on_plan(picture, blank) && !is_on_plan(picture, blank - rounding) &&
            !is_on_plan(picture, blank + rounding);
 }
 
+std::optional<LitFrame> FlipHistory::frame_shown_at(SessionTime time, double row_px) const {
+    return lighting_at(time, row_px).shown;
+}
+
+std::optional<AnimationFrameIndex> FlipHistory::frame_planned_at(SessionTime time, double row_px) const {
+    const SessionTime blank = blank_lighting(scan_out_, refresh_ns_, time, row_px);
+    const ShowHistory* const show = show_at(blank);
+    const std::ptrdiff_t refresh = show ? show->planned_at(blank) : -1;
+    return refresh < 0 ? std::nullopt : std::optional(show->planned(refresh));
+}
+
 Lighting FlipHistory::lighting_at(SessionTime time, double row_px) const {
     const SessionTime blank = blank_lighting(scan_out_, refresh_ns_, time, row_px);
-    const std::ptrdiff_t picture = picture_at(blank);
+    const ShowHistory* const show = show_at(blank);
+    if (!show)
+        return {};
+    const std::ptrdiff_t picture = show->picture_at(blank);
     // A slot may be empty for a while.
-    const bool is_lit = picture >= 0 && pictures_[static_cast<std::size_t>(picture)].frame != no_frame;
-    return {is_lit ? std::optional(pictures_[static_cast<std::size_t>(picture)]) : std::nullopt,
-            is_off_plan(picture, blank)};
+    const bool is_lit = picture >= 0 && show->picture(picture).frame != no_frame;
+    return {is_lit ? std::optional(show->picture(picture)) : std::nullopt, show->is_off_plan(picture, blank)};
 }
 
 bool FlipHistory::is_off_plan(SessionTime time, double row_px) const {
-    const SessionTime blank = blank_lighting(scan_out_, refresh_ns_, time, row_px);
-    return is_off_plan(picture_at(blank), blank);
+    return lighting_at(time, row_px).off_plan;
 }
 
 } // namespace overt

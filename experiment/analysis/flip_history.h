@@ -27,15 +27,22 @@ struct Lighting {
     bool off_plan = false;
 };
 
-/// Answers for one presentation. May be asked from any thread.
+/// Answers for one presentation, of as many shows as its slot was lit in. May be asked from any thread.
 ///
 /// Row y of refresh r is lit from vertical_blank(r) + latency + y / screen_rows * one nominal refresh until
 /// the same row of the next refresh in the ledger (so a picture that stays because a refresh was dropped
-/// stays here too); after the last one, for one nominal refresh. Rows above and below the screen are taken as
+/// stays here too); after the last one of a show, for one nominal refresh. Rows above and below the screen are taken as
 /// its first and last.
 class FlipHistory {
   public:
-    /// The ledger's rows of one trial, in any order, and the page cycle that the presentation was to follow.
+    /// A show: its flips in any order, and the page cycle that it was to follow.
+    struct Show {
+        std::span<const FlipRecord> flips;
+        PageCycle plan;
+    };
+    /// In their order.
+    FlipHistory(std::span<const Show> shows, const ScanOut& scan_out);
+    /// Of the only show.
     FlipHistory(std::span<const FlipRecord> flips, const ScanOut& scan_out, const PageCycle& plan);
 
     /// Nothing before the presentation's onset and after its end.
@@ -53,23 +60,43 @@ class FlipHistory {
     bool is_off_plan(SessionTime time, double row_px) const;
 
   private:
-    /// Index of the picture that was lit, or of the planned refresh; -1 where there is none.
-    std::ptrdiff_t picture_at(SessionTime blank) const;
-    std::ptrdiff_t planned_at(SessionTime blank) const;
-    bool is_on_plan(std::ptrdiff_t picture, SessionTime blank) const;
-    bool is_off_plan(std::ptrdiff_t picture, SessionTime blank) const;
+    /// The pictures of one show, and its plan. Times are of vertical blanks, without the display's latency.
+    class ShowHistory {
+      public:
+        ShowHistory(const Show& show, double refresh_hz);
+
+        SessionTime onset() const { return blanks_.front(); }
+        /// Index of the picture that was lit, or of the planned refresh; -1 where there is none.
+        std::ptrdiff_t picture_at(SessionTime blank) const;
+        std::ptrdiff_t planned_at(SessionTime blank) const;
+        const LitFrame& picture(std::ptrdiff_t index) const {
+            return pictures_[static_cast<std::size_t>(index)];
+        }
+        AnimationFrameIndex planned(std::ptrdiff_t index) const {
+            return planned_frames_[static_cast<std::size_t>(index)];
+        }
+        bool is_off_plan(std::ptrdiff_t picture, SessionTime blank) const;
+
+      private:
+        bool is_on_plan(std::ptrdiff_t picture, SessionTime blank) const;
+
+        double refresh_ns_;
+        std::vector<SessionTime> blanks_; ///< rising
+        std::vector<LitFrame> pictures_;  ///< by index of blanks_
+        SessionTime end_;
+        // By refresh of the plan; the blanks have one more, the end.
+        std::vector<SessionTime> planned_blanks_;
+        std::vector<AnimationFrameIndex> planned_frames_;
+        /// For equal steps of time since the first blank, the number of blanks up to then: where to look.
+        std::vector<std::uint32_t> blanks_before_step_;
+        double steps_per_ns_ = 0.0;
+    };
+    /// The last that had begun, or the first; null if nothing was ever shown.
+    const ShowHistory* show_at(SessionTime blank) const;
 
     ScanOut scan_out_;
     double refresh_ns_;
-    std::vector<SessionTime> blanks_; ///< rising
-    std::vector<LitFrame> pictures_;  ///< by index of blanks_
-    SessionTime end_;
-    // By refresh of the plan; the blanks have one more, the end.
-    std::vector<SessionTime> planned_blanks_;
-    std::vector<AnimationFrameIndex> planned_frames_;
-    /// For equal steps of time since the first blank, the number of blanks up to then: where to look.
-    std::vector<std::uint32_t> blanks_before_step_;
-    double steps_per_ns_ = 0.0;
+    std::vector<ShowHistory> shows_; ///< by their onsets
 };
 
 } // namespace overt

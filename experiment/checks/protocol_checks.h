@@ -60,6 +60,8 @@ void check_files(ProtocolExamination& examination);
 /// that is there twice.
 void check_slots_apart(ProtocolExamination& examination, const std::string& path,
                        std::span<const int> shown_at_once);
+/// The same at a place of the protocol's file.
+void check_slots_apart(ProtocolExamination& examination, Place place, std::span<const int> shown_at_once);
 
 /// Reports each entry of a list whose id an earlier one has already. Empty ids are reported elsewhere.
 void check_ids_differ(ProtocolExamination& examination, std::string_view list,

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <functional>
 
 #include <fmt/format.h>
 
@@ -121,36 +122,51 @@ void check_slots_of_task(ProtocolExamination& examination, std::size_t index) {
                           fmt::format("task \"{}\" does not say in which of the {} slots it shows stimuli",
                                       task.id, protocol.slots.size()),
                           "write slots = [ … ] with their ids");
-    if (are_known)
+    // What steps show is looked at step by step.
+    if (are_known && task.steps.empty())
         check_slots_apart(examination, path, slots_of_task(protocol, static_cast<int>(index)));
 }
 
 } // namespace
 
-void check_slots_apart(ProtocolExamination& examination, const std::string& path,
-                       std::span<const int> shown_at_once) {
-    const Protocol& protocol = examination.protocol;
+namespace {
+
+using ReportSlots = std::function<void(const std::string& message, const std::string& hint)>;
+
+void check_apart(const Protocol& protocol, std::span<const int> shown_at_once, const ReportSlots& report) {
     const auto slot_at = [&](std::size_t i) -> const Slot& {
         return protocol.slots[static_cast<std::size_t>(shown_at_once[i])];
     };
     for (std::size_t i = 0; i < shown_at_once.size(); ++i) {
         const ScreenGeometry one = slot_geometry(protocol, slot_at(i));
         for (std::size_t j = 0; j < i; ++j) {
-            if (shown_at_once[i] == shown_at_once[j]) {
-                examination.error({path}, fmt::format("slot \"{}\" is listed twice", slot_at(i).id));
-                return;
-            }
+            if (shown_at_once[i] == shown_at_once[j])
+                return report(fmt::format("slot \"{}\" is listed twice", slot_at(i).id), "");
             const ScreenGeometry other = slot_geometry(protocol, slot_at(j));
-            if (!come_closer(one.image_origin_px, one.image_origin_px + one.image_px, other.image_origin_px,
-                             other.image_origin_px + other.image_px, 2 * pair_reach_px(protocol.display)))
-                continue;
-            examination.error({path},
-                              fmt::format("the slots \"{}\" and \"{}\" overlap: {}, and {}", slot_at(j).id,
+            if (come_closer(one.image_origin_px, one.image_origin_px + one.image_px, other.image_origin_px,
+                            other.image_origin_px + other.image_px, 2 * pair_reach_px(protocol.display)))
+                return report(fmt::format("the slots \"{}\" and \"{}\" overlap: {}, and {}", slot_at(j).id,
                                           slot_at(i).id, pixels_of(other), pixels_of(one)),
-                              "make them smaller, or place them farther apart");
-            return;
+                              "make them smaller, place them farther apart, or show them in steps of their own");
         }
     }
+}
+
+} // namespace
+
+void check_slots_apart(ProtocolExamination& examination, const std::string& path,
+                       std::span<const int> shown_at_once) {
+    check_apart(examination.protocol, shown_at_once,
+                [&](const std::string& message, const std::string& hint) {
+                    examination.error({path}, message, hint);
+                });
+}
+
+void check_slots_apart(ProtocolExamination& examination, Place place, std::span<const int> shown_at_once) {
+    check_apart(examination.protocol, shown_at_once,
+                [&](const std::string& message, const std::string& hint) {
+                    examination.diagnostics().error(examination.protocol.file.string(), place, message, hint);
+                });
 }
 
 void check_slots(ProtocolExamination& examination) {

@@ -16,7 +16,9 @@ namespace {
 class StepChecks {
   public:
     StepChecks(ProtocolExamination& examination, const Task& task)
-        : examination_(examination), task_(task), watched_(watched_steps(task.steps)) {}
+        : examination_(examination), task_(task), watched_(watched_steps(task.steps)),
+          slots_(slots_of_task(examination.protocol,
+                               static_cast<int>(&task - examination.protocol.tasks.data()))) {}
 
     void run() {
         check_ids();
@@ -25,7 +27,7 @@ class StepChecks {
             check_end(task_.steps[i]);
             check_place(task_.steps[i]);
             if (task_.steps[i].gaze)
-                check_gaze(task_.steps[i], i >= watched_.begin && i < watched_.end);
+                check_gaze(task_.steps[i], watched_[i]);
         }
     }
 
@@ -50,11 +52,8 @@ class StepChecks {
     }
 
     void check_order() {
-        int shows = 0, answers = 0;
+        int answers = 0;
         for (const StepSettings& step : task_.steps) {
-            if (step.kind == StepKind::show && ++shows == 2)
-                error(step.place, fmt::format("task {} shows its stimulus a second time", task_.id),
-                      "a trial has one step that shows; make the other a trial of its own");
             if (step.kind == StepKind::answer && ++answers == 2)
                 error(step.place, fmt::format("task {} takes an answer a second time", task_.id),
                       "a trial has one answer");
@@ -62,9 +61,7 @@ class StepChecks {
                 error(step.place, "there is no answer yet that feedback could be about",
                       "put the feedback behind the step answer");
         }
-        if (shows == 0)
-            error(task_.steps.front().place, fmt::format("no step of task {} shows the stimulus", task_.id),
-                  "add { show = \"centre\" }");
+        check_all_are_shown();
     }
 
     void check_end(const StepSettings& step) {
@@ -92,41 +89,61 @@ class StepChecks {
             }
     }
 
-    /// A step shows all that the trial has: what it names are the task's slots.
-    void check_slots(const StepSettings& step) {
-        const Protocol& protocol = examination_.protocol;
-        std::vector<std::string> all, shown;
-        for (const Slot& slot : protocol.slots)
-            all.push_back(slot.id);
-        for (const int slot : slots_of_task(protocol, static_cast<int>(&task_ - protocol.tasks.data())))
-            shown.push_back(all[static_cast<std::size_t>(slot)]);
-        const auto entry_of = [&](const std::string& id) -> std::string {
-            for (const Slot& slot : protocol.slots)
-                if (slot.id == id && slot.entry >= 0)
-                    return protocol.slot_entries[static_cast<std::size_t>(slot.entry)].id;
-            return id;
-        };
-        bool is_known = true;
-        for (const std::string& slot : step.slots) {
-            const auto is_it = [&](const std::string& id) { return slot == id || slot == entry_of(id); };
-            if (std::ranges::any_of(all, is_it))
-                continue;
-            is_known = false;
-            error(step.place, fmt::format("unknown slot \"{}\"", slot),
-                  fmt::format("slots are {}", fmt::join(all, ", ")));
+    const std::string& slot_id(int slot) const {
+        return examination_.protocol.slots[static_cast<std::size_t>(slot)].id;
+    }
+    std::vector<std::string> ids_of_slots(const std::vector<int>& slots) const {
+        std::vector<std::string> ids;
+        for (const int slot : slots)
+            ids.push_back(slot_id(slot));
+        return ids;
+    }
+    bool is_shown_by_task(int slot) const { return std::ranges::find(slots_, slot) != slots_.end(); }
+
+    /// Whether names are of slots, or of circles and grids of them, and of the task's.
+    bool check_slot_names(const std::vector<std::string>& names, Place place) {
+        const int errors = examination_.diagnostics().error_count();
+        for (const std::string& name : names) {
+            const std::vector<int> slots = slots_named(examination_.protocol, {name});
+            if (slots.empty())
+                error(place, fmt::format("unknown slot \"{}\"", name),
+                      fmt::format("slots of task {} are {}", task_.id, fmt::join(ids_of_slots(slots_), ", ")));
+            else if (!std::ranges::all_of(slots, [&](int slot) { return is_shown_by_task(slot); }))
+                error(place,
+                      fmt::format("task {} shows stimuli in {}, and this step in {}", task_.id,
+                                  fmt::join(ids_of_slots(slots_), ", "), name),
+                      "add it to `slots` of the task, or show another");
         }
-        const auto is_named = [&](const std::string& id) {
-            return std::ranges::any_of(
-                step.slots, [&](const std::string& slot) { return slot == id || slot == entry_of(id); });
-        };
-        const bool is_all = std::ranges::all_of(all, [&](const std::string& id) {
-            return is_named(id) == (std::ranges::find(shown, id) != shown.end());
-        });
-        if (is_known && !is_all)
-            error(step.place,
-                  fmt::format("task {} shows stimuli in {}, and this step in {}", task_.id,
-                              fmt::join(shown, ", "), fmt::join(step.slots, ", ")),
-                  "a step shows all slots of its task: name them here, or change `slots` of the task");
+        return examination_.diagnostics().error_count() == errors;
+    }
+
+    /// A step shows some of the task's slots, or all.
+    void check_slots(const StepSettings& step) {
+        if (check_slot_names(step.slots, step.place))
+            check_slots_apart(examination_, step.place, slots_named(examination_.protocol, step.slots));
+    }
+
+    /// Each slot of the task is shown by a step.
+    void check_all_are_shown() {
+        std::vector<int> missing = slots_;
+        const StepSettings* last = nullptr;
+        bool are_known = true;
+        for (const StepSettings& step : task_.steps)
+            if (step.kind == StepKind::show) {
+                last = &step;
+                const std::vector<int> shown = slots_named(examination_.protocol, step.slots);
+                for (const std::string& name : step.slots)
+                    are_known = are_known && !slots_named(examination_.protocol, {name}).empty();
+                std::erase_if(missing, [&](int slot) { return std::ranges::find(shown, slot) != shown.end(); });
+            }
+        if (!last)
+            error(task_.steps.front().place, fmt::format("no step of task {} shows the stimulus", task_.id),
+                  "add { show = \"centre\" }");
+        else if (are_known && !missing.empty())
+            error(last->place,
+                  fmt::format("no step of task {} shows its slot{} {}", task_.id,
+                              missing.size() > 1 ? "s" : "", fmt::join(ids_of_slots(missing), ", ")),
+                  "name them in a step show, or leave them out of `slots` of the task");
     }
 
     void check_gaze(const StepSettings& step, bool is_watched) {
@@ -138,14 +155,39 @@ class StepChecks {
             error(step.gaze->area_place,
                   fmt::format("a step {} shows no {}", name_of(step.kind), step.gaze->area),
                   "gaze on an area of the object can end the step show");
+        check_gaze_slot(step);
         if (step.gaze->otherwise == GazeMissed::drift_check && step.kind == StepKind::show)
             error(step.place, "a step that shows the stimulus cannot begin anew after a drift check",
                   "write otherwise = \"abort\" or \"continue\", or wait for gaze in a fixation before it");
     }
 
+    /// Gaze is waited for in a slot: on its object while the step shows it, or around its middle.
+    void check_gaze_slot(const StepSettings& step) {
+        const GazeWait& wait = *step.gaze;
+        if (wait.slot.empty())
+            return;
+        const std::vector<int> slots = slots_named(examination_.protocol, {wait.slot});
+        if (slots.empty()) {
+            check_slot_names({wait.slot}, wait.slot_place);
+            return;
+        }
+        if (wait.area.empty() && slots.size() > 1) {
+            error(wait.slot_place, fmt::format("slot: \"{}\" is {} places", wait.slot, slots.size()),
+                  fmt::format("name one, such as {}", slot_id(slots.front())));
+            return;
+        }
+        const std::vector<int> shown = slots_named(examination_.protocol, step.slots);
+        const bool is_shown = std::ranges::any_of(
+            slots, [&](int slot) { return std::ranges::find(shown, slot) != shown.end(); });
+        if (!wait.area.empty() && step.kind == StepKind::show && !is_shown)
+            error(wait.slot_place, fmt::format("this step shows nothing in slot {}", wait.slot),
+                  fmt::format("it shows {}", fmt::join(ids_of_slots(shown), ", ")));
+    }
+
     ProtocolExamination& examination_;
     const Task& task_;
-    WatchedSteps watched_;
+    std::vector<bool> watched_;
+    std::vector<int> slots_; ///< of the task
 };
 
 } // namespace

@@ -209,6 +209,7 @@ RuleTask rule_task(const Protocol& protocol, int task, const std::vector<Stimulu
     request.length = settings.length;
     request.back = settings.back;
     request.repeats = settings.repeats;
+    request.lures = settings.lures;
     return by;
 }
 

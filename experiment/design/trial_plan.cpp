@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "experiment/base/counted.h"
 #include "experiment/base/random.h"
@@ -33,23 +34,32 @@ double drawn_s(const StepDuration& duration, double u) {
     return duration.choices_s[static_cast<std::size_t>(u * count)];
 }
 
-WatchedSteps watched_steps(const std::vector<StepSettings>& steps) {
-    const auto shows = std::ranges::find(steps, StepKind::show, &StepSettings::kind);
-    if (shows == steps.end())
-        return {};
-    WatchedSteps watched{static_cast<std::size_t>(shows - steps.begin()), 0};
-    watched.end = watched.begin + 1;
+std::vector<bool> watched_steps(const std::vector<StepSettings>& steps) {
+    std::vector<bool> watched(steps.size());
     const auto may_be = [&](std::size_t i) { return row_of(steps[i].kind).may_be_watched; };
-    while (watched.begin > 0 && may_be(watched.begin - 1))
-        --watched.begin;
-    while (watched.end < steps.size() && may_be(watched.end))
-        ++watched.end;
+    for (std::size_t begin = 0, end = 0; begin < steps.size(); begin = end + 1) {
+        bool shows = false;
+        for (end = begin; end < steps.size() && may_be(end); ++end)
+            shows = shows || steps[end].kind == StepKind::show;
+        for (std::size_t i = begin; i < end; ++i)
+            watched[i] = shows;
+    }
     return watched;
+}
+
+std::vector<int> places_shown(const Protocol& protocol, const StepSettings& step, const Trial& trial) {
+    const std::vector<int> slots = slots_named(protocol, step.slots);
+    std::vector<int> places;
+    for (std::size_t i = 0; i < trial.shown_count(); ++i)
+        if (std::ranges::find(slots, trial.shown(i).slot) != slots.end())
+            places.push_back(static_cast<int>(i));
+    return places;
 }
 
 namespace {
 
-TrialPlan plan_of_one_question(const Protocol& protocol, const Stimulus& stimulus) {
+TrialPlan plan_of_one_question(const Protocol& protocol, const Trial& trial) {
+    const Stimulus& stimulus = trial.stimulus;
     TrialPlan plan;
     for (const StepKind kind : {StepKind::text, StepKind::drift_check, StepKind::show, StepKind::answer}) {
         PlannedStep step;
@@ -58,6 +68,8 @@ TrialPlan plan_of_one_question(const Protocol& protocol, const Stimulus& stimulu
             step.drawn_s = protocol.motion_of(stimulus).duration_s;
             step.refreshes = page_cycles(protocol)[static_cast<std::size_t>(stimulus.motion)].total_refreshes;
             step.is_watched = true;
+            for (std::size_t i = 0; i < trial.shown_count(); ++i)
+                step.places.push_back(static_cast<int>(i));
         }
         plan.steps.push_back(std::move(step));
     }
@@ -66,12 +78,31 @@ TrialPlan plan_of_one_question(const Protocol& protocol, const Stimulus& stimulu
 
 } // namespace
 
+namespace {
+
+void place_masks(TrialPlan& plan) {
+    std::vector<PlannedStep>& steps = plan.steps;
+    const auto is_show = [](const PlannedStep& step) { return step.kind == StepKind::show; };
+    for (auto step = steps.begin(); step != steps.end(); ++step) {
+        if (step->kind != StepKind::mask)
+            continue;
+        const auto before = std::find_if(std::make_reverse_iterator(step), steps.rend(), is_show);
+        const auto next = std::find_if(step, steps.end(), is_show);
+        if (before != steps.rend())
+            step->places = before->places;
+        else if (next != steps.end())
+            step->places = next->places;
+    }
+}
+
+} // namespace
+
 TrialPlan plan_trial(const Protocol& protocol, std::uint64_t seed, const Trial& trial, bool is_practice) {
     const std::vector<StepSettings>& steps = protocol.tasks[static_cast<std::size_t>(trial.task)].steps;
     if (steps.empty())
-        return plan_of_one_question(protocol, trial.stimulus);
+        return plan_of_one_question(protocol, trial);
     const double refresh_hz = protocol.display.refresh_hz;
-    const WatchedSteps watched = watched_steps(steps);
+    const std::vector<bool> watched = watched_steps(steps);
     TrialPlan plan;
     for (std::size_t i = 0; i < steps.size(); ++i) {
         const StepSettings& settings = steps[i];
@@ -79,9 +110,12 @@ TrialPlan plan_trial(const Protocol& protocol, std::uint64_t seed, const Trial& 
         step.settings = &settings;
         step.kind = settings.kind;
         step.id = settings.id;
-        step.is_watched = i >= watched.begin && i < watched.end;
-        if (settings.kind == StepKind::show)
-            step.drawn_s = protocol.motion_of(trial.stimulus).duration_s;
+        step.is_watched = watched[i];
+        if (settings.kind == StepKind::show) {
+            step.places = places_shown(protocol, settings, trial);
+            const std::size_t first = step.places.empty() ? 0 : static_cast<std::size_t>(step.places.front());
+            step.drawn_s = protocol.motion_of(trial.shown(first).stimulus).duration_s;
+        }
         if (settings.duration) {
             RandomStream stream(seed, fmt::format("{}step {}", is_practice ? "practice " : "", i),
                                 static_cast<std::uint64_t>(trial.index));
@@ -95,6 +129,7 @@ TrialPlan plan_trial(const Protocol& protocol, std::uint64_t seed, const Trial& 
             step.patience_refreshes = refreshes_in(*settings.gaze->patience_s, refresh_hz);
         plan.steps.push_back(std::move(step));
     }
+    place_masks(plan);
     return plan;
 }
 
@@ -136,13 +171,22 @@ StepDuration durations_of_motions(const Protocol& protocol) {
 std::string gaze_text(const GazeWait& wait) {
     const std::string where =
         wait.within_deg ? fmt::format("within {:g} deg", *wait.within_deg) : fmt::format("on {}", wait.area);
-    std::string text = fmt::format("until gaze is {} for {:g} s", where, wait.for_s);
+    std::string text = fmt::format("until gaze is {}{} for {:g} s", where,
+                                   wait.slot.empty() ? "" : " in " + wait.slot, wait.for_s);
     if (wait.patience_s)
         text += fmt::format(", for {:g} s at most: then {}", *wait.patience_s,
                             wait.otherwise == GazeMissed::goes_on       ? "the trial goes on"
                             : wait.otherwise == GazeMissed::drift_check ? "a drift check, and the step again"
                                                                         : "the attempt is over");
     return text;
+}
+
+std::string shown_text(const Protocol& protocol, const StepSettings& step) {
+    if (step.kind == StepKind::show && protocol.slots.size() > 1)
+        return fmt::format("what the trial has in {}", fmt::join(step.slots, ", "));
+    if (step.kind == StepKind::mask)
+        return step.is_scrambled ? "what was shown, scrambled" : "noise where stimuli stand";
+    return std::string(row_of(step.kind).shows);
 }
 
 } // namespace
@@ -186,7 +230,7 @@ std::string describe_steps(const Protocol& protocol, const Task& task) {
         least_s += shortest_s;
         most_s += longest_s;
         std::string line = fmt::format("  {}. {}{}: {}", i + 1, row_of(step.kind).name,
-                                       step.id.empty() ? "" : " " + step.id, row_of(step.kind).shows);
+                                       step.id.empty() ? "" : " " + step.id, shown_text(protocol, step));
         for (std::size_t k = 0; k < ends.size(); ++k)
             line += fmt::format("{}{}", k == 0 ? "; " : "; or ", ends[k]);
         text += line + "\n";

@@ -20,6 +20,9 @@ struct PlannedStep {
     std::optional<int> refreshes = {};          ///< the same rounded; nothing: it has no end in time
     std::optional<int> patience_refreshes = {}; ///< that gaze is waited for
     bool is_watched = false;                    ///< gaze is recorded meanwhile
+    /// Of what the trial shows, rising: what `show` lights, and what `mask` covers: what the show before it lit,
+    /// or, before the first, the next.
+    std::vector<int> places = {};
 
     const GazeWait* gaze() const { return settings && settings->gaze ? &*settings->gaze : nullptr; }
     /// The only frame that `show` shows; nothing: the motion.
@@ -43,12 +46,13 @@ int refreshes_in(double seconds, double refresh_hz);
 /// drawn apart. The protocol must outlive the plan.
 TrialPlan plan_trial(const Protocol& protocol, std::uint64_t seed, const Trial& trial, bool is_practice);
 
-/// The steps of a task around the one that shows its stimulus during which gaze is recorded without a break:
-/// indices of the first and the one after the last.
-struct WatchedSteps {
-    std::size_t begin = 0, end = 0;
-};
-WatchedSteps watched_steps(const std::vector<StepSettings>& steps);
+/// Whether gaze is recorded during each of a task's steps: while stimuli are shown, and in all steps without
+/// answers and words directly before and after. Without a break where one such step follows another.
+std::vector<bool> watched_steps(const std::vector<StepSettings>& steps);
+
+/// What of a trial a step `show` lights: indices for Trial::shown, rising. None, where its slots are empty in
+/// this trial.
+std::vector<int> places_shown(const Protocol& protocol, const StepSettings& step, const Trial& trial);
 
 /// A draw of a duration, in seconds, from a number in [0, 1). Exponential, cut off: from - tau log(1 - u (1 -
 /// exp(-(to - from) / tau))).

@@ -12,10 +12,12 @@ namespace overt {
 class PresentationListener {
   public:
     virtual ~PresentationListener() = default;
-    /// A presentation of this trial begins with the next flip.
-    virtual void presentation_begins(const Trial& trial) noexcept = 0;
+    /// A show of this trial begins with the next flip, and `lit` is what it lights of the trial: no more, and in
+    /// the trial's order. `show`: which of the attempt's it is, from 0.
+    virtual void presentation_begins(const Trial& lit, int show) noexcept = 0;
+    /// Of the first that is lit.
     virtual void flipped(const FlipRecord& flip) noexcept = 0;
-    /// In a further slot, after the flip that it belongs to.
+    /// Of the others, after the flip that it belongs to; places are those of `lit`.
     virtual void slot_flipped(const SlotFlip& /*flip*/) noexcept {}
     virtual void screen_shown(const Screen& screen, SessionTime onset) noexcept = 0;
 };

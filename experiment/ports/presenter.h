@@ -39,7 +39,8 @@ struct Screen {
         target,     ///< to be looked at
         validation, ///< where gaze was measured beside the targets; `text` below
         camera,     ///< what a tracker's camera sees
-        noise,      ///< squares of random light where the stimulus stands
+        noise,      ///< squares of random light where stimuli stand
+        scrambled,  ///< squares of what was shown last where they stand, in another order
         answers     ///< what is answered, and how; `text` above its items
     };
     Kind kind = Kind::blank;
@@ -55,7 +56,9 @@ struct Screen {
     std::vector<ValidatedTarget> validated = {};
     CameraImage camera = {};
     std::uint64_t noise_seed = 0;
-    Degrees noise_cell{0.25}; ///< side of a square of noise, at the middle of the screen
+    Degrees noise_cell{0.25}; ///< side of a square, at the middle of the screen
+    /// Of what is loaded, where noise and squares are; none: where the only stimulus stands.
+    std::vector<int> places = {};
     AnswerView answers = {};
 };
 

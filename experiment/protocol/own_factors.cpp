@@ -40,6 +40,9 @@ class OwnLevelsOf {
             if (rule.has_key("among"))
                 add(correct_answer, id);
         }
+        if (rule.has_key("lures") && trials.lures)
+            for (const std::string_view level : {"none", "lure"})
+                add("lure", level);
         if (!rule.has_key("set_sizes"))
             return;
         for (const std::string_view answer : rule.answers)

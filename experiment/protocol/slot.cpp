@@ -112,10 +112,17 @@ void fit_view_to_slots(Protocol& protocol) {
     }
 }
 
+ScreenPoint middle_of_slot(const Protocol& protocol, int slot) {
+    const ScreenGeometry at = slot_geometry(protocol, protocol.slots.at(static_cast<std::size_t>(slot)));
+    return at.screen_from_image(0.5 * glm::dvec2(at.image_px));
+}
+
 std::vector<int> slots_of_task(const Protocol& protocol, int task) {
     const std::vector<std::string>& named = protocol.tasks.at(static_cast<std::size_t>(task)).slots;
-    if (named.empty())
-        return {0};
+    return named.empty() ? std::vector<int>{0} : slots_named(protocol, named);
+}
+
+std::vector<int> slots_named(const Protocol& protocol, const std::vector<std::string>& named) {
     std::vector<int> slots;
     for (const std::string& name : named) {
         for (std::size_t i = 0; i < protocol.slots.size(); ++i) {

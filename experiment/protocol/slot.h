@@ -49,8 +49,14 @@ std::vector<glm::ivec2> slot_places(const Protocol& protocol);
 /// a camera whose place alone is written gets the field of view that it had.
 void fit_view_to_slots(Protocol& protocol);
 
+/// The middle of a slot's image on the screen. `slot`: index into the protocol's slots.
+ScreenPoint middle_of_slot(const Protocol& protocol, int slot);
+
 /// Those that a task's stimuli are shown in, by its `slots`, each a place or all of a circle or grid; unknown
 /// ones are left out. Of a task that names none: the first. Indices into the protocol's slots.
 std::vector<int> slots_of_task(const Protocol& protocol, int task);
+
+/// The places with these ids, and all places of circles and grids with them; unknown ones are left out.
+std::vector<int> slots_named(const Protocol& protocol, const std::vector<std::string>& named);
 
 } // namespace overt

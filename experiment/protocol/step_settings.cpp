@@ -112,9 +112,17 @@ class StepReader {
         case StepKind::show:
             take(value, "show", step.slots, identifier());
             return;
+        case StepKind::mask:
+            if (std::holds_alternative<std::string>(value.content)) {
+                static constexpr std::string_view masks[] = {"noise", "scrambled"};
+                std::string mask;
+                take(value, "mask", mask, one_of(masks));
+                step.is_scrambled = mask == "scrambled";
+                return;
+            }
+            [[fallthrough]];
         case StepKind::fixation:
         case StepKind::blank:
-        case StepKind::mask:
             read_duration_or_wait(value, step);
             return;
         case StepKind::answer: {
@@ -309,6 +317,9 @@ class StepReader {
         else if (key.key == "gaze_on") {
             wait.area_place = key.value.place;
             take(key.value, key.key, wait.area, required());
+        } else if (key.key == "slot") {
+            wait.slot_place = key.value.place;
+            take(key.value, key.key, wait.slot, required());
         } else if (key.key == "for_s")
             read_seconds(key.value, key.key, wait.for_s);
         else if (key.key == "blink_s")
@@ -319,7 +330,7 @@ class StepReader {
             take(key.value, key.key, wait.otherwise, one_of(names_of<GazeMissed>));
         else
             fault(key.key_place, fmt::format("until: unknown key \"{}\"", key.key),
-                  "keys are gaze_within_deg, gaze_on, for_s, blink_s, patience_s, otherwise, key");
+                  "keys are gaze_within_deg, gaze_on, slot, for_s, blink_s, patience_s, otherwise, key");
     }
 };
 

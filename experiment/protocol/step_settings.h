@@ -44,7 +44,7 @@ inline constexpr auto step_kinds = std::to_array<StepKindRow>({
      true},
     {StepKind::show, "show", "the trial's stimulus", {"for_s", "until", "frame"}, true},
     {StepKind::blank, "blank", "the background", {"for_s", "until"}, true},
-    {StepKind::mask, "mask", "noise where the stimulus stands", {"for_s", "cell_deg"}, true},
+    {StepKind::mask, "mask", "noise where stimuli stand, or what they showed, scrambled", {"for_s", "cell_deg"}, true},
     {StepKind::answer, "answer", "the screen of the answer", {"limit_s"}, false},
     {StepKind::feedback, "feedback", "words by what was answered", {"for_s", "answered", "missed"}, false},
     {StepKind::drift_check, "drift_check", "the target by which the tracker's drift is measured", {}, false},
@@ -93,8 +93,10 @@ inline constexpr auto names_of<GazeMissed> = enum_names<GazeMissed>("continue", 
 /// `until` of a step: gaze stays within a distance of a point, or on an area of the object, in one piece.
 struct GazeWait {
     std::optional<double> within_deg; ///< of the fixation target, or of the screen's middle
-    std::string area;                 ///< a part of the object; empty: within_deg says where
+    std::string area;                 ///< an area of the object; empty: within_deg says where
     Place area_place;
+    std::string slot; ///< where: its object, or its middle; empty: any that the step shows, or no slot's middle
+    Place slot_place;
     double for_s = 0.2;
     double blink_s = 0.3; ///< gaze that is lost for no longer neither counts nor breaks
     std::optional<double> patience_s;
@@ -117,6 +119,7 @@ struct StepSettings {
     std::optional<int> frame;             ///< `show` shows this one, still; from 0
     Place frame_place;
     double cell_deg = 0.25;       ///< side of a mask's squares
+    bool is_scrambled = false;    ///< the mask is the stimulus in squares that change places; else noise
     std::string answered, missed; ///< words of a feedback
 };
 

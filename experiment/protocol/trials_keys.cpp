@@ -40,6 +40,9 @@ std::vector<Key> trials() {
         {"back", &T::back, range(1, 100), "Of a stream: how many trials before what is repeated came."},
         {"repeats", &T::repeats, range(0, 1),
          "Of a stream: share of the trials that repeat, of those that can."},
+        {"lures", &T::lures, range(0, 1).left_out("as chance has it"),
+         "Of a stream: share of the same trials that are lures, which came one trial earlier or later than "
+         "`back` before; all others are then none. The factor `lure` says which."},
     };
 }
 

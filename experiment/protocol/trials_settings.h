@@ -30,6 +30,7 @@ struct TrialsSettings {
     std::vector<std::string> among;
     int length = 0, back = 1;
     double repeats = 0.25;
+    std::optional<double> lures;
 
     bool has_own_trials() const { return rule.has_value() || table >= 0; }
 };

@@ -3,6 +3,7 @@
 #include <SQLiteCpp/Database.h>
 
 #include "experiment/record/header_tables.h"
+#include "experiment/record/sql.h"
 #include "experiment/record/stimulus_columns.h"
 
 namespace overt {
@@ -63,6 +64,7 @@ CREATE TABLE flip (
     planned INTEGER NOT NULL, shown INTEGER NOT NULL, pose INTEGER NOT NULL,
     requested_ns INTEGER NOT NULL, swapped_ns INTEGER NOT NULL, vertical_blank_ns INTEGER NOT NULL,
     source INTEGER NOT NULL, missed INTEGER NOT NULL, uncertainty_ns INTEGER NOT NULL DEFAULT 0,
+    step INTEGER NOT NULL DEFAULT 0,
     PRIMARY KEY (trial_id, n)
 ) STRICT, WITHOUT ROWID;
 CREATE TABLE sample (
@@ -135,7 +137,7 @@ CREATE TABLE IF NOT EXISTS response_press (
 CREATE TABLE IF NOT EXISTS step (
     trial_id INTEGER NOT NULL, n INTEGER NOT NULL, kind TEXT NOT NULL, id TEXT NOT NULL,
     planned_refreshes INTEGER, drawn_s REAL, still_frame INTEGER, begin_ns INTEGER, end_ns INTEGER,
-    ended_by TEXT, gaze_onset_us INTEGER, gaze_detected_us INTEGER,
+    ended_by TEXT, gaze_onset_us INTEGER, gaze_detected_us INTEGER, places TEXT,
     PRIMARY KEY (trial_id, n)
 ) STRICT, WITHOUT ROWID;
 CREATE TABLE IF NOT EXISTS swap_modes (
@@ -252,6 +254,15 @@ void make_session_tables(SQLite::Database& database) {
             database.exec(fmt::format(
                 "CREATE TABLE {0} ({0} INTEGER PRIMARY KEY, id TEXT NOT NULL, title TEXT NOT NULL) STRICT",
                 list.name));
+}
+
+void complete_session_tables(SQLite::Database& database) {
+    database.exec(ledger_tables_sql);
+    database.exec(with_stimulus_columns(slot_tables_sql));
+    if (!has_column(database, "flip", "step"))
+        database.exec("ALTER TABLE flip ADD COLUMN step INTEGER NOT NULL DEFAULT 0");
+    if (!has_column(database, "step", "places"))
+        database.exec("ALTER TABLE step ADD COLUMN places TEXT");
 }
 
 } // namespace overt

@@ -53,4 +53,8 @@ extern const char* const option_tables_sql;
 /// Makes all of them in an empty database. Throws SQLite::Exception.
 void make_session_tables(SQLite::Database& database);
 
+/// Adds to a session of today's version, which an earlier program began, the tables and the columns that the
+/// rows of attempts go into. Throws SQLite::Exception.
+void complete_session_tables(SQLite::Database& database);
+
 } // namespace overt

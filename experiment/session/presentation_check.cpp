@@ -53,7 +53,10 @@ PresentationCheck check_presentation(const Protocol& protocol, const Trial& tria
     std::vector<PageCycle> cycles_beside;
     for (const PlacedStimulus& further : trial.beside)
         cycles_beside.push_back(cycles[static_cast<std::size_t>(further.stimulus.motion)]);
-    slots.begin(trial.index, std::move(cycles_beside));
+    std::vector<int> all;
+    for (std::size_t i = 0; i < trial.shown_count(); ++i)
+        all.push_back(static_cast<int>(i));
+    slots.begin(trial.index, trial.shown_count(), std::move(all), std::move(cycles_beside));
     ports.presenter.veil(true);
     ports.presenter.show({});
     ports.log.trial_started(trial, ports.clock.now());
@@ -61,7 +64,7 @@ PresentationCheck check_presentation(const Protocol& protocol, const Trial& tria
         if (!feed.start_recording(ports.clock.now()) && !check.tracker_refusal)
             check.tracker_refusal = feed.why_lost();
     for (PresentationListener* listener : ports.listeners)
-        listener->presentation_begins(trial);
+        listener->presentation_begins(trial, 0);
     ledger.begin(trial.index);
     while (!ledger.is_complete() && !ports.presenter.closed()) {
         take_items();
@@ -70,7 +73,7 @@ PresentationCheck check_presentation(const Protocol& protocol, const Trial& tria
         for (int i = 0; i < ledger.missed_count(); ++i)
             ports.log.missed(ledger.missed(i));
         ports.log.flip(flip);
-        for (const SlotFlip& of_slot : slots.enter(flip))
+        for (const SlotFlip& of_slot : slots.enter(flip, ledger.last_refresh()))
             ports.log.slot_flip(of_slot);
         for (PresentationListener* listener : ports.listeners)
             listener->flipped(flip);

@@ -72,7 +72,8 @@ void SessionMarkers::mark(MarkedEvent event, SessionTime at, std::string_view te
     send(event, at, text, {}, {});
 }
 
-void SessionMarkers::begin_presentation() noexcept {
+void SessionMarkers::begin_presentation(std::string_view onset_text) noexcept {
+    onset_text_ = onset_text;
     frame_ = no_frame;
     planned_ = -1;
     next_refresh_code_ = 0;
@@ -113,7 +114,7 @@ void SessionMarkers::keep_raised(SessionTime at, std::string_view text, int code
     raised_.push_back(raised);
 }
 
-void SessionMarkers::flipped(const FlipRecord& flip) noexcept {
+void SessionMarkers::flipped(const FlipRecord& flip, int refresh) noexcept {
     if (is_silent_)
         return;
     const SessionTime lit = flip.report.vertical_blank;
@@ -121,13 +122,12 @@ void SessionMarkers::flipped(const FlipRecord& flip) noexcept {
     frame_ = flip.shown;
     std::array<char, 24> words{};
     const auto end = fmt::format_to_n(words.data(), words.size(), "FRAME {}", flip.shown.value).out;
-    const std::string_view text =
-        is_onset ? std::string_view("SYNCTIME") : std::string_view(words.data(), end);
+    const std::string_view text = is_onset ? onset_text_ : std::string_view(words.data(), end);
     if (is_new)
-        send(is_onset ? MarkedEvent::onset : MarkedEvent::frame, lit, text, planned_, flip.refresh_in_trial);
+        send(is_onset ? MarkedEvent::onset : MarkedEvent::frame, lit, text, planned_, refresh);
     if (raised_now_ != 0)
         keep_raised(lit, is_new ? text : std::string_view("REFRESH"), raised_now_, planned_,
-                    flip.refresh_in_trial, &flip.report);
+                    refresh, &flip.report);
 }
 
 RecordedMarker SessionMarkers::recorded(std::int64_t number, std::string_view output) const {

@@ -27,13 +27,13 @@ class SessionMarkers {
     /// For outputs that tell texts.
     void tell(SessionTime at, std::string_view text) noexcept { send(std::nullopt, at, text, {}, {}); }
 
-    /// A presentation begins with the next flip.
-    void begin_presentation() noexcept;
+    /// A show begins with the next flip. `onset_text`: of its onset's marker; must stay as long as the show.
+    void begin_presentation(std::string_view onset_text) noexcept;
     /// The next flip is meant for this refresh of the animation, and shows this frame: raises what rides on
     /// it.
     void before_flip(int refresh, AnimationFrameIndex frame, Presenter& presenter) noexcept;
-    /// Marks the onset and further frames.
-    void flipped(const FlipRecord& flip) noexcept;
+    /// Marks the onset and further frames. `refresh`: of the show, at which the flip was lit.
+    void flipped(const FlipRecord& flip, int refresh) noexcept;
 
     /// Records what is known by now of markers sent before. Throws as SessionLog does.
     void write_down(SessionLog& log);
@@ -73,7 +73,8 @@ class SessionMarkers {
     std::int64_t first_ = 0;     ///< number of the first of them
     std::int64_t forgotten_ = 0; ///< there was no room
     std::vector<Raised> raised_;
-    // Of the presentation.
+    // Of the show.
+    std::string_view onset_text_;
     AnimationFrameIndex frame_ = no_frame;
     int planned_ = -1; ///< refresh of the flip under way
     int raised_now_ = 0;

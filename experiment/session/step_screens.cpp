@@ -27,13 +27,15 @@ std::string with_trial(std::string text, const StepCircumstances& of) {
     return text;
 }
 
-Screen noise(const PlannedStep& step, const StepCircumstances& of) {
+Screen mask(const PlannedStep& step, const StepCircumstances& of) {
     RandomStream seeds(of.seed, fmt::format("mask {}", of.number),
                        static_cast<std::uint64_t>(of.trial.index));
-    Screen screen{.kind = Screen::Kind::noise, .text = ""};
+    Screen screen{.kind = step.settings->is_scrambled ? Screen::Kind::scrambled : Screen::Kind::noise,
+                  .text = ""};
     screen.noise_seed = std::uint64_t{seeds.next_bits()} << 32U;
     screen.noise_seed |= seeds.next_bits();
     screen.noise_cell = Degrees{step.settings->cell_deg};
+    screen.places = step.places;
     return screen;
 }
 
@@ -64,7 +66,7 @@ Screen screen_of(const PlannedStep& step, const StepCircumstances& of) {
         return screen;
     }
     case StepKind::mask:
-        return noise(step, of);
+        return step.places.empty() ? Screen{} : mask(step, of);
     case StepKind::feedback: {
         const std::string& words = of.is_answered ? step.settings->answered : step.settings->missed;
         return words.empty() ? Screen{} : Screen{.kind = Screen::Kind::text, .text = words};

@@ -24,13 +24,6 @@ constexpr double shortest_sleep_s = 0.005;
 /// half is that, more is a step.
 constexpr double smallest_wall_step_s = 0.1;
 
-void tell_of_flip(PresentationListener& listener, const FlipRecord& flip,
-                  std::span<const SlotFlip> beside) noexcept {
-    listener.flipped(flip);
-    for (const SlotFlip& of_slot : beside)
-        listener.slot_flipped(of_slot);
-}
-
 } // namespace
 
 TrialRun::TrialRun(SessionState& state, OperatorControl& control, const ScreenPoint& screen_centre,
@@ -75,64 +68,69 @@ bool TrialRun::goes_on(const Attempt& attempt) const {
            control_.decision().kind == TrialDecision::Kind::none;
 }
 
-/// Shows the stimulus for the step's refreshes, or until something else ends it.
-void TrialRun::present(Running& running, std::size_t number) {
+/// All that may allocate before the first flip of a show.
+void TrialRun::begin_show(Running& running, const PlannedStep& step) {
     const Trial& trial = running.trial;
-    const PlannedStep& step = running.plan.steps[number];
-    TrialOutcome& outcome = running.attempt.outcome;
-    SessionLog& log = state_.log();
-    const SessionPorts& ports = state_.ports;
-    TrackerFeed& own = feeds_.front().items;
-    shown_ = cut_to(cycles_[static_cast<std::size_t>(trial.stimulus.motion)], step.refreshes, step.still());
-    for (PresentationListener* listener : ports.listeners)
-        listener->presentation_begins(trial);
-    std::vector<PageCycle> cycles_beside;
-    for (const PlacedStimulus& further : trial.beside)
-        cycles_beside.push_back(
-            cut_to(cycles_[static_cast<std::size_t>(further.stimulus.motion)], step.refreshes, step.still()));
-    slots_.begin(trial.index, std::move(cycles_beside));
-    ports.presenter.take_swap_modes(); // those before are not the presentation's
+    lit_ = trial.only(step.places);
+    const auto cycle_of = [&](const Stimulus& stimulus) {
+        return cut_to(cycles_[static_cast<std::size_t>(stimulus.motion)], step.refreshes, step.still());
+    };
+    shown_ = cycle_of(lit_.stimulus);
+    for (PresentationListener* listener : state_.ports.listeners)
+        listener->presentation_begins(lit_, shows_);
+    std::vector<PageCycle> beside;
+    for (const PlacedStimulus& further : lit_.beside)
+        beside.push_back(cycle_of(further.stimulus));
+    slots_.begin(trial.index, trial.shown_count(), step.places, std::move(beside));
+    if (!has_shown_)
+        state_.ports.presenter.take_swap_modes(); // those before are not the presentation's
     await_gaze(running, step, state_.now());
     add_row(running, step);
-    const int patience = step.patience_refreshes.value_or(shown_.total_refreshes);
+    onset_text_ = shows_ == 0 ? "SYNCTIME" : step_text(step);
+    ledger_ = RefreshLedger(shown_, state_.protocol.motion_of(lit_.stimulus).when_late);
+    ledger_.begin(trial.index, static_cast<int>(running.attempt.outcome.steps.size()), first_flip_);
+    marked_frame_ = no_frame;
+    state_.markers.begin_presentation(onset_text_);
+}
 
-    // From here to the last flip nothing allocates, opens, throws or formats.
-    ledger_ = RefreshLedger(shown_, state_.protocol.motion_of(trial.stimulus).when_late);
-    ledger_.begin(trial.index);
-    state_.markers.begin_presentation();
-    while (!ledger_.is_complete() && ledger_.next_refresh() < patience && !is_cut_short() &&
-           !watch_.has_come() && !was_next_pressed_) {
-        // Take what the trackers have seen so far.
-        take_items(trial.index);
-        if (watch_.has_come())
-            break;
-        // Show the frame that the plan has next, and learn when it was lit.
-        state_.markers.before_flip(ledger_.next_refresh(), ledger_.next().frame, ports.presenter);
-        const FlipRecord& flip = ledger_.enter(
-            ports.presenter.flip_slots(slots_.frames(ledger_.next().frame, ledger_.next_refresh())));
-        // Record what was shown at each refresh, and tell the listeners.
-        for (int i = 0; i < ledger_.missed_count(); ++i)
-            log.missed(ledger_.missed(i));
-        log.flip(flip);
-        const std::span<const SlotFlip> beside = slots_.enter(flip);
-        for (const SlotFlip& of_slot : beside)
-            log.slot_flip(of_slot);
-        mark_flip(flip);
-        state_.markers.flipped(flip);
-        watch_.flipped(flip);
-        for (PresentationListener* const listener : ports.listeners)
-            tell_of_flip(*listener, flip, beside);
-        // Remember what the operator pressed, here or at the tracker's host.
-        look_at_keys();
-        own.look_at_state();
+/// Records what was shown at each refresh up to this flip, and tells those who follow it.
+void TrialRun::note_flip(const FlipRecord& flip) noexcept {
+    SessionLog& log = state_.log();
+    const int refresh = ledger_.last_refresh();
+    for (int i = 0; i < ledger_.missed_count(); ++i)
+        log.missed(slots_.of_first(ledger_.missed(i)));
+    log.flip(slots_.of_first(flip));
+    const std::span<const SlotFlip> rows = slots_.enter(flip, refresh);
+    for (const SlotFlip& of_slot : rows)
+        log.slot_flip(of_slot);
+    mark_flip(flip);
+    state_.markers.flipped(flip, refresh);
+    watch_.flipped(flip, rows);
+    // To them the lead is the first of what is lit.
+    const std::span<const SlotFlip> beside = rows.last(lit_.beside.size());
+    for (PresentationListener* const listener : state_.ports.listeners) {
+        listener->flipped(flip);
+        for (std::size_t i = 0; i < beside.size(); ++i) {
+            SlotFlip of_lit = beside[i];
+            of_lit.place = static_cast<int>(i) + 1;
+            listener->slot_flipped(of_lit);
+        }
     }
+}
+
+/// What came of a show, after its last flip.
+void TrialRun::note_show(Running& running, const PlannedStep& step) {
+    TrialOutcome& outcome = running.attempt.outcome;
     has_shown_ = true;
-    outcome.presentation_onset = ledger_.onset();
-    outcome.shown_refreshes = ledger_.shown_refreshes();
-    outcome.missed_refreshes = ledger_.missed_refreshes();
-    running.attempt.result.missed_refreshes = outcome.missed_refreshes;
-    if (ledger_.shown_refreshes() > 0)
+    if (ledger_.shown_refreshes() > 0) {
+        if (shows_++ == 0)
+            outcome.presentation_onset = ledger_.onset();
+        first_flip_ = ledger_.first();
         begin_row(running, ledger_.onset());
+    }
+    outcome.shown_refreshes += ledger_.shown_refreshes();
+    outcome.missed_refreshes += ledger_.missed_refreshes();
+    running.attempt.result.missed_refreshes = outcome.missed_refreshes;
     AttemptStep& row = outcome.steps.back();
     row.ended_by = ledger_.is_complete() ? StepEnd::time
                    : watch_.has_come()   ? StepEnd::gaze
@@ -142,10 +140,36 @@ void TrialRun::present(Running& running, std::size_t number) {
     take_gaze(row, step);
 }
 
+/// Lights the step's stimuli for its refreshes, or until something else ends it.
+void TrialRun::present(Running& running, std::size_t number) {
+    const Trial& trial = running.trial;
+    const PlannedStep& step = running.plan.steps[number];
+    Presenter& presenter = state_.ports.presenter;
+    TrackerFeed& own = feeds_.front().items;
+    begin_show(running, step);
+    const int patience = step.patience_refreshes.value_or(shown_.total_refreshes);
+
+    // From here to the last flip nothing allocates, opens, throws or formats.
+    while (!ledger_.is_complete() && ledger_.next_refresh() < patience && !is_cut_short() &&
+           !watch_.has_come() && !was_next_pressed_) {
+        // Take what the trackers have seen so far.
+        take_items(trial.index);
+        if (watch_.has_come())
+            break;
+        // Show the frame that the plan has next, and learn when it was lit.
+        state_.markers.before_flip(ledger_.next_refresh(), ledger_.next().frame, presenter);
+        note_flip(ledger_.enter(
+            presenter.flip_slots(slots_.frames(ledger_.next().frame, ledger_.next_refresh()))));
+        // Remember what the operator pressed, here or at the tracker's host.
+        look_at_keys();
+        own.look_at_state();
+    }
+    note_show(running, step);
+}
+
 /// Of all trackers; that of the session must begin, the others may be missing.
 void TrialRun::start_recording() {
     pressed_.reset();
-    marked_frame_ = no_frame;
     // The session's own is asked first: without it there is no presentation.
     for (Feed& feed : feeds_)
         if (!feed.used.is_left_out && !feed.items.start_recording(state_.now()) && !feed.used.is_further())
@@ -200,14 +224,14 @@ void TrialRun::mark_trackers(SessionTime at, std::string_view text) noexcept {
             feed.used.tracker.mark({at, text});
 }
 
-/// For the trackers, the onset, and each change of the frame: "FRAME 12" is on the screen from its flip's
-/// vertical blank on.
+/// For the trackers, the onset of a show, and each change of the frame of the first that it lights: "FRAME 12"
+/// is on the screen from its flip's vertical blank on.
 void TrialRun::mark_flip(const FlipRecord& flip) noexcept {
     if (flip.shown == marked_frame_)
         return;
     const SessionTime lit = flip.report.vertical_blank;
     if (marked_frame_ == no_frame)
-        mark_trackers(lit, "SYNCTIME");
+        mark_trackers(lit, onset_text_);
     marked_frame_ = flip.shown;
     std::array<char, 24> text{};
     const auto end = fmt::format_to_n(text.data(), text.size(), "FRAME {}", flip.shown.value).out;

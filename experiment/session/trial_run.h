@@ -58,6 +58,7 @@ class TrialRun {
     void begin_row(Running& running, SessionTime lit) noexcept;
     void end_row(Running& running, SessionTime lit);
     void mark_step(const PlannedStep& step, SessionTime lit);
+    static std::string step_text(const PlannedStep& step);
     bool begin_watching(Running& running);
     void end_watching(Running& running);
     bool is_cut_short() const noexcept;
@@ -67,6 +68,9 @@ class TrialRun {
     void act_on_tracker(Attempt& attempt);
     void note_lost_trackers();
     void present(Running& running, std::size_t number);
+    void begin_show(Running& running, const PlannedStep& step);
+    void note_flip(const FlipRecord& flip) noexcept;
+    void note_show(Running& running, const PlannedStep& step);
     void act_on_pressed_keys(Attempt& attempt);
     bool goes_on(const Attempt& attempt) const;
     void take_items(int trial) noexcept;
@@ -86,10 +90,13 @@ class TrialRun {
     AnswerTaking answers_;
     std::uint64_t seed_;
     std::vector<PageCycle> cycles_; ///< by motion
-    PageCycle shown_;               ///< what the step that shows the stimulus lights
+    PageCycle shown_;               ///< what the step that shows stimuli lights, of the first of them
+    Trial lit_;                     ///< the trial with what that step lights
     RefreshLedger ledger_;
     GazeWatch watch_;
-    bool has_shown_ = false;          ///< flips were recorded in this attempt
+    int shows_ = 0;                         ///< of this attempt, of which flips were recorded
+    std::optional<RefreshIndex> first_flip_; ///< of its first show
+    bool has_shown_ = false;                 ///< in what is watched now
     bool has_ended_in_order_ = false; ///< what was watched in this attempt
     bool awaits_key_ = false;         ///< of the observer, to end the step under way
     bool was_next_pressed_ = false;   ///< it came
@@ -103,6 +110,7 @@ class TrialRun {
     std::vector<Feed> feeds_;                     ///< of all trackers, the session's own first
     std::optional<ResponsePress> pressed_;        ///< by the operator during a presentation, the first
     AnimationFrameIndex marked_frame_ = no_frame; ///< the last whose flip the trackers were told of
+    std::string onset_text_;                      ///< what they are told at a show's first
 };
 
 } // namespace overt

@@ -30,7 +30,8 @@ StepEnd end_of(OperatorControl::How how, StepEnd by_key, StepEnd by_time) {
 } // namespace
 
 void TrialRun::run_steps(Running& running) {
-    has_shown_ = false;
+    shows_ = 0;
+    first_flip_.reset();
     gaze_checks_ = 0;
     const std::vector<PlannedStep>& steps = running.plan.steps;
     for (std::size_t number = 0; number < steps.size() && goes_on(running.attempt);) {
@@ -57,7 +58,8 @@ void TrialRun::run_watched(Running& running, std::size_t begin, std::size_t end)
         }
         bool starts_over = false;
         for (; number < end && !is_cut_short() && !starts_over && goes_on(running.attempt); ++number) {
-            if (running.plan.steps[number].kind == StepKind::show)
+            if (const PlannedStep& step = running.plan.steps[number];
+                step.kind == StepKind::show && !step.places.empty())
                 present(running, number);
             else
                 hold(running, number);
@@ -136,6 +138,8 @@ void TrialRun::add_row(Running& running, const PlannedStep& step) {
     row.drawn_s = step.drawn_s;
     if (step.still())
         row.still_frame = step.still()->value;
+    if (step.kind == StepKind::show)
+        row.places = step.places;
 }
 
 /// What the step added last shows is on the screen, and what the one before showed is not.
@@ -146,12 +150,15 @@ void TrialRun::begin_row(Running& running, SessionTime lit) noexcept {
     rows.back().begin = lit;
 }
 
+std::string TrialRun::step_text(const PlannedStep& step) {
+    return fmt::format("STEP {}{}{}", name_of(step.kind), step.id.empty() ? "" : " ", step.id);
+}
+
 /// The question of a task without steps is told by the phase alone, as ever.
 void TrialRun::mark_step(const PlannedStep& step, SessionTime lit) {
     if (!step.settings)
         return;
-    const std::string text =
-        fmt::format("STEP {}{}{}", name_of(step.kind), step.id.empty() ? "" : " ", step.id);
+    const std::string text = step_text(step);
     mark_trackers(lit, text);
     state_.markers.tell(lit, text);
 }
@@ -260,12 +267,21 @@ void TrialRun::await_gaze(Running& running, const PlannedStep& step, SessionTime
     const GazeWait* const wait = step.gaze();
     if (!wait)
         return;
-    GazeAim aim{target_of(*step.settings, screen_geometry_of(state_.protocol)), nullptr};
-    if (!wait->area.empty() && state_.ports.area_of)
-        aim.area = state_.ports.area_of(running.trial.shown(0), wait->area);
-    if (wait->area.empty() || aim.area)
-        watch_.begin(*wait, std::move(aim), since, feeds_.front().items.readings(),
-                     state_.ports.tracker.description());
+    const std::vector<int> slots = slots_named(state_.protocol, {wait->slot});
+    GazeAim aim{target_of(*step.settings, screen_geometry_of(state_.protocol)), {}};
+    if (!slots.empty())
+        aim.point = middle_of_slot(state_.protocol, slots.front());
+    for (const int place : step.places) {
+        const PlacedStimulus placed = running.trial.shown(static_cast<std::size_t>(place));
+        const bool is_meant = slots.empty() || std::ranges::find(slots, placed.slot) != slots.end();
+        if (wait->area.empty() || !is_meant || !state_.ports.area_of)
+            continue;
+        if (std::shared_ptr<const AreaView> area = state_.ports.area_of(placed, wait->area))
+            aim.areas.push_back({place, std::move(area)});
+    }
+    if (wait->area.empty() || !aim.areas.empty())
+        watch_.begin(*wait, std::move(aim), step.places.empty() ? 0 : step.places.front(), since,
+                     feeds_.front().items.readings(), state_.ports.tracker.description());
 }
 
 void TrialRun::take_gaze(AttemptStep& row, const PlannedStep& step) const {
@@ -282,7 +298,7 @@ bool TrialRun::is_cut_short() const noexcept {
 
 /// Begins to record gaze; false if the session's own tracker does not.
 bool TrialRun::begin_watching(Running& running) {
-    has_ended_in_order_ = false;
+    has_ended_in_order_ = has_shown_ = false;
     if (state_.phase() != SessionPhase::stimulus)
         state_.enter(SessionPhase::stimulus, state_.trial());
     read_clocks();
@@ -306,9 +322,11 @@ void TrialRun::end_watching(Running& running) {
     const SessionTime dark = state_.show({});
     end_row(running, dark);
     if (has_shown_) {
-        const auto shown = std::ranges::find(outcome.steps, name_of(StepKind::show), &AttemptStep::kind);
-        outcome.presentation_end = shown == outcome.steps.end() ? dark : shown->end.value_or(dark);
-        outcome.swaps = state_.ports.presenter.take_swap_modes();
+        const auto last = std::ranges::find(outcome.steps.rbegin(), outcome.steps.rend(),
+                                            name_of(StepKind::show), &AttemptStep::kind);
+        outcome.presentation_end = last == outcome.steps.rend() ? dark : last->end.value_or(dark);
+        if (const std::optional<SwapModes> swaps = state_.ports.presenter.take_swap_modes())
+            outcome.swaps = outcome.swaps.value_or(SwapModes()) + *swaps;
         mark(MarkedEvent::end, outcome.presentation_end, "PRESENTATION_END");
     }
     state_.ends_by_itself();

@@ -55,6 +55,8 @@ LedgerFit::LedgerFit(std::span<const FlipRecord> flips, double nominal_hz, std::
 void LedgerFit::find_misses() {
     for (std::size_t i = 1; i < flips_.size(); ++i) {
         FlipRecord& flip = flips_[i];
+        if (flip.step != flips_[i - 1].step)
+            continue; // between two shows something else is on the screen
         // A gap without a miss in the record of a counting source is flips that could not be written down.
         if (!counts_refreshes(flip.report.source))
             flip.missed_refreshes = flip.refresh_in_trial - flips_[i - 1].refresh_in_trial - 1;

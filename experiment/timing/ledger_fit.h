@@ -40,7 +40,7 @@ inline constexpr double trusted_scatter_ns = 1000.0;
 
 class LedgerFit {
   public:
-    /// The flips of one presentation, in their order; at least one. `known`: see RefreshFit. Where the source
+    /// The flips of one attempt, in their order; at least one. `known`: see RefreshFit. Where the source
     /// of the times counts no refreshes, their numbers are inferred anew.
     LedgerFit(std::span<const FlipRecord> flips, double nominal_hz,
               std::optional<KnownInterval> known = std::nullopt);

@@ -12,34 +12,58 @@ const PageCycleEntry& entry_in_turn(const PageCycle& cycle, int refresh) noexcep
 
 } // namespace
 
-void SlotCycles::begin(int trial, std::vector<PageCycle> beside) {
-    cycles_ = std::move(beside);
-    frames_.resize(1 + cycles_.size());
-    rows_.assign(cycles_.size(), {});
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
-        rows_[i].trial = trial;
-        rows_[i].place = static_cast<int>(i) + 1;
-    }
+void SlotCycles::begin(int trial, std::size_t shown_count, std::vector<int> places,
+                       std::vector<PageCycle> beside) {
+    places_ = std::move(places);
+    beside_ = std::move(beside);
+    frames_.assign(shown_count, no_frame);
+    rows_.clear();
+    for (const int place : places_)
+        if (place > 0)
+            rows_.push_back({trial, 0, place, no_frame, no_frame, {}});
 }
 
-std::span<const AnimationFrameIndex> SlotCycles::frames(AnimationFrameIndex first, int refresh) noexcept {
-    frames_[0] = first;
-    for (std::size_t i = 0; i < cycles_.size(); ++i) {
-        const PageCycleEntry& entry = entry_in_turn(cycles_[i], refresh);
-        frames_[i + 1] = entry.frame;
-        rows_[i].shown = entry.frame;
-        rows_[i].pose = entry.pose;
+std::span<const AnimationFrameIndex> SlotCycles::frames(AnimationFrameIndex lead, int refresh) noexcept {
+    frames_[static_cast<std::size_t>(places_.front())] = lead;
+    SlotFlip* row = rows_.data() + (is_first_lit() ? 0 : 1);
+    for (std::size_t i = 0; i < beside_.size(); ++i, ++row) {
+        const PageCycleEntry& entry = entry_in_turn(beside_[i], refresh);
+        frames_[static_cast<std::size_t>(places_[i + 1])] = entry.frame;
+        row->shown = entry.frame;
+        row->pose = entry.pose;
     }
     return frames_;
 }
 
-std::span<const SlotFlip> SlotCycles::enter(const FlipRecord& flip) noexcept {
-    for (std::size_t i = 0; i < cycles_.size(); ++i) {
-        rows_[i].refresh_in_trial = flip.refresh_in_trial;
-        rows_[i].planned =
-            flip.planned == no_frame ? no_frame : entry_in_turn(cycles_[i], flip.refresh_in_trial).frame;
+std::span<const SlotFlip> SlotCycles::enter(const FlipRecord& lead, int refresh) noexcept {
+    SlotFlip* row = rows_.data();
+    if (!is_first_lit()) {
+        row->planned = lead.planned;
+        row->shown = lead.shown;
+        row->pose = lead.pose;
+        ++row;
     }
+    for (std::size_t i = 0; i < beside_.size(); ++i, ++row)
+        row->planned = lead.planned == no_frame ? no_frame : entry_in_turn(beside_[i], refresh).frame;
+    for (SlotFlip& each : rows_)
+        each.refresh_in_trial = lead.refresh_in_trial;
     return rows_;
+}
+
+FlipRecord SlotCycles::of_first(FlipRecord lead) const noexcept {
+    if (!is_first_lit()) {
+        lead.planned = lead.shown = no_frame;
+        lead.pose = {};
+    }
+    return lead;
+}
+
+MissedRefresh SlotCycles::of_first(MissedRefresh lead) const noexcept {
+    if (!is_first_lit()) {
+        lead.planned = lead.shown = no_frame;
+        lead.pose = {};
+    }
+    return lead;
 }
 
 } // namespace overt

@@ -37,14 +37,16 @@ std::int64_t VirtualRefresh::first_after(SessionTime time) const noexcept {
     return refresh;
 }
 
-void VirtualRefresh::presentation_begins(const Trial& trial) noexcept {
+void VirtualRefresh::presentation_begins(const Trial& lit, int show) noexcept {
     in_presentation_ = true;
+    if (show > 0)
+        return; // faults count from the attempt's first onset
     onset_ = -1;
     next_fault_ = 0;
     struck_.clear();
     if (faults_.is_clean())
         return;
-    planned_ = faults_in(faults_, trial.index, refreshes_drawn);
+    planned_ = faults_in(faults_, lit.index, refreshes_drawn);
     struck_.reserve(planned_.size());
 }
 

@@ -38,7 +38,7 @@ class VirtualRefresh final : public PresentationListener {
     /// Faults that struck in the last presentation.
     const std::vector<DisplayFault>& struck() const noexcept { return struck_; }
 
-    void presentation_begins(const Trial& trial) noexcept override;
+    void presentation_begins(const Trial& lit, int show) noexcept override;
     void flipped(const FlipRecord&) noexcept override {}
     void screen_shown(const Screen&, SessionTime) noexcept override { in_presentation_ = false; }
 

@@ -7,6 +7,6 @@ namespace overt {
 
 /// Squares of equal light, each drawn evenly between none and all of it, over the stimulus's place; those at
 /// the right and below are cut off. The same for the same seed.
-PlacedPicture draw_noise(const Screen& screen, const ScreenGeometry& geometry);
+PlacedPicture draw_noise(const Screen& screen, const ScreenGeometry& geometry, int place = 0);
 
 } // namespace overt

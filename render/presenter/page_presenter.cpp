@@ -1,11 +1,15 @@
 #include "render/presenter/page_presenter.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 
 #include <fmt/format.h>
 
 #include "experiment/base/error.h"
+#include "experiment/base/random.h"
 #include "experiment/protocol/protocol_keys.h"
+#include "render/presenter/noise_picture.h"
 #include "render/presenter/screen_text.h"
 #include "render/presenter/setup_screens.h"
 
@@ -177,6 +181,43 @@ void PagePresenter::put_page(InSlot& slot, int page) noexcept {
         blit(context_->gl(), page_target_, picture_, {0, 0}, slot.patch_px, size);
     }
     slot.page_on_canvas = page;
+    if (page >= 0)
+        slot.last_page = page;
+}
+
+void PagePresenter::put_masks(const Screen& screen) {
+    for (const int place : screen.places.empty() ? std::vector{0} : screen.places) {
+        const auto index = static_cast<std::size_t>(place);
+        const bool is_loaded = index < shown_.size();
+        ScreenGeometry at = geometry_;
+        if (is_loaded)
+            at.image_origin_px = slots_px_.at(static_cast<std::size_t>(shown_[index].slot));
+        if (screen.kind == Screen::Kind::noise)
+            put_on(picture_, draw_noise(screen, at, place).picture, at.image_origin_px);
+        else if (is_loaded && loaded_)
+            put_scrambled(in_slots_[index], at.image_origin_px, screen, place);
+    }
+}
+
+/// On the card, so that it takes no longer than a screen: encoded pages, in squares of even columns, since some
+/// outputs join pixels in pairs. What is left at the edges stays empty.
+void PagePresenter::put_scrambled(const InSlot& slot, glm::ivec2 slot_px, const Screen& screen, int place) {
+    const double wished_px = screen.noise_cell.value * geometry_.px_per_deg_at_centre();
+    const int side = std::max(2, 2 * static_cast<int>(std::lround(0.5 * wished_px)));
+    const glm::ivec2 squares = geometry_.image_px / side;
+    const glm::ivec2 first = (geometry_.image_px - squares * side) / 4 * 2;
+    std::vector<int> order(static_cast<std::size_t>(squares.x * squares.y));
+    std::iota(order.begin(), order.end(), 0);
+    RandomStream(screen.noise_seed, "mask squares", static_cast<std::uint64_t>(place))
+        .shuffle(std::span(order));
+    const int page = slot.last_page >= 0 ? slot.last_page : loaded_->page_of(slot.stimulus, 0);
+    page_target_.attach_layer(*loaded_->textures, page);
+    const auto corner = [&](int square) {
+        return first + side * glm::ivec2(square % squares.x, square / squares.x);
+    };
+    for (std::size_t i = 0; i < order.size(); ++i)
+        blit(context_->gl(), page_target_, picture_, corner(order[i]) + slot_px - slot.patch_px,
+             corner(static_cast<int>(i)) + slot_px, {side, side});
 }
 
 void PagePresenter::make_patch() {
@@ -231,7 +272,9 @@ void PagePresenter::put_on(const Framebuffer& target, const LinearImage& picture
 FlipReport PagePresenter::show(const Screen& screen) {
     clear_picture();
     PlacedPicture placed;
-    if (screen.kind != Screen::Kind::blank)
+    if (screen.kind == Screen::Kind::noise || screen.kind == Screen::Kind::scrambled)
+        put_masks(screen);
+    else if (screen.kind != Screen::Kind::blank)
         placed = draw_screen(screen, geometry_, screens_, display_.background);
     if (!placed.picture.pixels.empty()) {
         // It stands on the background already.
@@ -254,7 +297,11 @@ void PagePresenter::show_level(const LevelBar& bar) {
 
 FlipReport PagePresenter::flip_slots(std::span<const AnimationFrameIndex> frames) noexcept {
     OVERT_EXPECTS(loaded_ && frames.size() == in_slots_.size());
-    const bool is_onset = !is_stimulus_on_canvas_;
+    // An onset is when something comes up in a slot that was empty.
+    bool is_onset = false;
+    for (std::size_t i = 0; i < frames.size(); ++i)
+        is_onset = is_onset || (frames[i].value >= 0 &&
+                                (!is_stimulus_on_canvas_ || in_slots_[i].page_on_canvas < 0));
     if (is_onset && display_.onset_trigger != 0) {
         if (has_t_lock(display_.output))
             send_with_next_flip(t_lock::outputs_row, onset_packet_);
@@ -262,11 +309,16 @@ FlipReport PagePresenter::flip_slots(std::span<const AnimationFrameIndex> frames
             outputs_ = display_.onset_trigger;
     }
     bool is_new_frame = is_onset;
+    // What goes is taken away first: what comes may lie in the same place.
+    for (std::size_t i = 0; i < frames.size(); ++i)
+        if (frames[i].value < 0)
+            put_page(in_slots_[i], -1);
     for (std::size_t i = 0; i < frames.size(); ++i) {
         InSlot& slot = in_slots_[i];
         const int frame = frames[i].value;
         OVERT_EXPECTS(frame < static_cast<int>(loaded_->page_of_frame[slot.stimulus].size()));
-        put_page(slot, frame < 0 ? -1 : loaded_->page_of(slot.stimulus, frame));
+        if (frame >= 0)
+            put_page(slot, loaded_->page_of(slot.stimulus, frame));
         is_new_frame = is_new_frame || frame != slot.frame_on_canvas;
         slot.frame_on_canvas = frame;
     }

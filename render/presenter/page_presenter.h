@@ -76,9 +76,13 @@ class PagePresenter final : public Presenter {
         std::size_t stimulus = 0; ///< of the stored ones
         glm::ivec2 patch_px{0};   ///< top left pixel of what its pages cover
         int page_on_canvas = -1;  ///< -1: the background, or another screen
+        int last_page = -1;       ///< that was on the canvas; -1: none was yet
         int frame_on_canvas = -1;
     };
     void put_page(InSlot& slot, int page) noexcept;
+    /// Noise, or squares of what was shown last, in the slots of what is loaded.
+    void put_masks(const Screen& screen);
+    void put_scrambled(const InSlot& slot, glm::ivec2 slot_px, const Screen& screen, int place);
     void check_place(glm::ivec2 slot_px) const;
     void put_tags();
     /// A picture at a place of the screen, and what its encoding changes around it.

@@ -34,8 +34,9 @@ LiveMaps::LiveMaps(const GlContext& context, std::span<const Object> objects, co
         reads_.push_back({std::make_unique<PixelReadback>(context, image_px, PixelFormat::r32ui)});
 }
 
-void LiveMaps::presentation_begins(const Trial& trial) noexcept {
-    current_ = &figure_of(viewed(trial.stimulus));
+void LiveMaps::presentation_begins(const Trial& lit, int) noexcept {
+    collect(true); // a show may follow another directly
+    current_ = &figure_of(viewed(lit.stimulus));
     Figure& figure = *current_;
     for (std::size_t pose = 0; pose < figure.states.size(); ++pose) {
         if (figure.states[pose] != State::missing)

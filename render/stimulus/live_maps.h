@@ -30,7 +30,7 @@ class LiveMaps final : public PresentationListener {
     LiveMaps(const GlContext& context, std::span<const Object> objects, const PoseTable& poses,
              glm::ivec2 image_px);
 
-    void presentation_begins(const Trial& trial) noexcept override;
+    void presentation_begins(const Trial& lit, int show) noexcept override;
     void flipped(const FlipRecord& flip) noexcept override;
     /// Ends a presentation: waits for what is still under way.
     void screen_shown(const Screen& screen, SessionTime onset) noexcept override;

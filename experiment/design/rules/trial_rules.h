@@ -84,7 +84,7 @@ inline constexpr auto kinds_of<TrialRuleKind> = std::to_array<TrialRuleRow>({
      "one stimulus after the other, of which a share repeats what came `back` trials before",
      "one of a stream of {length} that differ in {of}, some repeating what came {back} before",
      stream_rule,
-     {"length", "back", "repeats"},
+     {"length", "back", "repeats", "lures"},
      true,
      {"repeat", "new"}},
 });

@@ -178,12 +178,12 @@ void add_events(std::vector<BidsEvent>& to, const TrialRecord& trial, SessionTim
         to.push_back({&trial, "question", outcome.task_screen_onset, outcome.task_screen_onset});
     for (std::size_t i = 0; was(outcome.presentation_onset) && i < trial.trial.shown_count(); ++i) {
         const TrialRecord& shown = i == 0 ? trial : seen.emplace_back(trial.seen_in(i));
-        to.push_back({&shown,
-                      presentation_event,
-                      outcome.presentation_onset,
-                      outcome.presentation_end,
-                      {},
-                      stimulus_file(shown.trial.stimulus)});
+        std::vector<std::pair<SessionTime, SessionTime>> spans = shown.lit_spans();
+        if (outcome.steps.empty())
+            spans.emplace_back(outcome.presentation_onset, outcome.presentation_end);
+        for (const auto& [onset, dark] : spans)
+            to.push_back(
+                {&shown, presentation_event, onset, dark, {}, stimulus_file(shown.trial.stimulus)});
     }
     if (was(outcome.response_screen_onset)) {
         std::optional<SessionDuration> response_time;
@@ -193,7 +193,8 @@ void add_events(std::vector<BidsEvent>& to, const TrialRecord& trial, SessionTim
             {&trial, "response", outcome.response_screen_onset, outcome.responded_at, response_time});
     }
     for (const AttemptStep* const step : further_steps(trial))
-        to.push_back({.attempt = &trial,
+        if (step->kind != "show") // which are presentations
+            to.push_back({.attempt = &trial,
                       .what = step->kind,
                       .from = *step->begin,
                       .to = step->end.value_or(*step->begin),

@@ -154,7 +154,9 @@ void write_presentations(const SessionRecord& record, const TrialRecord& trial, 
         parts.push_back(part_cells_of(record.header(), object, TableFormat::tsv));
         SampleJoin(record, seen, lookup_for(viewed(seen.trial.stimulus))).join(samples, in_slot);
         for (std::size_t i = 0; i < samples.size(); ++i) {
-            if (place > 0 && (in_slot[i].is_elsewhere || !in_slot[i].image_px))
+            // Of two slots at one place, the one that was lit then.
+            const bool is_here = !in_slot[i].is_elsewhere && in_slot[i].image_px;
+            if (place > 0 && (!is_here || (joined[i].shown && !in_slot[i].shown)))
                 continue;
             joined[i] = in_slot[i];
             if (joined[i].shown)

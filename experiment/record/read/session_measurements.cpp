@@ -18,7 +18,7 @@ FlipRecord read_flip(Query& row, int trial) {
     int source = 0;
     row.read(flip.refresh_in_trial, report.refresh.value, flip.planned.value, flip.shown.value,
              flip.pose.value, report.requested, report.swapped, report.vertical_blank, source,
-             flip.missed_refreshes, report.uncertainty);
+             flip.missed_refreshes, report.uncertainty, flip.step);
     report.source = static_cast<VblankSource>(source);
     return flip;
 }
@@ -77,8 +77,9 @@ std::vector<FlipRecord> SessionRecord::flips(const TrialRecord& trial) const {
         return read_rows(
             *database_,
             fmt::format("SELECT refresh_in_trial, refresh, planned, shown, pose, requested_ns, swapped_ns, "
-                        "vertical_blank_ns, source, missed, {} FROM flip WHERE trial_id = ? ORDER BY n",
-                        has_column(*database_, "flip", "uncertainty_ns") ? "uncertainty_ns" : "0"),
+                        "vertical_blank_ns, source, missed, {}, {} FROM flip WHERE trial_id = ? ORDER BY n",
+                        has_column(*database_, "flip", "uncertainty_ns") ? "uncertainty_ns" : "0",
+                        has_column(*database_, "flip", "step") ? "step" : "0"),
             [&](Query& row) { return read_flip(row, trial.trial.index); }, trial.id);
     });
     const int frame_count = header_.animation_of(trial.trial.stimulus).frame_count;
@@ -200,22 +201,48 @@ std::optional<TrialLedger> SessionRecord::ledger(const TrialRecord& trial) const
     return TrialLedger{std::move(recorded), std::move(fit)};
 }
 
-PageCycle planned_cycle(const SessionHeader& header, const TrialRecord& trial) {
-    PageCycle motion = header.page_cycle_of(trial.trial.stimulus);
-    for (const AttemptStep& step : trial.outcome.steps) {
-        if (step.kind != "show")
-            continue;
-        // What a key or gaze ended was over by the plan then.
-        const bool ended_early = step.ended_by == StepEnd::gaze || step.ended_by == StepEnd::key ||
-                                 step.ended_by == StepEnd::patience;
-        const std::optional<int> lasted =
-            ended_early ? std::optional(trial.outcome.shown_refreshes + trial.outcome.missed_refreshes)
-                        : step.planned_refreshes;
-        return cut_to(std::move(motion), lasted,
-                      step.still_frame ? std::optional(AnimationFrameIndex{*step.still_frame})
-                                       : std::nullopt);
+namespace {
+
+/// What a step was to show of a stimulus that moves so, in `lasted` refreshes as it went.
+PageCycle planned_in(const AttemptStep& step, PageCycle motion, int lasted) {
+    // What a key, an answer or gaze ended was over by the plan then.
+    const bool ended_early = step.ended_by == StepEnd::gaze || step.ended_by == StepEnd::key ||
+                             step.ended_by == StepEnd::answer || step.ended_by == StepEnd::patience;
+    return cut_to(std::move(motion), ended_early ? std::optional(lasted) : step.planned_refreshes,
+                  step.still_frame ? std::optional(AnimationFrameIndex{*step.still_frame}) : std::nullopt);
+}
+
+/// The step that flips of this number are of. Those of earlier programs are of the only one that shows.
+const AttemptStep* step_of(const std::vector<AttemptStep>& steps, int number) {
+    if (number > 0)
+        return static_cast<std::size_t>(number) <= steps.size() ? &steps[static_cast<std::size_t>(number) - 1]
+                                                                : nullptr;
+    const auto show = std::ranges::find(steps, "show", &AttemptStep::kind);
+    return show == steps.end() ? nullptr : &*show;
+}
+
+} // namespace
+
+std::vector<RecordedShow> shows_of(const SessionHeader& header, const TrialRecord& trial,
+                                   std::span<const FlipRecord> flips) {
+    std::vector<RecordedShow> shows;
+    for (std::size_t begin = 0, end = 0; begin < flips.size(); begin = end) {
+        while (end < flips.size() && flips[end].step == flips[begin].step)
+            ++end;
+        RecordedShow show{begin, end, flips[begin].refresh_in_trial, true,
+                          header.page_cycle_of(trial.trial.stimulus)};
+        if (const AttemptStep* const step = step_of(trial.outcome.steps, flips[begin].step)) {
+            show.is_lit = step->lights(trial.place);
+            show.plan = planned_in(*step, std::move(show.plan),
+                                   flips[end - 1].refresh_in_trial - show.first_refresh + 1);
+        } else { // of an attempt that was cut off
+            show.is_lit = std::ranges::any_of(flips.subspan(begin, end - begin), [](const FlipRecord& flip) {
+                return flip.shown != no_frame;
+            });
+        }
+        shows.push_back(std::move(show));
     }
-    return motion;
+    return shows;
 }
 
 FlipHistory SessionRecord::flip_history(const TrialRecord& trial,
@@ -224,9 +251,13 @@ FlipHistory SessionRecord::flip_history(const TrialRecord& trial,
     // Of an imported session not even the refresh rate may be known.
     if (!ledger)
         return FlipHistory({}, {{}, 1.0, 1.0}, {});
-    return FlipHistory(ledger->fit.flips(),
-                       {display.latency, display.refresh_hz, static_cast<double>(display.screen.screen_px.y)},
-                       planned_cycle(header_, trial));
+    const std::span<const FlipRecord> flips = ledger->fit.flips();
+    std::vector<FlipHistory::Show> lit;
+    for (RecordedShow& show : shows_of(header_, trial, flips))
+        if (show.is_lit)
+            lit.push_back({flips.subspan(show.begin, show.end - show.begin), std::move(show.plan)});
+    return FlipHistory(
+        lit, {display.latency, display.refresh_hz, static_cast<double>(display.screen.screen_px.y)});
 }
 
 } // namespace overt

@@ -86,7 +86,23 @@ TrialRecord TrialRecord::seen_in(std::size_t i) const {
             seen.trial.slot = shown.slot;
         }
     }
+    const bool tells_places = std::ranges::any_of(
+        outcome.steps, [](const AttemptStep& step) { return step.places.has_value(); });
+    if (tells_places && has_outcome()) {
+        const auto spans = seen.lit_spans();
+        const SessionTime never = started - SessionDuration(1);
+        seen.outcome.presentation_onset = spans.empty() ? never : spans.front().first;
+        seen.outcome.presentation_end = spans.empty() ? never : spans.back().second;
+    }
     return seen;
+}
+
+std::vector<std::pair<SessionTime, SessionTime>> TrialRecord::lit_spans() const {
+    std::vector<std::pair<SessionTime, SessionTime>> spans;
+    for (const AttemptStep& step : outcome.steps)
+        if (step.lights(place) && step.begin)
+            spans.emplace_back(*step.begin, step.end.value_or(*step.begin));
+    return spans;
 }
 
 std::vector<TrialRecord> SessionRecord::presentations() const {

@@ -68,8 +68,11 @@ struct TrialRecord {
     int place = 0;
 
     /// The attempt as the presentation of one stimulus in its slot, 0 <= i < trial.shown_count(): that
-    /// stimulus is the trial's, in its slot, and the others are beside it. Its flips are that slot's.
+    /// stimulus is the trial's, in its slot, and the others are beside it. Its flips are that slot's, and its
+    /// onset and end those of the steps that lit the slot: before the attempt's begin, where none did.
     TrialRecord seen_in(std::size_t i) const;
+    /// From when to when each step lit it, of steps that ended; none of sessions whose trials have no steps.
+    std::vector<std::pair<SessionTime, SessionTime>> lit_spans() const;
     /// It came to its end, in order or not.
     bool has_outcome() const { return status == Status::completed || status == Status::aborted; }
     /// It got to the screen, or the answer, that its outcome has at this time: those that it did not get to,
@@ -86,11 +89,20 @@ struct TrialLedger {
 };
 
 /// The steps of an attempt that its outcome does not tell by a time of its own: fixations, blanks, masks,
-/// feedback, texts after the first, and drift checks but that of the task without steps.
+/// feedback, texts and shows after the first, and drift checks but that of the task without steps.
 std::vector<const AttemptStep*> further_steps(const TrialRecord& trial);
 
-/// What an attempt's presentation was to show: the motion, cut to what the trial's steps said.
-PageCycle planned_cycle(const SessionHeader& header, const TrialRecord& trial);
+/// A step `show` of an attempt, as its flips tell it of the stimulus in one slot.
+struct RecordedShow {
+    std::size_t begin = 0, end = 0; ///< its flips: the first, and the one after the last
+    int first_refresh = 0;          ///< FlipRecord::refresh_in_trial of its onset, from which its plan counts
+    bool is_lit = true;             ///< it lights this slot
+    PageCycle plan;                 ///< the motion, cut to what the step said
+};
+
+/// The shows of a presentation (TrialRecord::seen_in) by the flips of its attempt, in their order.
+std::vector<RecordedShow> shows_of(const SessionHeader& header, const TrialRecord& trial,
+                                   std::span<const FlipRecord> flips);
 
 /// A SessionEvent that owns its words.
 struct RecordedEvent {

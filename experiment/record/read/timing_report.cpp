@@ -14,28 +14,32 @@ namespace {
 
 constexpr double ms(SessionDuration duration) { return 1e3 * to_seconds(duration); }
 
-/// Refreshes of the plan that have a row, a flip or a named miss.
-int rows_within(const LedgerFit& fit, int planned, int& flipped) {
+/// Refreshes of a show's plan that have a row, a flip or a named miss.
+int rows_within(const LedgerFit& fit, const RecordedShow& show, int& flipped) {
+    const int planned = show.plan.total_refreshes;
     std::vector<bool> has_row(static_cast<std::size_t>(planned));
     const auto note = [&](int refresh) {
-        if (refresh >= 0 && refresh < planned)
-            has_row[static_cast<std::size_t>(refresh)] = true;
+        const int in_show = refresh - show.first_refresh;
+        if (in_show >= 0 && in_show < planned)
+            has_row[static_cast<std::size_t>(in_show)] = true;
     };
-    flipped = 0;
-    for (const FlipRecord& flip : fit.flips()) {
-        note(flip.refresh_in_trial);
-        flipped += flip.refresh_in_trial < planned;
+    for (std::size_t i = show.begin; i < show.end; ++i) {
+        note(fit.flips()[i].refresh_in_trial);
+        flipped += fit.flips()[i].refresh_in_trial - show.first_refresh < planned;
     }
     for (const MissedRun& run : fit.missed_runs())
-        for (int i = 0; i < run.count && run.refresh_in_trial + i < planned; ++i)
+        for (int i = 0; i < run.count; ++i)
             note(run.refresh_in_trial + i);
     return static_cast<int>(std::count(has_row.begin(), has_row.end(), true));
 }
 
-void take_ledger(TrialTiming& timing, const TrialLedger& ledger) {
+void take_ledger(TrialTiming& timing, const TrialLedger& ledger, std::span<const RecordedShow> shows) {
     const auto& [recorded, fit] = ledger;
-    timing.unaccounted =
-        timing.planned_refreshes - rows_within(fit, timing.planned_refreshes, timing.flipped_refreshes);
+    for (const RecordedShow& show : shows) {
+        timing.planned_refreshes += show.plan.total_refreshes;
+        timing.unaccounted +=
+            show.plan.total_refreshes - rows_within(fit, show, timing.flipped_refreshes);
+    }
     timing.missed_runs = fit.missed_runs();
     for (const MissedRun& run : timing.missed_runs)
         timing.missed_refreshes += run.count;
@@ -43,8 +47,9 @@ void take_ledger(TrialTiming& timing, const TrialLedger& ledger) {
         if (!fit.times()[i].is_consistent)
             timing.wrong_stamps.push_back(fit.flips()[i].refresh_in_trial);
     for (std::size_t i = 1; i < recorded.size(); ++i)
-        timing.intervals_ms.push_back(
-            ms(recorded[i].report.vertical_blank - recorded[i - 1].report.vertical_blank));
+        if (recorded[i].step == recorded[i - 1].step)
+            timing.intervals_ms.push_back(
+                ms(recorded[i].report.vertical_blank - recorded[i - 1].report.vertical_blank));
     for (const double interval : timing.intervals_ms)
         timing.longest_gap_ms = std::max(timing.longest_gap_ms, interval);
     const RefreshFit& line = fit.line();
@@ -129,8 +134,7 @@ TimingReport timing_report(const SessionRecord& record) {
         timing.attempt = trial.attempt;
         timing.status = trial.status;
         timing.counts = trial.counts;
-        timing.planned_refreshes = planned_cycle(header, trial).total_refreshes;
-        take_ledger(timing, *ledger);
+        take_ledger(timing, *ledger, shows_of(header, trial, ledger->fit.flips()));
         take_samples(timing, record, trial, ledger);
         for (auto [one, end] = disturbances.equal_range(trial.trial.index); one != end; ++one)
             timing.disturbances.push_back(one->second);

@@ -1,6 +1,7 @@
 #include "experiment/record/read/trial_rows.h"
 
 #include <algorithm>
+#include <sstream>
 
 #include <fmt/format.h>
 
@@ -138,18 +139,34 @@ void add_swap_modes(const SQLite::Database& database, std::vector<TrialRecord>& 
     }
 }
 
+/// Of "0 2".
+std::optional<std::vector<int>> places_in(const std::optional<std::string>& text) {
+    if (!text)
+        return std::nullopt;
+    std::vector<int> places;
+    std::istringstream words(*text);
+    for (int place = 0; words >> place;)
+        places.push_back(place);
+    return places;
+}
+
 void add_steps(const SQLite::Database& database, std::vector<TrialRecord>& trials) {
     if (!has_table(database, "step"))
         return;
-    for (Query row(database, "SELECT trial_id, kind, id, planned_refreshes, drawn_s, still_frame, begin_ns, "
-                             "end_ns, ended_by, gaze_onset_us, gaze_detected_us FROM step "
-                             "ORDER BY trial_id, n");
+    const char* const places = has_column(database, "step", "places") ? "places" : "NULL";
+    for (Query row(database,
+                   fmt::format("SELECT trial_id, kind, id, planned_refreshes, drawn_s, still_frame, begin_ns, "
+                               "end_ns, ended_by, gaze_onset_us, gaze_detected_us, {} FROM step "
+                               "ORDER BY trial_id, n",
+                               places)
+                       .c_str());
          row.step();) {
         const auto trial = std::ranges::find(trials, row.integer(), &TrialRecord::id);
         AttemptStep step;
-        std::optional<std::string> ended_by;
+        std::optional<std::string> ended_by, lit;
         row.read(step.kind, step.id, step.planned_refreshes, step.drawn_s, step.still_frame, step.begin,
-                 step.end, ended_by, step.gaze_onset, step.gaze_detected);
+                 step.end, ended_by, step.gaze_onset, step.gaze_detected, lit);
+        step.places = places_in(lit);
         const auto word = std::ranges::find(names_of<StepEnd>, ended_by.value_or(""));
         if (word != names_of<StepEnd>.end())
             step.ended_by = static_cast<StepEnd>(word - names_of<StepEnd>.begin());
@@ -168,7 +185,8 @@ std::vector<const AttemptStep*> further_steps(const TrialRecord& trial) {
         std::ranges::equal(steps, std::span(question).first(steps.size()), {}, &AttemptStep::kind);
     std::vector<const AttemptStep*> further;
     for (const AttemptStep& step : steps) {
-        const bool is_told = step.kind == "show" || step.kind == "answer" ||
+        const bool is_told = (step.kind == "show" && step.begin == trial.outcome.presentation_onset) ||
+                             step.kind == "answer" ||
                              (step.kind == "text" && step.begin == trial.outcome.task_screen_onset) ||
                              (step.kind == "drift_check" && is_one_question);
         if (!is_told && step.begin)

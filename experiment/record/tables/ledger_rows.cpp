@@ -101,38 +101,47 @@ std::int64_t write_ledger(TableWriter& writer, const RowLayout<LedgerRow>& layou
     if (!ledger)
         return 0;
     const auto& [recorded, fit] = *ledger;
-    const PageCycle plan = planned_cycle(header, trial);
-    const auto planned_at = [&](int refresh) {
-        return refresh < plan.total_refreshes ? plan.entry_at(refresh).frame : no_frame;
-    };
     const int number = trial.trial.index + 1;
-    auto run = fit.missed_runs().begin();
-    for (std::size_t i = 0; i < recorded.size(); ++i) {
-        const FlipRecord& fitted = fit.flips()[i];
-        if (i > 0 && fitted.missed_refreshes > 0) {
-            // One by one to the plan's end; after it the count in the flip that follows says it.
-            for (int k = 0; k < run->count && run->refresh_in_trial + k < plan.total_refreshes; ++k) {
-                const int refresh = run->refresh_in_trial + k;
-                layout.write(writer, {number, trial.trial.slot, refresh, nullptr, planned_at(refresh),
-                                      fit.flips()[i - 1], fit.begin_of(refresh), 0, run->cause,
-                                      trial.trial.stimulus.motion});
+    std::int64_t flips = 0;
+    for (const RecordedShow& show : shows_of(header, trial, fit.flips())) {
+        if (!show.is_lit)
+            continue;
+        const int end = show.first_refresh + show.plan.total_refreshes;
+        const auto planned_at = [&](int refresh) {
+            return refresh < end ? show.plan.entry_at(refresh - show.first_refresh).frame : no_frame;
+        };
+        auto run = std::ranges::find_if(fit.missed_runs(), [&](const MissedRun& missed) {
+            return missed.refresh_in_trial > show.first_refresh;
+        });
+        for (std::size_t i = show.begin; i < show.end; ++i) {
+            const FlipRecord& fitted = fit.flips()[i];
+            if (i > show.begin && fitted.missed_refreshes > 0) {
+                // One by one to the plan's end; after it the count in the flip that follows says it.
+                for (int k = 0; k < run->count && run->refresh_in_trial + k < end; ++k) {
+                    const int refresh = run->refresh_in_trial + k;
+                    layout.write(writer, {number, trial.trial.slot, refresh, nullptr, planned_at(refresh),
+                                          fit.flips()[i - 1], fit.begin_of(refresh), 0, run->cause,
+                                          trial.trial.stimulus.motion});
+                }
+                ++run;
             }
-            ++run;
+            const int refresh = fitted.refresh_in_trial;
+            const bool is_as_noted = refresh == recorded[i].refresh_in_trial;
+            // Where the count was inferred anew, the plan has another frame for this refresh than was noted.
+            layout.write(writer, {number,
+                                  trial.trial.slot,
+                                  refresh,
+                                  &recorded[i].report,
+                                  is_as_noted ? fitted.planned : planned_at(refresh),
+                                  fitted,
+                                  {fitted.report.vertical_blank, fitted.report.uncertainty},
+                                  fitted.missed_refreshes,
+                                  std::nullopt,
+                                  trial.trial.stimulus.motion});
+            ++flips;
         }
-        const int refresh = fitted.refresh_in_trial;
-        // Where the count was inferred anew, the plan has another frame for this refresh than was noted.
-        layout.write(writer, {number,
-                              trial.trial.slot,
-                              refresh,
-                              &recorded[i].report,
-                              refresh == recorded[i].refresh_in_trial ? fitted.planned : planned_at(refresh),
-                              fitted,
-                              {fitted.report.vertical_blank, fitted.report.uncertainty},
-                              fitted.missed_refreshes,
-                              std::nullopt,
-                              trial.trial.stimulus.motion});
     }
-    return static_cast<std::int64_t>(recorded.size());
+    return flips;
 }
 
 } // namespace overt

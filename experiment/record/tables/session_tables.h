@@ -24,7 +24,7 @@ struct StepRow {
     const AttemptStep& step;
     operator const TrialRecord&() const { return attempt; }
 };
-RowLayout<StepRow> steps_layout();
+RowLayout<StepRow> steps_layout(const SessionHeader& header);
 
 struct DisplayBoxRow {
     int sitting;

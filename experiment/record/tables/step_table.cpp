@@ -11,9 +11,19 @@ auto time_of_step(std::optional<SessionTime> AttemptStep::*at) {
     return [at](const StepRow& row) { return row.step.*at; };
 }
 
+std::string slots_of(const SessionHeader& header, const StepRow& row) {
+    std::string ids;
+    const Trial& trial = row.attempt.trial;
+    for (int place = 0; place < static_cast<int>(trial.shown_count()); ++place)
+        if (row.step.lights(place))
+            ids += (ids.empty() ? "" : " ") +
+                   item(header.slots, trial.shown(static_cast<std::size_t>(place)).slot).id;
+    return ids;
+}
+
 } // namespace
 
-RowLayout<StepRow> steps_layout() {
+RowLayout<StepRow> steps_layout(const SessionHeader& header) {
     return {
         "steps",
         "What each attempt that ended did, step by step.",
@@ -37,6 +47,8 @@ RowLayout<StepRow> steps_layout() {
              [](auto& row) { return row.step.kind; }},
             {{"id", "As the protocol calls it; empty: it gives no name"},
              [](auto& row) { return row.step.id; }},
+            {{"slots", "Of a step show, the slots in which it showed something, a space between them"},
+             [&header](auto& row) { return slots_of(header, row); }},
             {session_seconds("begin_s", "When what it shows was lit"), time_of_step(&AttemptStep::begin)},
             {session_seconds("end_s", "When something else was lit"), time_of_step(&AttemptStep::end)},
             {{"drawn_s", "How long it was to last, as drawn or as written; n/a: no time ends it", "s"},

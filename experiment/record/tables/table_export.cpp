@@ -94,8 +94,19 @@ class TableExport {
         fs::remove(aside_file(layout.table(), trial));
     }
 
-    /// Of what the trial shows, the place in whose slot gaze lies; the first, if it lies in none.
-    std::size_t place_with(const Trial& trial, const std::optional<ScreenPoint>& gaze) const;
+    /// Of what a trial shows, the place in whose slot gaze lies.
+    class PlaceFinder {
+      public:
+        PlaceFinder(const SessionRecord& record, const TrialRecord& trial);
+        /// Of several slots that gaze lies in, the one that was lit at this time of the tracker's; the first,
+        /// if none was, or if gaze lies in none.
+        std::size_t place_with(const std::optional<ScreenPoint>& gaze, TrackerTime at) const;
+
+      private:
+        std::optional<ClockMap> clock_map_;
+        std::vector<ScreenGeometry> screens_;
+        std::vector<FlipHistory> lit_;
+    };
     /// Puts what was put aside of all presentations of a trial into the tables: each sample and event once.
     void merge_presentations(const TrialRecord& trial, std::int64_t samples);
     /// Makes of the lines put aside of each presentation those of the trial: the n-th is that of places[n].
@@ -198,27 +209,42 @@ void TableExport::write_trial(const TrialRecord& trial) {
     counts_.samples_off_plan += of_trial.off_plan;
 }
 
-std::size_t TableExport::place_with(const Trial& trial, const std::optional<ScreenPoint>& gaze) const {
-    for (std::size_t i = 0; gaze && i < trial.shown_count(); ++i) {
-        const ScreenGeometry screen = header_.screen_of_slot(trial.shown(i).slot);
-        if (screen.is_inside_image(screen.image_from_screen(*gaze)))
-            return i;
+TableExport::PlaceFinder::PlaceFinder(const SessionRecord& record, const TrialRecord& trial)
+    : clock_map_(record.clock_map(trial)) {
+    for (std::size_t i = 0; i < trial.trial.shown_count(); ++i) {
+        const TrialRecord seen = trial.seen_in(i);
+        screens_.push_back(record.header().screen_of_slot(seen.trial.slot));
+        lit_.push_back(record.flip_history(seen, record.ledger(seen)));
     }
-    return 0;
+}
+
+std::size_t TableExport::PlaceFinder::place_with(const std::optional<ScreenPoint>& gaze,
+                                                 TrackerTime at) const {
+    std::optional<std::size_t> first;
+    for (std::size_t i = 0; gaze && i < screens_.size(); ++i) {
+        if (!screens_[i].is_inside_image(screens_[i].image_from_screen(*gaze)))
+            continue;
+        if (clock_map_ && lit_[i].frame_shown_at(clock_map_->to_session(at).time, gaze->y_px))
+            return i;
+        first = first.value_or(i);
+    }
+    return first.value_or(0);
 }
 
 void TableExport::merge_presentations(const TrialRecord& trial, std::int64_t samples) {
     const std::int64_t events = aside_.at({trial.id, 0}).events;
     if (trial.trial.shown_count() > 1) {
+        const PlaceFinder finder(record_, trial);
         std::vector<std::size_t> places;
         record_.read_samples(trial, samples_at_a_time, [&](std::span<const GazeSample> piece) {
             for (const GazeSample& sample : piece)
-                places.push_back(place_with(trial.trial, sample.gaze));
+                places.push_back(finder.place_with(sample.gaze, sample.sampled_at));
         });
         take_lines_of(tables_.samples.table(), trial, places);
         places.clear();
-        record_.read_gaze_events(
-            trial, [&](const GazeEvent& event) { places.push_back(place_with(trial.trial, event.place)); });
+        record_.read_gaze_events(trial, [&](const GazeEvent& event) {
+            places.push_back(finder.place_with(event.place, event.start + (event.end - event.start) / 2));
+        });
         take_lines_of(tables_.gaze_events.table(), trial, places);
     }
     take_aside(tables_.samples, trial, samples);

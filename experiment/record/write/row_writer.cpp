@@ -3,6 +3,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <sqlite3.h>
 
 #include "experiment/base/error.h"
@@ -26,7 +27,7 @@ SQLite::Database open_for_rows(const std::filesystem::path& file) {
     try {
         database.exec(
             "PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL; PRAGMA wal_autocheckpoint = 0");
-        database.exec(with_stimulus_columns(slot_tables_sql));
+        complete_session_tables(database);
     } catch (const SQLite::Exception& reason) {
         throw_record_error(file, "opening the session for writing", reason);
     }
@@ -42,14 +43,19 @@ std::int64_t number(const SQLite::Database& database, const char* sql, std::int6
 /// As it stands in a table: NULL outside of trials.
 std::optional<int> number_of_trial(int trial) { return trial < 0 ? std::nullopt : std::optional(trial); }
 
+/// "0 2".
+std::optional<std::string> text_of_places(const std::optional<std::vector<int>>& places) {
+    return places ? std::optional(fmt::format("{}", fmt::join(*places, " "))) : std::nullopt;
+}
+
 } // namespace
 
 RowWriter::RowWriter(const std::filesystem::path& session_file, const Sitting& sitting) try
     : lock_(session_file.parent_path()), database_(open_for_rows(session_file)),
       insert_flip_(database_,
                    "INSERT INTO flip (trial_id, n, refresh_in_trial, refresh, planned, shown, pose, "
-                   "requested_ns, swapped_ns, vertical_blank_ns, source, missed, uncertainty_ns) "
-                   "VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?)"),
+                   "requested_ns, swapped_ns, vertical_blank_ns, source, missed, uncertainty_ns, step) "
+                   "VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?)"),
       insert_slot_flip_(database_, "INSERT OR REPLACE INTO slot_flip (trial_id, refresh_in_trial, place, "
                                    "planned, shown, pose) VALUES (?,?,?,?,?,?)"),
       insert_missed_(database_,
@@ -165,7 +171,7 @@ void RowWriter::write(const FlipRecord& flip) {
     run_statement(insert_flip_, counts.trial_id, counts.flips++, flip.refresh_in_trial, report.refresh.value,
                   flip.planned.value, flip.shown.value, flip.pose.value, report.requested, report.swapped,
                   report.vertical_blank, static_cast<int>(report.source), flip.missed_refreshes,
-                  report.uncertainty);
+                  report.uncertainty, flip.step);
 }
 
 void RowWriter::write(const SlotFlip& flip) {
@@ -397,11 +403,11 @@ void RowWriter::write(const TrialFinish& finish) {
     for (const AttemptStep& step : outcome.steps)
         insert_values(database_,
                       "INTO step (trial_id, n, kind, id, planned_refreshes, drawn_s, still_frame, begin_ns, "
-                      "end_ns, ended_by, gaze_onset_us, gaze_detected_us)",
+                      "end_ns, ended_by, gaze_onset_us, gaze_detected_us, places)",
                       trial_counts_.trial_id, ++number, step.kind, step.id, step.planned_refreshes,
                       step.drawn_s, step.still_frame, step.begin, step.end,
                       step.ended_by ? std::optional(name_of(*step.ended_by)) : std::nullopt,
-                      step.gaze_onset, step.gaze_detected);
+                      step.gaze_onset, step.gaze_detected, text_of_places(step.places));
     seals_.seal_trial(sitting_, trial_counts_.trial_id);
     forget_file_hash(database_);
     commit_to_disk();

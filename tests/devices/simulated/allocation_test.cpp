@@ -26,7 +26,7 @@ TEST_CASE("from the begin of a presentation to its last sample nothing is alloca
         tracker.start_recording();
         const long before = test::allocations;
         std::size_t taken = 0;
-        sitting.observer.presentation_begins({trial, 0, {}});
+        sitting.observer.presentation_begins({trial, 0, {}}, 0);
         for (int refresh = 0; refresh < cycle.total_refreshes; ++refresh) {
             const PageCycleEntry& entry = cycle.entry_at(refresh);
             sitting.clock.wait_until(sitting.clock.now() + from_seconds(1.0 / scene.refresh_hz));

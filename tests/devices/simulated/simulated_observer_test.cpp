@@ -324,7 +324,7 @@ TEST_CASE("an object of which only pictures exist is looked at within the pictur
     ObservedScene scene = test::scene_with(mesh);
     scene.objects[0].mesh = nullptr;
     SimulatedObserver observer(scene, 1, test::without_wandering());
-    observer.presentation_begins({0, 0, {}});
+    observer.presentation_begins({0, 0, {}}, 0);
     FlipRecord flip;
     flip.report.vertical_blank = SessionTime(1s);
     observer.flipped(flip);

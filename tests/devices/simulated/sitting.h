@@ -51,7 +51,7 @@ class Sitting {
         flips.reserve(static_cast<std::size_t>(cycle.total_refreshes));
         observer.screen_shown({}, next_blank());
         const SessionTime onset = next_blank();
-        observer.presentation_begins(trial);
+        observer.presentation_begins(trial, 0);
         int refresh = 0;
         while (refresh < cycle.total_refreshes) {
             const PageCycleEntry& entry = cycle.entry_at(refresh);

@@ -144,3 +144,26 @@ TEST_CASE("blanks that are late by less than a microsecond are no deviation from
             CHECK_FALSE(history.is_off_plan(change + SessionDuration(ns), 0.0));
     }
 }
+
+TEST_CASE("between two shows nothing is lit, and each follows its own plan", "[unit]") {
+    const PageCycle plan = plan_of_three_seconds(), still = cut_to(plan, 20, AnimationFrameIndex{7});
+    const auto first = present(cut_to(plan, 100, {}));
+    auto second = present(still);
+    for (FlipRecord& flip : second) {
+        flip.refresh_in_trial += 150;
+        flip.report.vertical_blank += 150 * refresh_interval;
+    }
+    const FlipHistory::Show shows[] = {{first, cut_to(plan, 100, {})}, {second, still}};
+    const FlipHistory history(shows, scan_out);
+    const auto at = [&](int refresh) {
+        return onset + refresh * refresh_interval + refresh_interval / 2 + scan_out.latency;
+    };
+    CHECK_FALSE(history.frame_shown_at(at(-1), 0.0));
+    CHECK(history.frame_shown_at(at(99), 0.0)->frame == plan.entry_at(99).frame);
+    CHECK_FALSE(history.frame_shown_at(at(100), 0.0));
+    CHECK_FALSE(history.frame_planned_at(at(149), 0.0));
+    CHECK_FALSE(history.is_off_plan(at(120), 0.0));
+    CHECK(history.frame_shown_at(at(150), 0.0)->frame.value == 7);
+    CHECK(history.frame_planned_at(at(169), 0.0)->value == 7);
+    CHECK_FALSE(history.frame_shown_at(at(170), 0.0));
+}

@@ -112,12 +112,45 @@ TEST_CASE("a task without steps is the question, the drift check, the stimulus a
 TEST_CASE("gaze is recorded around the step that shows, as far as steps may be watched", "[unit]") {
     const auto watched = [](std::vector<StepSettings> steps) { return watched_steps(steps); };
     const StepDuration half{StepDuration::Law::fixed, {0.5}, 0.0, 0.0, 0.0};
-    const WatchedSteps all =
+    const std::vector<bool> all =
         watched({step_of(StepKind::blank, half), step_of(StepKind::text), step_of(StepKind::fixation, half),
                  step_of(StepKind::show), step_of(StepKind::mask, half), step_of(StepKind::answer),
                  step_of(StepKind::blank, half)});
-    CHECK(all.begin == 2);
-    CHECK(all.end == 5);
+    CHECK(all == std::vector<bool>{false, false, true, true, true, false, false});
+    // Of several shows all are, and what stands between them; an answer parts them.
+    CHECK(watched({step_of(StepKind::show), step_of(StepKind::blank, half), step_of(StepKind::show),
+                   step_of(StepKind::answer), step_of(StepKind::show)}) ==
+          std::vector<bool>{true, true, true, false, true});
+}
+
+TEST_CASE("a step shows what the trial has in its slots, and a mask covers what was shown", "[unit]") {
+    StepSettings first = step_of(StepKind::show), second = first;
+    first.slots = {"one"};
+    second.slots = {"two", "three"};
+    const StepDuration half{StepDuration::Law::fixed, {0.5}, 0.0, 0.0, 0.0};
+    Protocol protocol = protocol_with({step_of(StepKind::mask, half), first, step_of(StepKind::mask, half),
+                                       second, step_of(StepKind::mask, half)});
+    protocol.slots.clear();
+    for (const char* const id : {"one", "two", "three"})
+        protocol.slots.push_back({id, id, {}, {}, {}, {}, -1});
+    MotionSettings slow = protocol.motions.front();
+    slow.duration_s = 3.0;
+    protocol.motions.push_back(slow);
+    Trial trial;
+    trial.beside = {{{0, 0, 0, 1}, 2}};
+    const TrialPlan plan = plan_trial(protocol, 1, trial, false);
+    using Places = std::vector<int>;
+    CHECK(plan.steps[0].places == Places{0}); // before the first, the next
+    CHECK(plan.steps[1].places == Places{0});
+    CHECK(plan.steps[2].places == Places{0});
+    CHECK(plan.steps[3].places == Places{1}); // "two" is empty in this trial
+    CHECK(plan.steps[4].places == Places{1});
+    CHECK(plan.steps[3].drawn_s == 3.0); // the motion of what it lights
+    CHECK(places_shown(protocol, second, Trial{}) == Places{});
+    const Trial lit = trial.only(plan.steps[3].places);
+    CHECK(lit.slot == 2);
+    CHECK(lit.stimulus.motion == 1);
+    CHECK(lit.shown_count() == 1);
 }
 
 TEST_CASE("steps are described in seconds and in refreshes, with all that can end them", "[unit]") {

@@ -12,7 +12,7 @@ namespace {
 /// Keeps the session's thread from the display for a while after one of the flips.
 struct Hindrance final : PresentationListener {
     explicit Hindrance(StandingClock& time) : clock(time) {}
-    void presentation_begins(const Trial& trial) noexcept override { begun.push_back(trial.index); }
+    void presentation_begins(const Trial& trial, int) noexcept override { begun.push_back(trial.index); }
     void flipped(const FlipRecord& flip) noexcept override {
         if (flip.refresh_in_trial == at)
             clock.wait_until(clock.now() + std::chrono::microseconds(20'000));

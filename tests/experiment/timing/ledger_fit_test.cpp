@@ -62,3 +62,20 @@ TEST_CASE("a missed refresh has the cause that its times tell, and the margin to
     }
     CHECK(LedgerFit(steady_flips(60), 100.0).missed_runs().empty());
 }
+
+TEST_CASE("what lies between two shows was not missed, by a display that counts no refreshes either", "[unit]") {
+    std::vector<FlipRecord> flips = steady_flips(60);
+    for (std::size_t i = 30; i < flips.size(); ++i) {
+        flips[i].step = 3;
+        flips[i].refresh_in_trial += 40;
+        flips[i].report.vertical_blank += from_seconds(0.4);
+        flips[i].report.requested += from_seconds(0.4);
+        flips[i].report.swapped += from_seconds(0.4);
+    }
+    for (FlipRecord& flip : flips)
+        flip.report.source = VblankSource::swap_return;
+    CHECK(LedgerFit(flips, 100.0).missed_runs().empty());
+    for (FlipRecord& flip : flips)
+        flip.step = 1;
+    CHECK(LedgerFit(flips, 100.0).missed_runs().size() == 1);
+}

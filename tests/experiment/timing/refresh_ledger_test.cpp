@@ -193,3 +193,36 @@ TEST_CASE("a ledger that begins again knows nothing of the presentation before",
     CHECK(used.missed_refreshes() == 1);
     CHECK(used.onset() == SessionTime(500 * interval));
 }
+
+TEST_CASE("a further show of an attempt counts on from its first onset, with its own plan", "[unit]") {
+    const PageCycle cycle = plan();
+    RefreshLedger ledger(cycle, WhenLate::drop);
+    const auto flip_at = [&](std::int64_t refresh) {
+        FlipReport report;
+        report.refresh = {refresh};
+        report.vertical_blank = SessionTime(refresh * interval);
+        return ledger.enter(report);
+    };
+    ledger.begin(3, 2);
+    CHECK(flip_at(1000).refresh_in_trial == 0);
+    const RefreshIndex first = ledger.first();
+    ledger.begin(3, 4, first);
+    const FlipRecord onset = flip_at(1100);
+    CHECK(onset.refresh_in_trial == 100);
+    CHECK(onset.step == 4);
+    CHECK(onset.missed_refreshes == 0);
+    CHECK(onset.planned == cycle.entry_at(0).frame);
+    CHECK(ledger.missed_count() == 0);
+    CHECK(ledger.next_refresh() == 1);
+    const FlipRecord late = flip_at(1104); // three go by
+    CHECK(late.refresh_in_trial == 104);
+    CHECK(ledger.last_refresh() == 4);
+    CHECK(late.planned == cycle.entry_at(4).frame);
+    REQUIRE(ledger.missed_count() == 3);
+    CHECK(ledger.missed(0).refresh_in_trial == 101);
+    CHECK(ledger.missed(2).planned == cycle.entry_at(3).frame);
+    CHECK(ledger.next_refresh() == 5);
+    for (std::int64_t refresh = 1105; !ledger.is_complete(); ++refresh)
+        flip_at(refresh);
+    CHECK(ledger.shown_refreshes() == cycle.total_refreshes - 3);
+}

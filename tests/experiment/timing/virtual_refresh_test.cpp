@@ -17,7 +17,7 @@ Trial trial_number(int index) {
 /// How many refreshes went by before each flip of a presentation after its onset.
 std::vector<int> misses_of(VirtualRefresh& display, int trial, int flips) {
     display.next(); // a blank screen
-    display.presentation_begins(trial_number(trial));
+    display.presentation_begins(trial_number(trial), 0);
     std::vector<int> misses;
     std::int64_t last = display.next().refresh.value;
     for (int i = 1; i < flips; ++i) {

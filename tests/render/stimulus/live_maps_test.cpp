@@ -24,7 +24,7 @@ std::vector<Object> one_bust() {
 
 /// As a session would: a presentation of all frames, twice over.
 void present(LiveMaps& live, const Animation& animation, const PoseTable& poses) {
-    live.presentation_begins({0, 0, {0, 0}});
+    live.presentation_begins({0, 0, {0, 0}}, 0);
     for (int step = 0; step < 2 * animation.steps_per_period(); ++step) {
         const AnimationFrameIndex frame = animation.frame_at_step(step);
         FlipRecord flip;

@@ -296,6 +296,37 @@ TEST_CASE("a stream repeats what came n before in exactly its share, and nowhere
     }
 }
 
+TEST_CASE("lures of a stream are those that the factor names, as many as were asked for", "[unit]") {
+    RuleRequest request = request_of(8, 1, slots_of(1));
+    request.length = 62;
+    request.back = 2;
+    request.repeats = 0.25;
+    request.lures = 0.2;
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+        const std::vector<RuledTrial> trials = trials_by("stream", request, seed);
+        int lures = 0, repeats = 0;
+        for (std::size_t i = 0; i < trials.size(); ++i) {
+            const auto came = [&](std::size_t before) {
+                return i >= before && trials[i].shown == trials[i - before].shown;
+            };
+            const bool is_lure = !came(2) && (came(1) || came(3));
+            REQUIRE(trials[i].levels ==
+                    std::vector<std::pair<std::string, std::string>>{{"lure", is_lure ? "lure" : "none"}});
+            REQUIRE(trials[i].correct == (came(2) ? "repeat" : "new"));
+            lures += is_lure;
+            repeats += came(2);
+        }
+        CHECK(repeats == 15);
+        CHECK(lures == 12);
+    }
+    CHECK(keys_of_problems("stream", [&] {
+              RuleRequest three = request_of(3, 1, slots_of(1));
+              three.length = 62;
+              three.lures = 0.9;
+              return three;
+          }()) == std::vector<std::string_view>{"lures", "lures"});
+}
+
 TEST_CASE("what a rule cannot do is said of the key that asks for it", "[unit]") {
     using Keys = std::vector<std::string_view>;
     CHECK(keys_of_problems("pairs", request_of(3, 1, slots_of(3))) == Keys{"rule"});
