@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include <fmt/format.h>
 
 #include "experiment/base/error.h"
 #include "experiment/design/schedule.h"
+#include "experiment/design/trial_plan.h"
 #include "experiment/protocol/all_stimuli.h"
 
 namespace overt {
@@ -146,76 +148,131 @@ StudyResults GazeStudies::study(std::uint64_t seed, int observers,
         results.sessions.push_back(std::move(session));
         const ObservedScene planned = scene_of(own);
         for (const Trial& trial : schedules.make({results.sessions.back().observer, number}, own).trials) {
-            if (!wanted || wanted(trial))
-                add_trial(trial, own, planned, script, results);
+            const std::vector<LookedAt> shows = shows_of(trial, own, planned, script);
+            for (int place = 0; place < static_cast<int>(trial.shown_count()); ++place)
+                if (!wanted || wanted(trial.only({place})))
+                    add_presentation(trial, place, own, shows, results);
         }
     }
     return results;
 }
 
-void GazeStudies::add_trial(const Trial& trial, std::uint64_t seed, const ObservedScene& planned,
-                            GazeScript& script, StudyResults& results) const {
+std::vector<GazeStudies::LookedAt> GazeStudies::shows_of(const Trial& trial, std::uint64_t seed,
+                                                         const ObservedScene& planned,
+                                                         GazeScript& script) const {
+    std::vector<LookedAt> shows;
+    const auto add = [&](const std::vector<int>& places, SessionDuration begin, SessionDuration end) {
+        LookedAt show{places, begin, end, {}, {}};
+        for (const int place : places) {
+            const auto [stimulus, slot] = trial.shown(static_cast<std::size_t>(place));
+            show.shown.push_back({targets_[scene_.index_of(stimulus)].get(), scene_.screen_of_slot(slot),
+                                  gaze_plan(planned, seed, trial.task, stimulus),
+                                  &turns_[static_cast<std::size_t>(stimulus.motion)], slot});
+        }
+        script.compose(scene_, show.shown, observer_, seed,
+                       script_number(trial.index, static_cast<int>(shows.size())));
+        show.fixations = script.fixations();
+        shows.push_back(std::move(show));
+    };
     const Protocol& protocol = experiment_.protocol;
-    const std::size_t object = scene_.index_of(trial.stimulus);
-    const PursuedTurn& turn = turns_[static_cast<std::size_t>(trial.stimulus.motion)];
-    const GazeTargets& targets = *targets_[object];
+    if (protocol.tasks[static_cast<std::size_t>(trial.task)].steps.empty()) {
+        std::vector<int> all(trial.shown_count());
+        std::iota(all.begin(), all.end(), 0);
+        add(all, {}, from_seconds(protocol.motion_of(trial.stimulus).duration_s));
+        return shows;
+    }
+    SessionDuration now{};
+    for (const PlannedStep& step : plan_trial(protocol, seed, trial, false).steps) {
+        const bool lights = step.kind == StepKind::show && !step.places.empty();
+        if (!lights && shows.empty())
+            continue; // before the first
+        const SessionDuration end = now + from_seconds(step.drawn_s.value_or(0.0));
+        if (lights)
+            add(step.places, now, end);
+        now = end;
+    }
+    return shows;
+}
+
+void GazeStudies::add_presentation(const Trial& trial, int place, std::uint64_t seed,
+                                   const std::vector<LookedAt>& shows, StudyResults& results) const {
+    const Trial seen = trial.only({place});
+    const std::size_t object = scene_.index_of(seen.stimulus);
     StudyTrial shown;
     shown.session = static_cast<int>(results.sessions.size()) - 1;
     shown.object = static_cast<int>(object);
     shown.number = trial.index + 1;
-    shown.presentation_s = protocol.motion_of(trial.stimulus).duration_s;
     shown.keys = {{"observer", results.sessions.back().observer}};
     for (const Factor& factor : factors_.all())
         if (!factor.levels.empty())
             shown.keys.push_back(
                 {factor.name,
-                 factor.levels[static_cast<std::size_t>(factors_.level_of(factor, trial))].name});
+                 factor.levels[static_cast<std::size_t>(factors_.level_of(factor, seen))].name});
     shown.first_fixation = results.fixations.size();
 
     RandomStream random(seed, "calibration offset", static_cast<std::uint64_t>(trial.index));
     const double x = random.normal(), y = random.normal();
     const glm::dvec2 offset_px =
         settings_.accuracy_deg * glm::dvec2(x, y) * px_per_deg_at_centre(scene_.screen);
-    script.compose(scene_, &targets, turn, observer_, seed, trial.index,
-                   gaze_plan(planned, seed, trial.task, trial.stimulus));
-    const SessionDuration end = from_seconds(shown.presentation_s);
-    for (const ScriptedFixation& fixation : script.fixations()) {
-        // The first was under way at the onset.
-        if (fixation.begin <= SessionDuration{} || fixation.begin >= end)
+    std::optional<SessionDuration> onset;
+    for (const LookedAt& show : shows) {
+        const auto lit = std::ranges::find(show.places, place);
+        if (lit == show.places.end())
             continue;
-        const SessionDuration until = std::min(fixation.end, end), middle = (fixation.begin + until) / 2;
-        StudyFixation found;
-        found.trial = static_cast<int>(results.trials.size());
-        found.onset_s = to_seconds(fixation.begin);
-        found.duration_s = to_seconds(until - fixation.begin);
-        const ScreenPoint meant = place_of(fixation, middle, scene_, &targets, turn);
-        found.place = {meant.x_px + offset_px.x, meant.y_px + offset_px.y};
-        const std::optional<SurfacePoint> point =
-            surface_near(targets, scene_.screen.image_from_screen(found.place),
-                         turn.angle_at(middle - fixation.light_delay));
-        if (point) {
-            found.triangle = point->triangle;
-            found.barycentric = point->barycentric;
-            found.position = point->position;
-            found.part = point->part;
-            found.on_surface = 1.0;
-            if (const auto& scale = surfaces_[object].scale)
-                found.sigma_mm = sigma_mm(settings_.sigma, *scale, point->depth);
-        } else {
-            found.why = NotCounted::not_on_surface;
+        const ObservedPresentation& on = show.shown[static_cast<std::size_t>(lit - show.places.begin())];
+        onset = onset.value_or(show.onset);
+        shown.presentation_s = to_seconds(show.end - *onset);
+        const SessionDuration lasts = show.end - show.onset;
+        for (const ScriptedFixation& fixation : show.fixations) {
+            // The first was under way at the onset.
+            if (fixation.begin <= SessionDuration{} || fixation.begin >= lasts)
+                continue;
+            const SessionDuration until = std::min(fixation.end, lasts),
+                                  middle = (fixation.begin + until) / 2;
+            const ScreenPoint meant = place_of(fixation, middle, show.shown);
+            const ScreenPoint gaze{meant.x_px + offset_px.x, meant.y_px + offset_px.y};
+            // Of several slots gaze belongs to the one in whose image it lies.
+            if (trial.shown_count() > 1 && !on.screen.is_inside_image(on.screen.image_from_screen(gaze)))
+                continue;
+            StudyFixation found =
+                fixation_at(on, object, gaze, on.turn->angle_at(middle - fixation.light_delay));
+            found.trial = static_cast<int>(results.trials.size());
+            found.onset_s = to_seconds(show.onset - *onset + fixation.begin);
+            found.duration_s = to_seconds(until - fixation.begin);
+            results.fixations.push_back(found);
         }
-        results.fixations.push_back(found);
     }
     shown.fixations = results.fixations.size() - shown.first_fixation;
     results.trials.push_back(std::move(shown));
 }
 
+StudyFixation GazeStudies::fixation_at(const ObservedPresentation& on, std::size_t object, ScreenPoint gaze,
+                                       Degrees angle) const {
+    StudyFixation found;
+    found.place = gaze;
+    const std::optional<SurfacePoint> point =
+        surface_near(*on.targets, on.screen, on.screen.image_from_screen(gaze), angle);
+    if (!point) {
+        found.why = NotCounted::not_on_surface;
+        return found;
+    }
+    found.triangle = point->triangle;
+    found.barycentric = point->barycentric;
+    found.position = point->position;
+    found.part = point->part;
+    found.on_surface = 1.0;
+    if (const auto& scale = surfaces_[object].scale)
+        found.sigma_mm = sigma_mm(settings_.sigma, *scale, point->depth);
+    return found;
+}
+
 /// What is under the gaze, or nearest to it within the mean error of a validation: of two normal errors, that
 /// is the root of pi / 2 times their standard deviation.
-std::optional<SurfacePoint> GazeStudies::surface_near(const GazeTargets& targets, glm::dvec2 image,
+std::optional<SurfacePoint> GazeStudies::surface_near(const GazeTargets& targets,
+                                                      const ScreenGeometry& screen, glm::dvec2 image,
                                                       Degrees angle) const {
     const auto at = [&](glm::dvec2 place) {
-        return scene_.screen.is_inside_image(place) ? targets.surface_at(place, angle) : std::nullopt;
+        return screen.is_inside_image(place) ? targets.surface_at(place, angle) : std::nullopt;
     };
     if (std::optional<SurfacePoint> point = at(image))
         return point;

@@ -47,7 +47,8 @@ class GazeStudies {
     void plant_spread(std::size_t effect, double spread, double of_log);
 
     /// Sessions, trials and fixations of observers 1 … `observers`, as read_study() gives them: a function of
-    /// the seed. `wanted`: only trials for which it is true, each as it would be among all.
+    /// the seed; of several slots, each is a trial. `wanted`: only those for which it is true of the trial with
+    /// this stimulus alone, each as it would be among all.
     StudyResults study(std::uint64_t seed, int observers,
                        const std::function<bool(const Trial&)>& wanted = {}) const;
 
@@ -64,10 +65,22 @@ class GazeStudies {
 
   private:
     ObservedScene scene_of(std::uint64_t observer_seed) const;
-    void add_trial(const Trial& trial, std::uint64_t seed, const ObservedScene& planned, GazeScript& script,
-                   StudyResults& results) const;
-    std::optional<SurfacePoint> surface_near(const GazeTargets& targets, glm::dvec2 image,
-                                             Degrees angle) const;
+    /// A show of a trial: what it lights, and what the observer does meanwhile.
+    struct LookedAt {
+        std::vector<int> places; ///< of Trial::shown
+        SessionDuration onset{}, end{}; ///< since the trial's first
+        std::vector<ObservedPresentation> shown; ///< by index of `places`
+        std::vector<ScriptedFixation> fixations;
+    };
+    std::vector<LookedAt> shows_of(const Trial& trial, std::uint64_t seed, const ObservedScene& planned,
+                                   GazeScript& script) const;
+    /// The presentation of what the trial shows in one place, as the analysis of a session has it.
+    void add_presentation(const Trial& trial, int place, std::uint64_t seed,
+                          const std::vector<LookedAt>& shows, StudyResults& results) const;
+    StudyFixation fixation_at(const ObservedPresentation& on, std::size_t object, ScreenPoint gaze,
+                              Degrees angle) const;
+    std::optional<SurfacePoint> surface_near(const GazeTargets& targets, const ScreenGeometry& screen,
+                                             glm::dvec2 image, Degrees angle) const;
 
     const Experiment& experiment_;
     Factors factors_;

@@ -120,7 +120,7 @@ void Rig::open(SimulatedFaults faults, SessionTime start) {
                                         protocol_->display, protocol_->screens, slot_places(*protocol_));
     if (maps_are_live())
         live_maps_ = std::make_unique<LiveMaps>(display_.context(), objects_, library_.cache().poses(),
-                                                geometry.image_px);
+                                                geometry.image_px, protocol_->slots.size());
     observer_ = std::make_unique<SimulatedObserver>(make_observed_scene(*protocol_, objects_, geometry),
                                                     request_.seed);
     MadeTracker made = make_tracker({.protocol = *protocol_,

@@ -97,9 +97,9 @@ struct Composer {
     }
 
     bool find_target(const Departure& before, ScriptedFixation& next, double duration_s, std::size_t region) {
-        const auto& [targets, screen, plan, turn] = shown[next.shown];
+        const ObservedPresentation& on = shown[next.shown];
         return find_target(before, next, duration_s,
-                           [&] { return targets->draw(random, region, plan.spread); });
+                           [&] { return on.targets->draw(random, region, on.plan.spread); });
     }
 
     /// The effect to whose spot a fixation goes; -1: to none.
@@ -138,7 +138,7 @@ struct Composer {
         ScriptedFixation next;
         if (shown.size() > 1)
             next.shown = which.below(static_cast<std::uint32_t>(shown.size()));
-        const auto& [targets, screen, plan, turn] = shown[next.shown];
+        const auto& [targets, screen, plan, turn, slot] = shown[next.shown];
         const Departure before = departure_of(last, shown[next.shown]);
         const double duration_s =
             log_normal_within(random, settings.fixation_median_s, settings.fixation_log_sd,
@@ -223,6 +223,11 @@ std::size_t GazeScript::fixation_at(SessionDuration since_onset) const noexcept 
     // The fixation whose saccade away from the one before has not begun later than this.
     const auto next = std::ranges::upper_bound(fixations_, since_onset, {}, &ScriptedFixation::begin);
     return next == fixations_.begin() ? 0 : static_cast<std::size_t>(next - fixations_.begin() - 1);
+}
+
+int script_number(int trial, int show) {
+    constexpr int most_trials = 1 << 20;
+    return trial + most_trials * show;
 }
 
 ScreenPoint place_of(const ScriptedFixation& fixation, SessionDuration since_onset,

@@ -71,6 +71,7 @@ struct ObservedPresentation {
     ScreenGeometry screen;                ///< with the image where it is shown
     GazePlan plan;
     const PursuedTurn* turn = nullptr; ///< with `targets`, never null
+    int slot = 0;                      ///< index into the protocol's
 };
 
 /// The fixations of one presentation in order; between the end of one and the begin of the next lies a
@@ -109,6 +110,9 @@ class GazeScript {
     std::vector<ScriptedFixation> fixations_;
     SessionDuration horizon_; ///< the script goes on a while after the presentation's planned end
 };
+
+/// By which number GazeScript::compose() draws the script of a trial's show, from 0: each is looked at anew.
+int script_number(int trial, int show);
 
 /// Where a fixation's target is on the screen, as the eye pursues it.
 ScreenPoint place_of(const ScriptedFixation& fixation, SessionDuration since_onset,

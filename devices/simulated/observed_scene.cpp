@@ -13,7 +13,7 @@ SessionDuration ObservedScene::light_delay(double y_px) const {
 }
 
 double ObservedScene::longest_s() const {
-    return std::ranges::max(animations, {}, &Animation::duration_s).duration_s;
+    return std::max(longest_step_s, std::ranges::max(animations, {}, &Animation::duration_s).duration_s);
 }
 
 SessionDuration ObservedScene::frame_period(int motion) const {
@@ -61,6 +61,10 @@ ObservedScene make_observed_scene(const Protocol& protocol, std::span<const Obje
     if (!protocol.slot_entries.empty())
         for (const Slot& slot : protocol.slots)
             scene.slots.push_back(slot_geometry(protocol, slot));
+    for (const Task& task : protocol.tasks)
+        for (const StepSettings& step : task.steps)
+            if (step.kind == StepKind::show && step.duration)
+                scene.longest_step_s = std::max(scene.longest_step_s, step.duration->longest_s());
     scene.share_sd = protocol.simulated_observers.head_share_sd;
     return scene;
 }

@@ -17,12 +17,6 @@ ScreenPoint between(ScreenPoint from, ScreenPoint to, double share) {
     return {from.x_px + share * (to.x_px - from.x_px), from.y_px + share * (to.y_px - from.y_px)};
 }
 
-/// Further shows of an attempt are looked at anew.
-int number_of_script(const Trial& trial, int show) {
-    constexpr int most_trials = 1 << 20;
-    return trial.index + most_trials * show;
-}
-
 double share_of(SessionTime time, SessionTime begin, SessionTime end) {
     return to_seconds(time - begin) / to_seconds(end - begin);
 }
@@ -34,6 +28,7 @@ SimulatedObserver::Presentation::Presentation(const ObservedScene& scene, const 
     // One for each refresh; a missed refresh takes its place in the count.
     shown.reserve(std::max<std::size_t>(1, scene.slots.size()));
     flips.reserve(static_cast<std::size_t>(scene.longest_s() * scene.refresh_hz) + 64);
+    beside.reserve(flips.capacity() * (shown.capacity() - 1));
 }
 
 SimulatedObserver::SimulatedObserver(ObservedScene scene, std::uint64_t seed,
@@ -67,9 +62,9 @@ void SimulatedObserver::presentation_begins(const Trial& trial, int show) noexce
         const auto [stimulus, slot] = trial.shown(i);
         presentation.shown.push_back({targets_[scene_.index_of(stimulus)].get(), scene_.screen_of_slot(slot),
                                       gaze_plan(scene_, seed_, trial.task, stimulus),
-                                      &motions_[static_cast<std::size_t>(stimulus.motion)].turn});
+                                      &motions_[static_cast<std::size_t>(stimulus.motion)].turn, slot});
     }
-    presentation.script.compose(scene_, presentation.shown, settings_, seed_, number_of_script(trial, show));
+    presentation.script.compose(scene_, presentation.shown, settings_, seed_, script_number(trial.index, show));
 }
 
 void SimulatedObserver::flipped(const FlipRecord& flip) noexcept {
@@ -77,6 +72,23 @@ void SimulatedObserver::flipped(const FlipRecord& flip) noexcept {
     std::vector<SeenFlip>& flips = presentations_[begun_ - 1]->flips;
     if (flips.size() < flips.capacity())
         flips.push_back({flip.report.vertical_blank, flip.shown});
+}
+
+void SimulatedObserver::slot_flipped(const SlotFlip& flip) noexcept {
+    OVERT_EXPECTS(begun_ > 0);
+    Presentation& presentation = *presentations_[begun_ - 1];
+    const std::size_t expected = (presentation.flips.size() - 1) * (presentation.shown.size() - 1);
+    // Flips that there was no room for have none of their own.
+    if (presentation.beside.size() - expected < presentation.shown.size() - 1 &&
+        presentation.beside.size() < presentation.beside.capacity())
+        presentation.beside.push_back(flip.shown);
+}
+
+AnimationFrameIndex SimulatedObserver::Presentation::frame_of(std::size_t of_shown, std::size_t flip) const {
+    if (of_shown == 0)
+        return flips[flip].frame;
+    const std::size_t index = flip * (shown.size() - 1) + of_shown - 1;
+    return index < beside.size() ? beside[index] : no_frame;
 }
 
 void SimulatedObserver::screen_shown(const Screen& screen, SessionTime onset) noexcept {
@@ -172,40 +184,49 @@ TrueGaze SimulatedObserver::gaze_at(SessionTime time) const noexcept {
 GazeTruth SimulatedObserver::truth_at(SessionTime time) const noexcept {
     GazeTruth truth;
     truth.gaze = gaze_at(time);
-    const Presentation* presentation = presentation_at(time);
-    if (!presentation)
+    if (const Presentation* const looked_at = presentation_at(time))
+        if (const Looking looking = looking_at(*looked_at, time);
+            looking.fixation && truth.gaze.state == EyeState::fixation)
+            truth.target = looking.fixation->target;
+    // What was lit before stays so until the light of what follows comes to the row.
+    const SessionTime blank = time - scene_.light_delay(truth.gaze.place.y_px);
+    const Presentation* const lit = lit_by(blank);
+    if (!lit)
         return truth;
-    const Looking looking = looking_at(*presentation, time);
-    if (looking.fixation && truth.gaze.state == EyeState::fixation)
-        truth.target = looking.fixation->target;
-    truth.frame = frame_lit(*presentation, time, truth.gaze.place.y_px);
-    if (!truth.frame || truth.gaze.state == EyeState::blink)
+    const std::size_t flip = lit->flip_at(blank);
+    truth.frame = lit->frame_of(0, flip);
+    if (truth.gaze.state == EyeState::blink)
         return truth;
-    const int motion = presentation->shown.front().turn->motion();
-    for (std::size_t i = 0; i < presentation->shown.size(); ++i) {
-        const auto& [targets, screen, plan, turn] = presentation->shown[i];
-        const glm::dvec2 image = screen.image_from_screen(truth.gaze.place);
-        if (!screen.is_inside_image(image))
+    for (std::size_t i = 0; i < lit->shown.size(); ++i) {
+        const ObservedPresentation& of = lit->shown[i];
+        const glm::dvec2 image = of.screen.image_from_screen(truth.gaze.place);
+        if (!of.screen.is_inside_image(image))
             continue;
         truth.shown = i;
-        // Which frame of another motion is lit beside the first is not kept.
-        if (targets && turn->motion() == motion)
+        truth.slot = of.slot;
+        truth.frame = lit->frame_of(i, flip);
+        const std::vector<Degrees>& angles =
+            motions_[static_cast<std::size_t>(of.turn->motion())].angle_of_frame;
+        if (of.targets && *truth.frame != no_frame)
             truth.surface =
-                targets->surface_at(image, motions_[static_cast<std::size_t>(motion)]
-                                               .angle_of_frame[static_cast<std::size_t>(truth.frame->value)]);
+                of.targets->surface_at(image, angles[static_cast<std::size_t>(truth.frame->value)]);
     }
     return truth;
 }
 
-std::optional<AnimationFrameIndex>
-SimulatedObserver::frame_lit(const Presentation& presentation, SessionTime time, double y_px) const noexcept {
-    const SessionTime blank = time - scene_.light_delay(y_px);
-    if (presentation.end && blank >= *presentation.end)
-        return std::nullopt;
-    const auto after = std::ranges::upper_bound(presentation.flips, blank, {}, &SeenFlip::vertical_blank);
-    if (after == presentation.flips.begin())
-        return std::nullopt;
-    return std::prev(after)->frame;
+const SimulatedObserver::Presentation* SimulatedObserver::lit_by(SessionTime blank) const noexcept {
+    for (std::size_t i = begun_; i-- > 0;) {
+        const Presentation& presentation = *presentations_[i];
+        if (presentation.flips.empty() || blank < presentation.onset())
+            continue;
+        return presentation.end && blank >= *presentation.end ? nullptr : &presentation;
+    }
+    return nullptr;
+}
+
+std::size_t SimulatedObserver::Presentation::flip_at(SessionTime blank) const {
+    const auto after = std::ranges::upper_bound(flips, blank, {}, &SeenFlip::vertical_blank);
+    return static_cast<std::size_t>(std::prev(after) - flips.begin());
 }
 
 const GazeScript* SimulatedObserver::script_of(int trial) const {

@@ -30,9 +30,11 @@ struct TrueGaze {
 struct GazeTruth {
     TrueGaze gaze;
     std::optional<SurfacePoint> target;       ///< what the fixation under way pursues
-    std::optional<AnimationFrameIndex> frame; ///< really lit then on the row looked at
-    std::optional<SurfacePoint> surface;      ///< what is under the gaze in that frame, by ray casting
-    std::optional<std::size_t> shown;         ///< which of the things shown has it in its image
+    /// Really lit then on the row looked at: of the thing that has the gaze in its image, else of the first.
+    std::optional<AnimationFrameIndex> frame;
+    std::optional<SurfacePoint> surface; ///< what is under the gaze in that frame, by ray casting
+    std::optional<std::size_t> shown;    ///< which of the things that are lit has it in its image
+    std::optional<int> slot;             ///< in which slot that is: index into the protocol's
 };
 
 /// What an observer answers, and how long after the question.
@@ -62,6 +64,7 @@ class SimulatedObserver final : public PresentationListener {
     /// for it is made as well.
     void presentation_begins(const Trial& lit, int show) noexcept override;
     void flipped(const FlipRecord& flip) noexcept override;
+    void slot_flipped(const SlotFlip& flip) noexcept override;
     /// Ends a presentation: 150 ms later the eye returns to the middle of the screen. Of a target, it goes
     /// there 200 ms after its onset, and stays until another screen is shown.
     void screen_shown(const Screen& screen, SessionTime onset) noexcept override;
@@ -91,6 +94,11 @@ class SimulatedObserver final : public PresentationListener {
         std::vector<ObservedPresentation> shown;
         GazeScript script;
         std::vector<SeenFlip> flips;
+        /// What the others of `shown` had at each of them, flip by flip.
+        std::vector<AnimationFrameIndex> beside;
+        AnimationFrameIndex frame_of(std::size_t of_shown, std::size_t flip) const;
+        /// The last flip up to then, which is not before the onset.
+        std::size_t flip_at(SessionTime blank) const;
         std::optional<SessionTime> end; ///< onset of the screen that followed
         SessionTime leaves;             ///< begin of the saccade back to the middle
         SessionTime back;
@@ -115,8 +123,8 @@ class SimulatedObserver final : public PresentationListener {
     Looking looking_at(const Presentation& presentation, SessionTime time) const noexcept;
     Looking scripted(const Presentation& presentation, SessionDuration since_onset) const noexcept;
     void plan_return(Presentation& presentation) const noexcept;
-    std::optional<AnimationFrameIndex> frame_lit(const Presentation& presentation, SessionTime time,
-                                                 double y_px) const noexcept;
+    /// Whose pictures are lit by the scan-out that began then; null: none.
+    const Presentation* lit_by(SessionTime blank) const noexcept;
 
     ObservedScene scene_;
     std::uint64_t seed_;

@@ -12,8 +12,9 @@ constexpr int reads_at_once = 4;
 } // namespace
 
 LiveMaps::LiveMaps(const GlContext& context, std::span<const Object> objects, const PoseTable& poses,
-                   glm::ivec2 image_px)
+                   glm::ivec2 image_px, std::size_t slots)
     : image_px_(image_px), pass_(context, image_px) {
+    lit_.reserve(slots);
     for (std::size_t index = 0; index < objects.size(); ++index) {
         const Object& object = objects[index];
         views_ = object.scenes.size();
@@ -31,13 +32,19 @@ LiveMaps::LiveMaps(const GlContext& context, std::span<const Object> objects, co
         }
     }
     for (int i = 0; i < reads_at_once; ++i)
-        reads_.push_back({std::make_unique<PixelReadback>(context, image_px, PixelFormat::r32ui)});
+        reads_.push_back({std::make_unique<PixelReadback>(context, image_px, PixelFormat::r32ui), nullptr, 0});
 }
 
 void LiveMaps::presentation_begins(const Trial& lit, int) noexcept {
     collect(true); // a show may follow another directly
-    current_ = &figure_of(viewed(lit.stimulus));
-    Figure& figure = *current_;
+    lit_.clear();
+    for (std::size_t i = 0; i < lit.shown_count() && lit_.size() < lit_.capacity(); ++i) {
+        lit_.push_back(&figure_of(viewed(lit.shown(i).stimulus)));
+        make_ready(*lit_.back());
+    }
+}
+
+void LiveMaps::make_ready(Figure& figure) noexcept {
     for (std::size_t pose = 0; pose < figure.states.size(); ++pose) {
         if (figure.states[pose] != State::missing)
             continue;
@@ -49,8 +56,16 @@ void LiveMaps::presentation_begins(const Trial& lit, int) noexcept {
 
 void LiveMaps::flipped(const FlipRecord& flip) noexcept {
     collect(false);
-    Figure& figure = *current_;
-    const auto pose = static_cast<std::size_t>(flip.pose.value);
+    draw(*lit_.front(), flip.pose);
+}
+
+void LiveMaps::slot_flipped(const SlotFlip& flip) noexcept {
+    if (const auto place = static_cast<std::size_t>(flip.place); place < lit_.size())
+        draw(*lit_[place], flip.pose);
+}
+
+void LiveMaps::draw(Figure& figure, PoseIndex index) noexcept {
+    const auto pose = static_cast<std::size_t>(index.value);
     if (!figure.buffers || figure.states[pose] != State::missing)
         return;
     for (Read& read : reads_) {
@@ -58,7 +73,8 @@ void LiveMaps::flipped(const FlipRecord& flip) noexcept {
             continue;
         pass_.render(*figure.buffers, figure.clip_from_object[pose]);
         read.pixels->start(pass_.target());
-        read.pose = flip.pose.value;
+        read.figure = &figure;
+        read.pose = index.value;
         figure.states[pose] = State::under_way;
         return;
     }
@@ -66,15 +82,12 @@ void LiveMaps::flipped(const FlipRecord& flip) noexcept {
 }
 
 void LiveMaps::collect(bool wait) noexcept {
-    if (!current_)
-        return;
-    Figure& figure = *current_;
     for (Read& read : reads_) {
         if (!read.pixels->under_way())
             continue;
         const auto pose = static_cast<std::size_t>(read.pose);
-        if (read.pixels->finish(std::as_writable_bytes(std::span(figure.maps[pose].codes)), wait))
-            figure.states[pose] = State::done;
+        if (read.pixels->finish(std::as_writable_bytes(std::span(read.figure->maps[pose].codes)), wait))
+            read.figure->states[pose] = State::done;
     }
 }
 

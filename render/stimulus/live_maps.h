@@ -27,11 +27,13 @@ class LiveMaps final : public PresentationListener {
   public:
     /// `objects` must outlive this. Uploads all meshes. Throws GraphicsError, or InputError as depth_range
     /// does.
+    /// `slots`: most that are lit at once.
     LiveMaps(const GlContext& context, std::span<const Object> objects, const PoseTable& poses,
-             glm::ivec2 image_px);
+             glm::ivec2 image_px, std::size_t slots = 1);
 
     void presentation_begins(const Trial& lit, int show) noexcept override;
     void flipped(const FlipRecord& flip) noexcept override;
+    void slot_flipped(const SlotFlip& flip) noexcept override;
     /// Ends a presentation: waits for what is still under way.
     void screen_shown(const Screen& screen, SessionTime onset) noexcept override;
 
@@ -51,9 +53,12 @@ class LiveMaps final : public PresentationListener {
     };
     struct Read {
         std::unique_ptr<PixelReadback> pixels;
+        Figure* figure = nullptr;
         int pose = 0;
     };
     void collect(bool wait) noexcept;
+    void make_ready(Figure& figure) noexcept;
+    void draw(Figure& figure, PoseIndex pose) noexcept;
     Figure& figure_of(const ViewedObject& viewed) noexcept {
         return figures_[static_cast<std::size_t>(viewed.object) * views_ +
                         static_cast<std::size_t>(viewed.view)];
@@ -65,7 +70,7 @@ class LiveMaps final : public PresentationListener {
     std::vector<std::unique_ptr<MeshBuffers>> buffers_; ///< by object
     std::vector<Figure> figures_;                       ///< by object, then by view
     std::vector<Read> reads_;
-    Figure* current_ = nullptr; ///< on the screen
+    std::vector<Figure*> lit_; ///< on the screen, in the order of the trial; room for all slots
 };
 
 } // namespace overt

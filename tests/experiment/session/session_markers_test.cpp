@@ -149,15 +149,15 @@ TEST_CASE(
     MarkerLog log;
     const auto show = [&](int planned, int shown, int frame) {
         markers.before_flip(planned, {frame}, presenter);
-        markers.flipped(flip_at(shown, frame));
+        markers.flipped(flip_at(shown, frame), shown);
     };
     markers.begin_trial({}, true); // practice
-    markers.begin_presentation();
+    markers.begin_presentation("SYNCTIME");
     show(0, 0, 0);
     CHECK(presenter.raised.empty());
 
     markers.begin_trial({}, false);
-    markers.begin_presentation();
+    markers.begin_presentation("SYNCTIME");
     show(0, 0, 0); // the onset
     show(1, 1, 0);
     show(2, 2, 0); // a refresh of its own
@@ -197,9 +197,9 @@ TEST_CASE("outputs of the picture have on record when they rose, by the offset t
         RaisingPresenter presenter;
         MarkerLog log;
         markers.begin_trial({}, false);
-        markers.begin_presentation();
+        markers.begin_presentation("SYNCTIME");
         markers.before_flip(0, {0}, presenter);
-        markers.flipped(flip_at(0, 0));
+        markers.flipped(flip_at(0, 0), 0);
         markers.write_down(log);
         REQUIRE(log.all.size() == 1);
         CHECK(log.all[0].at == flip_at(0, 0).report.vertical_blank);
