@@ -7,6 +7,7 @@
 #include "experiment/base/parallel.h"
 #include "experiment/base/whole_file.h"
 #include "experiment/protocol/protocol_keys.h"
+#include "experiment/protocol/written_series.h"
 #include "experiment/record/header_rows.h"
 #include "experiment/record/session_schema.h"
 #include "experiment/scene/files/ply_writer.h"
@@ -171,9 +172,9 @@ void put_all_files(const SessionDirectory& directory, const SessionHeader& heade
     write_to(directory.path() / "protocol.toml", header.protocol.text);
     for (const RecordedProtocol::Included& included : header.protocol.included) {
         // Beside the copy of the protocol as it was beside the protocol. What lay outside of its folder is in
-        // the session file alone.
+        // the session file alone, and so are the names of files that a pattern stands for.
         const std::filesystem::path name = included.name;
-        if (name.is_absolute() || included.name.starts_with(".."))
+        if (name.is_absolute() || included.name.starts_with("..") || is_pattern(name))
             continue;
         std::filesystem::create_directories((directory.path() / name).parent_path());
         write_to(directory.path() / name, included.text);

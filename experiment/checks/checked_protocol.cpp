@@ -9,6 +9,7 @@
 #include "experiment/base/whole_file.h"
 #include "experiment/checks/protocol_checks.h"
 #include "experiment/protocol/protocol_reader.h"
+#include "experiment/protocol/written_series.h"
 
 namespace overt {
 
@@ -94,6 +95,36 @@ std::optional<std::string> text_of(const std::filesystem::path& file, std::strin
     return text;
 }
 
+/// The names of the files that a pattern stands for, one a line, in their order; or nothing with the reason.
+std::optional<std::string> names_of(const std::filesystem::path& pattern, std::string& why_not) {
+    std::vector<std::string> names;
+    std::error_code error;
+    const std::filesystem::path folder = pattern.parent_path().empty() ? "." : pattern.parent_path();
+    for (auto entry = std::filesystem::directory_iterator(folder, error);
+         !error && entry != std::filesystem::directory_iterator(); entry.increment(error)) {
+        const std::string name = entry->path().filename().string();
+        if (!name.starts_with('.') && fits_pattern(name, pattern.filename().string()) &&
+            entry->is_regular_file(error))
+            names.push_back(name);
+    }
+    if (error)
+        why_not = fmt::format("the folder cannot be read: {}", error.message());
+    else if (names.empty())
+        why_not = "no file has such a name";
+    if (error || names.empty())
+        return std::nullopt;
+    std::ranges::sort(names);
+    std::string lines;
+    for (const std::string& name : names)
+        lines += name + "\n";
+    return lines;
+}
+
+/// What is read beside a protocol: a text, or the names that a pattern stands for.
+std::optional<std::string> text_or_names(const std::filesystem::path& file, std::string& why_not) {
+    return is_pattern(file) ? names_of(file, why_not) : text_of(file, why_not);
+}
+
 } // namespace
 
 std::optional<Protocol> read_protocol(const std::filesystem::path& file,
@@ -105,7 +136,7 @@ std::optional<Protocol> read_protocol(const std::filesystem::path& file,
         diagnostics.error(file.string(), {}, why_not);
         return std::nullopt;
     }
-    return read_text(*text, file, shipped_sculptures, true, text_of, diagnostics);
+    return read_text(*text, file, shipped_sculptures, true, text_or_names, diagnostics);
 }
 
 std::optional<Protocol> read_protocol_text(std::string_view text, const std::filesystem::path& file,

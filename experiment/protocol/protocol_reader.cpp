@@ -1,5 +1,7 @@
 #include "experiment/protocol/protocol_reader.h"
 
+#include <sstream>
+
 #include <fmt/format.h>
 
 #include "experiment/keys/key_walk.h"
@@ -23,6 +25,30 @@ std::filesystem::path folder_of(const Protocol& protocol, std::string_view key_p
         }
     }
     return protocol.file.parent_path();
+}
+
+/// The files that a pattern stands for. Their names are kept beside the texts of included files, so that a
+/// session is taken up, and replayed, with those that it was begun with.
+std::optional<std::vector<std::string>> files_of(ProtocolExamination& examination, const IncludeReader& reader,
+                                                 const std::string& pattern, Place place) {
+    Protocol& protocol = examination.protocol;
+    std::filesystem::path folder = protocol.file.parent_path();
+    for (const IncludedText& included : protocol.included)
+        if (place.file != 0 && included.number == place.file)
+            folder = included.file.parent_path();
+    UnreadFile why_not;
+    const IncludedText* const list = text_beside(protocol.included, protocol.file, folder / pattern, reader,
+                                                 examination.diagnostics(), why_not);
+    if (!list) {
+        examination.diagnostics().error(protocol.file.string(), place,
+                                        fmt::format("\"{}\": {}", pattern, why_not.message), why_not.hint);
+        return std::nullopt;
+    }
+    std::vector<std::string> names;
+    std::istringstream lines(list->text);
+    for (std::string name; std::getline(lines, name);)
+        names.push_back(name);
+    return names;
 }
 
 /// Titles left out take the ids; paths become independent of the working directory of whoever reads on.
@@ -122,7 +148,10 @@ bool read_written_keys(ProtocolExamination& examination, std::string_view text, 
     JoinedToml joined = read_joined_toml(text, protocol.file, reader, diagnostics);
     protocol.included = std::move(joined.included);
     put_todays_words(joined.toml, protocol.file.string(), diagnostics);
-    write_out_series(joined.toml, protocol.file.string(), diagnostics);
+    write_out_series(
+        joined.toml, protocol.file.string(),
+        [&](const std::string& pattern, Place place) { return files_of(examination, reader, pattern, place); },
+        diagnostics);
     KeyWalk(protocol_keys(), protocol.file.string(), protocol.places, examination.faulty, diagnostics)
         .read(joined.toml, protocol);
     complete(protocol);

@@ -23,8 +23,9 @@ template <class Entry> std::vector<Key> entry_keys(std::vector<Key> own, bool is
         {"series", member_of<Entry>(&ListEntry::series), left_out("one entry"),
          "Several entries in place of this one, which differ in the value of a key that takes a number, a "
          "word or a file: `{roughness=[0.02, 0.05, 0.1]}` makes three, with the ids ID-0.02 and so on, and "
-         "a "
-         "column of the key's name. Of several keys the first values belong together, then the second."},
+         "a column of the key's name. Of several keys the first values belong together, then the second. "
+         "`{mesh=\"shapes/*.ply\"}` stands for all files of the folder that fit, by their names; which those "
+         "were is kept in the record."},
     };
     keys.insert(keys.end(), own.begin(), own.end());
     return keys;

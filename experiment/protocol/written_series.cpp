@@ -47,8 +47,9 @@ std::string id_part(std::string text) {
 
 class SeriesWriter {
   public:
-    SeriesWriter(const Section& section, const std::string& file, Diagnostics& diagnostics)
-        : section_(section), file_(file), diagnostics_(diagnostics) {}
+    SeriesWriter(const Section& section, const std::string& file, const FilesOfPattern& files_of,
+                 Diagnostics& diagnostics)
+        : section_(section), file_(file), files_of_(files_of), diagnostics_(diagnostics) {}
 
     /// The entries that stand in an entry's place.
     TomlList written_out(TomlValue entry) {
@@ -56,6 +57,8 @@ class SeriesWriter {
         TomlEntry* series = table ? entry_called(*table, "series") : nullptr;
         if (!series || !series->value.table())
             return {std::move(entry)};
+        if (!write_out_patterns(std::get<TomlTable>(series->value.content)))
+            return {};
         TomlTable keys;
         for (const TomlEntry* key : in_order_of_file(*series->value.table()))
             keys.push_back(*key);
@@ -68,6 +71,38 @@ class SeriesWriter {
     }
 
   private:
+    /// Lists of files in place of patterns. Of several patterns in a series files of one name belong together.
+    bool write_out_patterns(TomlTable& keys) {
+        const TomlEntry* first = nullptr;
+        for (TomlEntry& key : keys) {
+            const auto* pattern = std::get_if<std::string>(&key.value.content);
+            if (!pattern || !is_pattern(*pattern))
+                continue;
+            const std::optional<std::vector<std::string>> files = files_of_(*pattern, key.value.place);
+            if (!files)
+                return false;
+            TomlList list;
+            for (const std::string& name : *files)
+                list.push_back({key.value.place,
+                                (std::filesystem::path(*pattern).parent_path() / name).generic_string()});
+            const std::string written = *pattern;
+            key.value.content = std::move(list);
+            if (first && !are_of_one_name(*first, key, written))
+                return false;
+            first = first ? first : &key;
+        }
+        return true;
+    }
+
+    bool are_of_one_name(const TomlEntry& one, const TomlEntry& other, const std::string& pattern) const {
+        for (const TomlValue& file : *one.value.list())
+            if (std::ranges::find(*other.value.list(), text_of_value(file), text_of_value) ==
+                other.value.list()->end())
+                return fault(other.value.place, fmt::format("series.{}: \"{}\" has no file for {}", other.key,
+                                                            pattern, *text_of_value(file)));
+        return true;
+    }
+
     bool is_sound(TomlTable& table, const TomlEntry& series, const TomlTable& keys) {
         if (keys.empty())
             return fault(series.value.place, "series: names no key",
@@ -136,15 +171,24 @@ class SeriesWriter {
         std::string ending, words;
         for (const TomlEntry& key : keys) {
             const TomlValue& value = (*key.value.list())[index];
+            table.push_back({key.key, key.key_place, value});
+            // Files that belong together by their names have one name together.
+            if (is_named_as_before(keys, key, index))
+                continue;
             ending += "-" + id_part(*text_of_value(value));
             words += " " + *text_of_value(value);
-            table.push_back({key.key, key.key_place, value});
             column(table, key, value);
         }
         name(table, "id", ending, one.place);
         if (entry_called(table, "title"))
             name(table, "title", words, one.place);
         return one;
+    }
+
+    static bool is_named_as_before(const TomlTable& keys, const TomlEntry& key, std::size_t index) {
+        const TomlEntry& first = keys.front();
+        return &key != &first && !is_number((*key.value.list())[index]) &&
+               std::ranges::equal(*key.value.list(), *first.value.list(), {}, text_of_value, text_of_value);
     }
 
     void column(TomlTable& table, const TomlEntry& key, const TomlValue& value) const {
@@ -185,15 +229,30 @@ class SeriesWriter {
 
     const Section& section_;
     const std::string& file_;
+    const FilesOfPattern& files_of_;
     Diagnostics& diagnostics_;
 };
 
 } // namespace
 
-void write_out_series(TomlFile& toml, const std::string& file, Diagnostics& diagnostics) {
+bool is_pattern(const std::filesystem::path& file) {
+    return file.filename().string().find_first_of("*?") != std::string::npos;
+}
+
+bool fits_pattern(std::string_view name, std::string_view pattern) {
+    if (pattern.empty())
+        return name.empty();
+    if (pattern.front() == '*')
+        return fits_pattern(name, pattern.substr(1)) || (!name.empty() && fits_pattern(name.substr(1), pattern));
+    return !name.empty() && (pattern.front() == '?' || pattern.front() == name.front()) &&
+           fits_pattern(name.substr(1), pattern.substr(1));
+}
+
+void write_out_series(TomlFile& toml, const std::string& file, const FilesOfPattern& files_of,
+                      Diagnostics& diagnostics) {
     for (const StimulusList& list : stimulus_lists) {
         const Section& section = protocol_keys().section(list.name);
-        SeriesWriter writer(section, file, diagnostics);
+        SeriesWriter writer(section, file, files_of, diagnostics);
         for (TomlEntry& root : toml.root) {
             if (!section.is_called(root.key))
                 continue;

@@ -1,7 +1,11 @@
 /// Lists of lights, motions and views beside objects and materials; columns of their entries, and series.
 #include <catch2/catch.hpp>
 
+#include <fstream>
+
+#include "experiment/base/scratch_folder.h"
 #include "experiment/protocol/all_stimuli.h"
+#include "experiment/protocol/written_series.h"
 #include "tests/experiment/protocol/protocol_fixtures.h"
 
 using namespace overt;
@@ -172,4 +176,50 @@ TEST_CASE("columns hold words or numbers, under names of their own", "[unit]") {
         Lines{"16:21: the column \"gloss\" has a word here and a number in line 12"});
     CHECK(lines("gloss = 1", "[light]\ncolumns = { gloss = 2 }\n") ==
           Lines{"14:21: entries of [[material]] have a column \"gloss\", too"});
+}
+
+TEST_CASE("a pattern in a series stands for the files that fit, and a record keeps which they were", "[unit]") {
+    CHECK(fits_pattern("a.ply", "*.ply"));
+    CHECK(fits_pattern("shape-07.ply", "shape-??.ply"));
+    CHECK_FALSE(fits_pattern("a.ply.bak", "*.ply"));
+    CHECK_FALSE(fits_pattern("shape-7.ply", "shape-??.ply"));
+
+    const ScratchFolder folder("series");
+    std::filesystem::create_directories(folder.path() / "shapes");
+    for (const char* const name : {"b.ply", "a.ply", "a.labels", "b.labels", ".hidden.ply", "notes.txt"})
+        std::ofstream(folder.path() / "shapes" / name) << "x";
+    const std::string text =
+        std::string(minimal_protocol) +
+        "[[object]]\nid = \"novel\"\nseries = { mesh = \"shapes/*.ply\", labels = \"shapes/*.labels\" }\n";
+    const std::filesystem::path file = folder.path() / "p.toml";
+    std::ofstream(file) << text;
+    const auto novel = [](const Protocol& protocol) {
+        return std::vector<std::string>{protocol.objects.at(1).id, protocol.objects.at(2).id};
+    };
+    Diagnostics diagnostics;
+    // From the disk; the meshes themselves are no meshes.
+    read_protocol(file, shipped_names, diagnostics);
+    for (const Finding& finding : diagnostics.findings())
+        CHECK(finding.message.find("series") == std::string::npos);
+    // From a record: what is in the folder by now does not matter.
+    Diagnostics kept;
+    const auto again = read_protocol_text(text, file, shipped_names, kept,
+                                          {{"shapes/*.ply", "c.ply\nd.ply\n"},
+                                           {"shapes/*.labels", "c.labels\nd.labels\n"}});
+    CAPTURE(kept.print());
+    REQUIRE(again);
+    CHECK(novel(*again) == std::vector<std::string>{"novel-c", "novel-d"});
+    CHECK(again->objects[2].mesh == folder.path() / "shapes/d.ply");
+    CHECK(again->objects[2].labels == folder.path() / "shapes/d.labels");
+
+    std::filesystem::remove(folder.path() / "shapes/b.labels");
+    Diagnostics lacking;
+    CHECK_FALSE(read_protocol(file, shipped_names, lacking));
+    REQUIRE(lacking.error_count() == 1);
+    CHECK(lacking.findings()[0].message == "series.labels: \"shapes/*.labels\" has no file for b");
+    std::filesystem::remove_all(folder.path() / "shapes");
+    std::filesystem::create_directories(folder.path() / "shapes");
+    Diagnostics none;
+    CHECK_FALSE(read_protocol(file, shipped_names, none));
+    CHECK(none.findings()[0].message == "\"shapes/*.ply\": no file has such a name");
 }
