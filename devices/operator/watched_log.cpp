@@ -29,7 +29,7 @@ void WatchedLog::flip(const FlipRecord& flip) noexcept {
     told_frame_ = flip.shown.value;
     tell({.kind = ViewNews::Kind::flip,
           .trial = flip.trial,
-          .pose = flip.pose.value,
+          .pose = flip.shown == no_frame ? -1 : flip.pose.value,
           .frame = flip.shown.value,
           .refresh = flip.refresh_in_trial,
           .at = flip.report.vertical_blank});

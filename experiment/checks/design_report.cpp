@@ -10,6 +10,7 @@
 #include "experiment/design/block_plan.h"
 #include "experiment/design/observer_groups.h"
 #include "experiment/design/schedule.h"
+#include "experiment/design/trial_plan.h"
 #include "experiment/design/trial_queue.h"
 #include "experiment/protocol/all_stimuli.h"
 #include "experiment/protocol/entry_ids.h"
@@ -63,6 +64,28 @@ VisualAngles visual_angles(const Protocol& protocol) {
     return angles;
 }
 
+/// What a trial by steps adds to a session: steps as they are drawn for it, gaze that comes at once, and words
+/// and answers as long as is assumed of all.
+void add_steps(SessionLength& length, const Protocol& protocol, const TrialPlan& plan, double question_s,
+               double answer_s) {
+    bool was_watched = false;
+    for (const PlannedStep& step : plan.steps) {
+        const double own_s = step.drawn_s.value_or(step.gaze() ? step.gaze()->for_s : 0.0);
+        if (step.is_watched) {
+            length.animations_s += own_s + (was_watched ? 0.0 : 2.0 * protocol.screens.recording_lead_s);
+        } else if (step.kind == StepKind::text) {
+            length.questions_s += step.drawn_s.value_or(question_s);
+        } else if (step.kind == StepKind::drift_check) {
+            length.drift_checks_s += protocol.screens.drift_target_s;
+        } else if (step.kind == StepKind::answer) {
+            length.answers_s += std::min(answer_s, step.drawn_s.value_or(answer_s));
+        } else {
+            length.animations_s += own_s;
+        }
+        was_watched = step.is_watched;
+    }
+}
+
 /// Of the observer with these trials, if nothing fails.
 SessionLength session_length(const Protocol& protocol, const Schedule& schedule,
                              std::span<const AnimationFacts> motions, const DesignAssumptions& assumptions) {
@@ -97,6 +120,12 @@ SessionLength session_length(const Protocol& protocol, const Schedule& schedule,
             ++length.breaks;
             break;
         case SessionStep::Kind::trial:
+            if (!protocol.tasks[static_cast<std::size_t>(step->trial.task)].steps.empty()) {
+                add_steps(length, protocol, plan_trial(protocol, schedule.seed, step->trial, false), question_s,
+                          answer_s);
+                queue.tell({});
+                break;
+            }
             length.questions_s += question_s;
             length.drift_checks_s += screens.drift_target_s;
             length.animations_s += shown_s(*step);

@@ -75,6 +75,27 @@ TEST_CASE("a session is as long as its parts, each as the protocol and the assum
     CHECK(session.total_s() == Approx(100.0 + 30.0 + 30.0 + 246.0 + 1800.0));
 }
 
+TEST_CASE("trials by steps are as long as their steps", "[unit]") {
+    Protocol protocol = paper_protocol();
+    const auto step = [](StepKind kind, std::optional<double> for_s) {
+        StepSettings settings;
+        settings.kind = kind;
+        settings.slots = {"centre"};
+        if (for_s)
+            settings.duration = StepDuration{StepDuration::Law::fixed, {*for_s}, 0.0, 0.0, 0.0};
+        return settings;
+    };
+    for (Task& task : protocol.tasks)
+        task.steps = {step(StepKind::fixation, 0.5), step(StepKind::show, 1.0),   step(StepKind::blank, 0.25),
+                      step(StepKind::show, 2.0),     step(StepKind::answer, 3.0), step(StepKind::feedback, 0.5)};
+    DesignAssumptions assumptions{.calibration_s = 100.0, .question_s = 0.5, .answer_s = 90.0};
+    const SessionLength session = make_design_report(protocol, {}, 1, assumptions).session;
+    CHECK(session.questions_s == 0.0);
+    CHECK(session.drift_checks_s == 0.0);
+    CHECK(session.animations_s == Approx(30 * (0.5 + 1.0 + 0.25 + 2.0 + 0.5 + 2 * 0.1)));
+    CHECK(session.answers_s == Approx(30 * 3.0));
+}
+
 TEST_CASE("consent and each page of instructions are read in the session's length", "[unit]") {
     Protocol protocol = paper_protocol();
     DesignAssumptions assumptions;

@@ -1,6 +1,8 @@
 /// Several stimuli at once, each in its slot, as the bytes that the display gets.
 #include "render/presenter/page_presenter.h"
 
+#include <algorithm>
+
 #include <catch2/catch.hpp>
 
 #include "devices/host/clocks.h"
@@ -138,4 +140,67 @@ TEST_CASE("slots with the same stimulus share its pages, and a screen between cl
     CHECK(blank != shown);
     CHECK(screen.canvas_with(same, frames) == shown);
     CHECK(screen.canvas_with(same, std::vector{no_frame, no_frame, no_frame}) == blank);
+}
+
+TEST_CASE("of two slots at one place the one that comes up covers the one that goes", "[gl]") {
+    const auto context = make_headless_context(ContextKind::osmesa);
+    DisplaySettings settings;
+    settings.width_px = wide_px.x;
+    settings.height_px = wide_px.y;
+    settings.output = OutputMode::native_8bit;
+    const glm::ivec2 place{102, 10};
+    ScreenOfSlots both(*context, settings, place, {place, place}), alone(*context, settings, place, {});
+    const std::vector<PlacedStimulus> placed{{{1, 0}, 0}, {{2, 0}, 1}};
+    const AnimationFrameIndex frame{1};
+    for (const std::size_t lit : {0, 1, 0, 1}) {
+        std::vector<AnimationFrameIndex> frames{no_frame, no_frame};
+        frames[lit] = frame;
+        const PlacedStimulus only{placed[lit].stimulus, 0};
+        CHECK(both.canvas_with(placed, frames) == alone.canvas_with({&only, 1}, {&frame, 1}));
+    }
+}
+
+TEST_CASE("a scrambled mask has the squares of what was shown last, in another order", "[gl]") {
+    const auto context = make_headless_context(ContextKind::osmesa);
+    DisplaySettings settings;
+    settings.width_px = wide_px.x;
+    settings.height_px = wide_px.y;
+    settings.output = OutputMode::native_8bit;
+    const glm::ivec2 left{102, 10}, right{500, 14};
+    ScreenOfSlots screen(*context, settings, left, {left, right});
+    const std::vector<PlacedStimulus> placed{{{1, 0}, 0}, {{2, 0}, 1}};
+    const auto shown = screen.canvas_with(placed, std::vector<AnimationFrameIndex>{{1}, {1}});
+    screen.presenter.show({});
+    const auto blank = screen.presenter.read_canvas();
+    Screen mask{.kind = Screen::Kind::scrambled, .text = ""};
+    mask.noise_seed = 5;
+    mask.noise_cell = Degrees{0.001}; // the smallest: squares of two pixels
+    mask.places = {1};
+    screen.presenter.show(mask);
+    const auto masked = screen.presenter.read_canvas();
+    const auto squares_of = [&](const std::vector<std::byte>& bytes, glm::ivec2 corner) {
+        std::vector<std::vector<std::byte>> squares;
+        for (int y = 0; y < slot_px.y; y += 2)
+            for (int x = 0; x < slot_px.x; x += 2) {
+                auto& square = squares.emplace_back();
+                for (int row = 0; row < 2; ++row) {
+                    const auto first =
+                        bytes.begin() + 4 * ((corner.y + y + row) * wide_px.x + corner.x + x);
+                    square.insert(square.end(), first, first + 8);
+                }
+            }
+        return squares;
+    };
+    auto of_mask = squares_of(masked, right), of_shown = squares_of(shown, right);
+    CHECK(of_mask != of_shown);
+    std::ranges::sort(of_mask);
+    std::ranges::sort(of_shown);
+    CHECK(of_mask == of_shown);
+    // The other slot is dark, and the same seed gives the same.
+    CHECK(squares_of(masked, left) == squares_of(blank, left));
+    screen.presenter.show(mask);
+    CHECK(screen.presenter.read_canvas() == masked);
+    mask.noise_seed = 6;
+    screen.presenter.show(mask);
+    CHECK(screen.presenter.read_canvas() != masked);
 }
