@@ -32,7 +32,7 @@ TrialRun::TrialRun(SessionState& state, OperatorControl& control, const ScreenPo
       answers_(state, control), seed_(seed), cycles_(page_cycles(state.protocol)), shown_(cycles_.front()),
       ledger_(shown_, WhenLate::drop), watch_(screen_geometry_of(state.protocol), state.protocol.display) {
     for (UsedTracker& used : state.trackers())
-        feeds_.push_back({used, TrackerFeed(used.tracker)});
+        feeds_.push_back({used, TrackerFeed(used.tracker), {}});
 }
 
 TrialRun::Attempt TrialRun::run(const Trial& trial, const std::optional<Trial>& next, bool is_practice) {
@@ -183,7 +183,12 @@ void TrialRun::note_what_came(Attempt& attempt) {
         if (feed.used.is_left_out)
             continue;
         if (feed.used.tracker.measures_gaze()) {
-            const GazeYield gaze = feed.items.yield();
+            GazeYield gaze = feed.items.yield();
+            gaze.samples += feed.earlier.samples;
+            gaze.without_gaze += feed.earlier.without_gaze;
+            gaze.missing += feed.earlier.missing;
+            if (has_shown_)
+                feed.earlier = gaze;
             state_.log_of(feed.used).gaze_came(gaze);
             if (!feed.used.is_further()) {
                 attempt.outcome.gaze = gaze;

@@ -106,6 +106,7 @@ class TrialRun {
     struct Feed {
         UsedTracker& used;
         TrackerFeed items;
+        GazeYield earlier = {}; ///< of what was watched in this attempt before an answer, and showed something
     };
     std::vector<Feed> feeds_;                     ///< of all trackers, the session's own first
     std::optional<ResponsePress> pressed_;        ///< by the operator during a presentation, the first

@@ -32,6 +32,8 @@ StepEnd end_of(OperatorControl::How how, StepEnd by_key, StepEnd by_time) {
 void TrialRun::run_steps(Running& running) {
     shows_ = 0;
     first_flip_.reset();
+    for (Feed& feed : feeds_)
+        feed.earlier = {};
     gaze_checks_ = 0;
     const std::vector<PlannedStep>& steps = running.plan.steps;
     for (std::size_t number = 0; number < steps.size() && goes_on(running.attempt);) {
