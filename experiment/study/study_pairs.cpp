@@ -42,7 +42,7 @@ Fixations some_of(const Fixations& from, std::size_t count, RandomStream& random
 }
 
 /// Fixations by the trial that they are of.
-std::vector<Fixations> by_trial(const Fixations& fixations) {
+std::vector<Fixations> fixations_by_trial(const Fixations& fixations) {
     std::map<int, Fixations> trials;
     for (const StudyFixation* fixation : fixations)
         trials[fixation->trial].push_back(fixation);
@@ -56,9 +56,9 @@ std::vector<Fixations> by_trial(const Fixations& fixations) {
 void deal_out_trials(Comparison& of, const FixationMaps& maps, const StudyOptions& options,
                      std::uint64_t stream, int permutations) {
     std::vector<std::vector<double>> of_trials;
-    std::vector<Fixations> trials = by_trial(of.a);
+    std::vector<Fixations> trials = fixations_by_trial(of.a);
     const std::size_t in_a = trials.size();
-    std::ranges::move(by_trial(of.b), std::back_inserter(trials));
+    std::ranges::move(fixations_by_trial(of.b), std::back_inserter(trials));
     if (trials.size() < 3)
         return; // of one trial of each level the other way round is the same
     std::vector<std::size_t> order(trials.size());
