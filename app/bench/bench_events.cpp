@@ -158,21 +158,87 @@ void measure_trackers(BenchFigures& figures, const std::vector<ReferenceGaze>& r
                     {.fixation_f1 = 0.95, .onset_ms = onset_target_ms, .offset_ms = offset_target_ms});
 }
 
-/// People's labels.
-void measure_people(BenchFigures& figures, const std::vector<ReferenceGaze>& references) {
-    Agreement all;
-    all.lids_are_no_saccades = true;
-    for (const ReferenceGaze& gaze : references) {
-        Agreement one;
-        one.lids_are_no_saccades = true;
-        one.add(gaze);
-        all.add(gaze);
-        add_thresholds(figures, gaze);
-        add_figures(figures, gaze.name, one, {});
+/// Why a person's saccades and the program's are not of the same samples.
+class SaccadeDifferences {
+  public:
+    void add(const ReferenceRecording& recording) {
+        std::vector<GazeEvent> found = recording.found;
+        Agreement::forget_lids(found);
+        const std::vector<bool> theirs = samples_within(recording.samples, recording.events, Kind::saccade),
+                                ours = samples_within(recording.samples, found, Kind::saccade);
+        for (std::size_t i = 0; i < theirs.size(); ++i) {
+            const bool is_swing = recording.labels[i] == swing_label;
+            if (!is_swing)
+                without_swings_.add(theirs[i], ours[i]);
+            ours_alone_ += ours[i] && !theirs[i];
+            swings_ += ours[i] && !theirs[i] && is_swing;
+        }
+        // Of each of their saccades: whether any of it was found.
+        for (std::size_t begin = 0, end = 0; begin < theirs.size(); begin = end) {
+            bool is_found = false;
+            std::size_t missed = 0;
+            for (end = begin; end < theirs.size() && theirs[end] == theirs[begin]; ++end) {
+                is_found |= ours[end];
+                missed += !ours[end];
+            }
+            if (!theirs[begin])
+                continue;
+            theirs_alone_ += missed;
+            in_missed_ += is_found ? 0 : missed;
+        }
     }
-    if (!references.empty())
-        add_figures(figures, fmt::format("all {} labellings by people", references.size()), all,
-                    {.fixation_f1 = 0.93, .saccade_kappa = 0.78});
+
+    void report(BenchFigures& figures, const std::string& name) const {
+        const auto percent = [](std::size_t part, std::size_t all) {
+            return 100.0 * static_cast<double>(part) / static_cast<double>(std::max<std::size_t>(all, 1));
+        };
+        figures.push_back(
+            plain(name + ": saccade kappa of samples, without swings", without_swings_.kappa(), ""));
+        figures.push_back(plain(name + ": saccade samples of the program alone that are swings",
+                                percent(swings_, ours_alone_), "%"));
+        figures.push_back(plain(name + ": saccade samples of the person alone in saccades not found",
+                                percent(in_missed_, theirs_alone_), "%"));
+    }
+
+  private:
+    SampleAgreement without_swings_;
+    std::size_t ours_alone_ = 0, swings_ = 0, theirs_alone_ = 0, in_missed_ = 0;
+};
+
+/// People's labels, by file: the program against each of them, and each two against each other.
+void measure_people(BenchFigures& figures, const std::vector<std::vector<ReferenceGaze>>& files) {
+    Agreement all, people;
+    all.lids_are_no_saccades = true;
+    SaccadeDifferences differences;
+    int labellings = 0, pairs = 0;
+    for (const std::vector<ReferenceGaze>& of_file : files) {
+        for (const ReferenceGaze& gaze : of_file) {
+            Agreement one;
+            one.lids_are_no_saccades = true;
+            one.add(gaze);
+            all.add(gaze);
+            for (const ReferenceRecording& recording : gaze.recordings)
+                differences.add(recording);
+            ++labellings;
+            add_thresholds(figures, gaze);
+            add_figures(figures, gaze.name, one, {});
+        }
+        for (std::size_t a = 0; a < of_file.size(); ++a) {
+            for (std::size_t b = a + 1; b < of_file.size(); ++b) {
+                ReferenceRecording both = of_file[a].recordings.front();
+                both.found = of_file[b].recordings.front().events;
+                people.add(both);
+                ++pairs;
+            }
+        }
+    }
+    if (labellings == 0)
+        return;
+    const std::string name = fmt::format("all {} labellings by people", labellings);
+    add_figures(figures, name, all, {.fixation_f1 = 0.93, .saccade_kappa = 0.78});
+    differences.report(figures, name);
+    if (pairs > 0)
+        add_figures(figures, fmt::format("two people against each other, {} recordings", pairs), people, {});
 }
 
 /// Planted events, by the rate of the tracker: 60 Hz is three samples or fewer in a saccade.
@@ -251,14 +317,14 @@ BenchFigures bench_events(const BenchOptions& options) {
         measure_speed(figures);
         return figures;
     }
-    std::vector<ReferenceGaze> of_trackers, of_people;
+    std::vector<ReferenceGaze> of_trackers;
+    std::vector<std::vector<ReferenceGaze>> of_people;
     for (const fs::path& file : files_of(options.files)) {
         try {
             if (file.extension() == ".asc") {
                 of_trackers.push_back(read_asc_reference(file, options.thresholds));
             } else {
-                std::vector<ReferenceGaze> labelled = read_labelled_reference(file, options.thresholds);
-                std::move(labelled.begin(), labelled.end(), std::back_inserter(of_people));
+                of_people.push_back(read_labelled_reference(file, options.thresholds));
             }
         } catch (const InputError& reason) {
             // One of many that cannot be compared is no reason to compare none.

@@ -109,10 +109,12 @@ class LabelledTable {
                 take(line, samples, labels);
         std::vector<ReferenceGaze> references;
         const TrackerClock::duration interval(std::llround(1e6 / rate_hz));
-        for (std::size_t i = 0; i < raters.size(); ++i)
+        for (std::size_t i = 0; i < raters.size(); ++i) {
             references.push_back(reference_gaze(fmt::format("{} ({})", file_.filename().string(), raters[i]),
                                                 GazeAngles(screen), samples,
                                                 events_of_labels(samples, labels[i], interval), thresholds));
+            references.back().recordings.front().labels = std::move(labels[i]);
+        }
         return references;
     }
 
@@ -181,7 +183,7 @@ ReferenceGaze reference_gaze(std::string name, const GazeAngles& angles, std::ve
     find_events(read, angles, settings, found);
     sort_by_begin(found.events);
     return {std::move(name),
-            {{angles, std::move(samples), std::move(events), std::move(found.events)}},
+            {{angles, std::move(samples), std::move(events), std::move(found.events), {}}},
             settings};
 }
 
@@ -221,7 +223,7 @@ ReferenceGaze read_asc_reference(const std::filesystem::path& file, const Chosen
     for (std::size_t eye = 0; eye < samples.size(); ++eye)
         if (!samples[eye].empty())
             gaze.recordings.push_back(
-                {*record.gaze_angles(sitting), std::move(samples[eye]), events[eye], found[eye]});
+                {*record.gaze_angles(sitting), std::move(samples[eye]), events[eye], found[eye], {}});
     return gaze;
 }
 

@@ -17,7 +17,11 @@ struct ReferenceRecording {
     std::vector<GazeSample> samples;
     std::vector<GazeEvent> events; ///< the reference's, in order of their begins
     std::vector<GazeEvent> found;  ///< the program's, the same
+    std::vector<int> labels;       ///< a person's, by sample; empty for a tracker's
 };
+
+/// What a person labels the swing of the lens after a saccade with.
+inline constexpr int swing_label = 3;
 
 /// A file's eyes by one reference.
 struct ReferenceGaze {

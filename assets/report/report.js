@@ -113,12 +113,11 @@ draw_figure5();
       ...factor_columns(rows, r => r.keys), text_column('a', r => r.a), text_column('b', r => r.b),
       number_column('WSS a - b / deg²', r => r.wss_deg), p_column('WSS: p', r => r.p), p_column('WSS: p after Holm', r => r.holm),
       number_column('CC of all maps', r => r.maps_cc), p_column('CC of all maps: p', r => r.maps_p), p_column('CC of all maps: p after Holm', r => r.maps_holm),
-      ...[['CC', 'cc'], ['SIM', 'sim']].flatMap(([name, key]) => [number_column(name, r => r[key].value), number_column(name + ': halves of a and b', r => r[key].between), number_column(name + ': halves of one', r => r[key].within)]),
+      ...[['CC', 'cc'], ['SIM', 'sim']].flatMap(([name, key]) => [number_column(name, r => r[key].value), number_column(name + ': two observers, other level', r => r[key].other), number_column(name + ': two observers, same level', r => r[key].same), number_column(name + ': same less other', r => r[key].effect)]),
       number_column('observers', r => r.observers), ...remark_column(rows, r => r.absent)],
       note: `WSS, CC and SIM are of one observer and one object, then averaged; in brackets the ${level} over observers. CC of all maps: the maps of all observers are added up for each level. ` +
       'Whether maps differ is told by its p, for which an observer\'s two levels are swapped, whole maps at once; for the p of WSS the signs of observers\' differences are flipped. After Holm: corrected for the rows of the table, those over all groups apart. ' +
-      'A similarity grows with the number of fixations and is below 1 even where nothing differs. Halves all have as many fixations, so those of a and b can be held against two halves of one level. ' +
-      'The latter are somewhat more alike even without a difference where the fixations of a trial share an error of calibration. SIM: maps scaled from 0 to 1 first (MIT benchmark); table1_pairs has it without scaling, too.'})
+      'A similarity grows with the number of fixations and is below 1 even where nothing differs. So maps of two observers are compared, all of as many fixations: the same level is the ceiling of the other level, and their difference is 0 where levels make none. SIM: maps scaled from 0 to 1 first (MIT benchmark); table1_pairs has it without scaling, too.'})
       : element('p', {class: 'note'}, 'There is no factor whose levels the same observers saw on the same object.'));
 }
 
@@ -166,7 +165,7 @@ draw_figure5();
   put('reliability_body', t.reliabilities, () => ({columns: [
       ...conditions(t.reliabilities, r => r.keys), number_column('CC of halves', r => r.split), number_column('reliability', r => r.reliability),
       number_column('observers', r => r.observers), number_column('fixations', r => r.fixations)],
-      note: 'Correlation of the maps of random halves of the observers, and of all observers after Spearman and Brown; the interval is by leaving out each observer in turn.'}));
+      note: 'How well the map of all observers would agree with that of as many others (Cronbach\'s alpha), and the correlation of two halves that goes with it; the interval is by leaving out each observer in turn.'}));
   const errors = data.maps.filter(m => m.by === 'duration' && m.values);
   put('errors_body', errors, () => ({columns: [
       ...conditions(errors), ...[['accuracy', 'accuracy'], ['precision', 'precision'], ['timing', 'timing'], ['look-up', 'lut'], ['together', 'together']].map(([name, key]) => mm_column(name + ' / mm', m => m.error[key])),

@@ -36,10 +36,9 @@ Json json_of(const std::vector<StudyKey>& keys) {
 }
 
 Json json_of(const SimilarityEstimate& similarity) {
-    return {{"value", json_of(similarity.value)},
-            {"between", json_of(similarity.between_halves)},
-            {"within", json_of(similarity.within_halves)},
-            {"null", json_of(similarity.null)}};
+    return {{"value", json_of(similarity.value)},     {"other", json_of(similarity.other_level)},
+            {"same", json_of(similarity.same_level)}, {"effect", json_of(similarity.level_effect)},
+            {"null", json_of(similarity.null)},       {"p", number(similarity.p)}};
 }
 
 Json json_of(const glm::dvec3& v) { return {number(v.x, 8), number(v.y, 8), number(v.z, 8)}; }

@@ -32,6 +32,9 @@ std::optional<double> auc_judd(std::span<const double> map, std::span<const doub
     double above = 0.0, sum = 0.0, hits = 0.0, alarms = 0.0;
     std::size_t next = 0;
     for (std::size_t i = 0; i < thresholds.size(); ++i) {
+        // Fixations where the map is as high are reached together.
+        if (i + 1 < thresholds.size() && thresholds[i + 1] == thresholds[i])
+            continue;
         for (; next < falling.size() && falling[next].first >= thresholds[i]; ++next)
             above += falling[next].second;
         const auto rank = static_cast<double>(i + 1);

@@ -47,7 +47,7 @@ TestResult flip_test(std::size_t count, const char* purpose, const PermutationSe
 
 std::optional<TestResult> sign_flip_test(std::span<const double> differences,
                                          const PermutationSettings& settings) {
-    if (differences.empty())
+    if (differences.size() < 2)
         return std::nullopt;
     const double observed = std::accumulate(differences.begin(), differences.end(), 0.0);
     const double threshold = threshold_for(observed, differences);

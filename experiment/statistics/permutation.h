@@ -31,7 +31,7 @@ TestResult flip_test(std::size_t count, const char* purpose, const PermutationSe
                      const std::function<bool(std::span<const double> signs)>& is_hit);
 
 /// Whether differences within observers have another mean than 0: each may as well have the other sign
-/// (flip_test). Two-sided by the size of the sum. Nothing without differences.
+/// (flip_test). Two-sided by the size of the sum. Nothing of fewer than two: of one both ways are as likely.
 std::optional<TestResult> sign_flip_test(std::span<const double> differences,
                                          const PermutationSettings& settings = {});
 

@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "experiment/study/study_maps.h"
-#include "experiment/surface/coarse_to_fine.h"
 
 namespace overt {
 
@@ -25,10 +24,24 @@ std::vector<double> share_of_time(const FixationMaps& maps, const Fixations& fix
     return map;
 }
 
-/// Of each observer who saw the object in both levels.
-std::vector<std::vector<float>> observer_differences(const StudyResults& results, const StudyGroup& group,
-                                                     const DifferenceMap& of, const FixationMaps& maps) {
-    std::vector<std::vector<float>> differences;
+/// The weights of one observer's fixations in a map of shares of time.
+void add_shares(std::vector<SurfaceWeight>& weights, const Fixations& fixations) {
+    double seconds = 0.0;
+    for (const StudyFixation* fixation : fixations)
+        seconds += fixation->duration_s;
+    for (const StudyFixation* fixation : fixations)
+        weights.push_back(weight_of(*fixation, fixation->duration_s / seconds));
+}
+
+/// What observers who saw an object in both levels give.
+struct LevelDifferences {
+    std::vector<std::vector<float>> of_observers;    ///< by sample
+    std::vector<std::vector<SurfaceWeight>> sums{2}; ///< of the first level and of the second
+};
+
+LevelDifferences observer_differences(const StudyResults& results, const StudyGroup& group,
+                                      const DifferenceMap& of, const FixationMaps& maps) {
+    LevelDifferences found;
     for (const auto& [observer, trials] : by_observer(results, group.trials)) {
         std::vector<int> in_a, in_b;
         for (const int trial : trials) {
@@ -43,11 +56,13 @@ std::vector<std::vector<float>> observer_differences(const StudyResults& results
         if (a.empty() || b.empty())
             continue;
         const std::vector<double> share_a = share_of_time(maps, a), share_b = share_of_time(maps, b);
-        std::vector<float>& difference = differences.emplace_back();
+        std::vector<float>& difference = found.of_observers.emplace_back();
         for (std::size_t v = 0; v < share_a.size(); ++v)
             difference.push_back(static_cast<float>(share_a[v] - share_b[v]));
+        add_shares(found.sums[0], a);
+        add_shares(found.sums[1], b);
     }
-    return differences;
+    return found;
 }
 
 DifferenceMap::Cluster cluster_of(const Cluster& found, const FixationMaps& maps,
@@ -61,7 +76,7 @@ DifferenceMap::Cluster cluster_of(const Cluster& found, const FixationMaps& maps
     for (const std::uint32_t v : found.vertices) {
         const double difference = maps.areas()[v] * static_cast<double>(mean[v]),
                      weight = std::abs(difference);
-        cluster.centroid_mm += weight * glm::dvec3(maps.surface().mesh().positions[v]);
+        cluster.centroid_mm += weight * maps.position_mm(v);
         weights += weight;
         cluster.difference += difference;
         of_part[maps.part(v)] += weight;
@@ -72,15 +87,18 @@ DifferenceMap::Cluster cluster_of(const Cluster& found, const FixationMaps& maps
     return cluster;
 }
 
-void test_differences(DifferenceMap& of, std::span<const std::vector<float>> differences,
-                      const FixationMaps& maps, const CoarseToFine& to_fine, const StudyOptions& options) {
+void test_differences(DifferenceMap& of, const LevelDifferences& differences, const FixationMaps& maps,
+                      const StudyOptions& options) {
     ClusterTestSettings settings;
     settings.permutations = options.permutations;
     settings.seed = options.seed;
-    const ClusterTest test = cluster_test(differences, maps.visible_areas(), maps.adjacency(), settings);
+    const ClusterTest test =
+        cluster_test(differences.of_observers, maps.visible_areas(), maps.adjacency(), settings);
     of.threshold_t = test.threshold_t;
     of.least_p = 1.0 / static_cast<double>(test.permutations);
-    of.difference = to_fine.at_vertices(test.mean);
+    const std::vector<std::vector<double>> sums = maps.at_vertices(differences.sums);
+    for (std::size_t v = 0; v < sums[0].size(); ++v)
+        of.difference.push_back(static_cast<float>((sums[0][v] - sums[1][v]) / of.observers));
     std::vector<std::uint16_t> numbers(test.mean.size(), 0);
     constexpr std::size_t most_clusters = std::numeric_limits<std::uint16_t>::max();
     for (std::size_t i = 0; i < std::min(test.clusters.size(), most_clusters); ++i) {
@@ -88,8 +106,10 @@ void test_differences(DifferenceMap& of, std::span<const std::vector<float>> dif
         for (const std::uint32_t v : test.clusters[i].vertices)
             numbers[v] = static_cast<std::uint16_t>(i + 1);
     }
-    for (const std::uint32_t vertex : to_fine.nearest())
-        of.cluster.push_back(numbers[vertex]);
+    for (std::uint32_t v = 0; v < maps.geometry().vertex_count(); ++v) {
+        const std::uint32_t sample = maps.samples().nearest(maps.geometry().node_of(v));
+        of.cluster.push_back(sample == SurfaceSamples::none ? std::uint16_t{0} : numbers[sample]);
+    }
 }
 
 } // namespace
@@ -105,7 +125,6 @@ std::vector<DifferenceMap> difference_maps(const StudyResults& results, const Ob
     for (std::size_t object = 0; object < maps.size(); ++object) {
         if (!maps[object])
             continue;
-        std::optional<CoarseToFine> to_fine;
         for (const StudyGroup& group : groups) {
             for (std::size_t a = 0; a < compared.size(); ++a) {
                 for (std::size_t b = a + 1; b < compared.size(); ++b) {
@@ -115,17 +134,15 @@ std::vector<DifferenceMap> difference_maps(const StudyResults& results, const Ob
                     row.column = options.compare;
                     row.a = compared[a];
                     row.b = compared[b];
-                    const auto differences = observer_differences(results, group, row, *maps[object]);
-                    row.observers = static_cast<int>(differences.size());
-                    if (differences.empty())
+                    const LevelDifferences differences =
+                        observer_differences(results, group, row, *maps[object]);
+                    row.observers = static_cast<int>(differences.of_observers.size());
+                    if (row.observers == 0)
                         continue;
-                    if (differences.size() == 1) {
+                    if (row.observers == 1)
                         row.absent = "one observer alone saw it in both levels";
-                    } else {
-                        if (!to_fine)
-                            to_fine.emplace(maps[object]->surface(), maps[object]->fine());
-                        test_differences(row, differences, *maps[object], *to_fine, options);
-                    }
+                    else
+                        test_differences(row, differences, *maps[object], options);
                     rows.push_back(std::move(row));
                 }
             }

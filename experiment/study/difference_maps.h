@@ -11,7 +11,7 @@ namespace overt {
 /// on each object that some observer saw in both levels. Each observer gives one map of differences: the
 /// share of the time of fixation per mm^2 in a less that in b. Where they differ from 0 is tested by clusters
 /// (cluster_test.h), whose p is corrected for the whole surface; `p_of_all` for all maps of the study, too.
-/// Maps and clusters are reckoned on the coarse surface and given on the fine one.
+/// Clusters are of samples of the surface (FixationMaps); the map is given at every vertex of the mesh.
 std::vector<DifferenceMap> difference_maps(const StudyResults& results, const ObjectFixationMaps& maps,
                                            const LevelLists& levels, const StudyOptions& options);
 

@@ -1,103 +1,159 @@
 #include "experiment/study/fixation_maps.h"
 
 #include <algorithm>
-#include <set>
+#include <array>
 
 #include "experiment/statistics/map_similarity.h"
 #include "experiment/study/study_maps.h"
 
 namespace overt {
 
+namespace {
+
+/// Of a fixation's own peak: what is left out of its map. The heat kernel has faded to that beyond five
+/// sigmas.
+constexpr double faded = 1e-7;
+
+/// How many times as many nodes as samples are worth choosing among.
+constexpr double many_nodes = 1.5;
+
+} // namespace
+
 FixationMaps::FixationMaps(const StudyResults& results, int object, const ObjectSurface& surface)
-    : surface_(surface), areas_(surface.coarse_geometry->vertex_areas_mm2()) {
+    : surface_(surface) {
     const StudyObject& shown = results.objects[static_cast<std::size_t>(object)];
-    const Mesh& mesh = surface.coarse->mesh();
-    std::vector<std::vector<SurfaceWeight>> weights;
+    Fixations fixations;
     for_each_counted_on(results, object, [&](const StudyFixation& fixation) {
-        const auto moved = surface.coarse->moved(weight_of(fixation, 1.0));
-        index_of_[&fixation] = weights.size();
-        std::vector<Place>& places = places_.emplace_back();
-        for (const SurfaceWeight& weight : moved) {
-            for (int corner = 0; corner < 3; ++corner) {
-                const double share = weight.weight * weight.place.barycentric[corner];
-                if (share > 0.0)
-                    places.push_back({mesh.triangles[weight.place.triangle][corner], share});
-            }
-        }
-        if (surface.hats)
-            weights.push_back({weight_of(fixation, 1.0)});
-        else
-            weights.emplace_back(moved.begin(), moved.end());
+        index_of_[&fixation] = static_cast<std::uint32_t>(fixations.size());
+        fixations.push_back(&fixation);
     });
-    std::vector<std::uint32_t> nodes;
-    std::unique_ptr<SurfaceSmoother> smoother;
-    if (surface.hats) {
-        for (std::uint32_t v = 0; v < areas_.size(); ++v)
-            nodes.push_back(surface.coarse->fine_node_of(v));
-    } else {
-        const double widest = sigma_range_mm(results, object).second;
-        smoother = std::make_unique<SurfaceSmoother>(*surface.coarse_geometry, widest);
-    }
-    maps_.reserve(weights.size());
-    // Some at a time: in double they take twice the memory.
-    constexpr std::size_t at_a_time = 256;
-    for (std::size_t begin = 0; begin < weights.size(); begin += at_a_time) {
-        const auto some = std::span(weights).subspan(begin, std::min(at_a_time, weights.size() - begin));
-        for (const std::vector<double>& density :
-             surface.hats ? surface.hats->densities_at(some, nodes, areas_) : smoother->densities(some))
-            maps_.emplace_back(density.begin(), density.end());
-    }
-    find_visible(shown);
-    find_neighbours();
-    for (std::uint32_t v = 0; v < areas_.size(); ++v) {
-        const auto triangles = surface.geometry->triangles_at(surface.coarse->fine_node_of(v));
+    const auto [least, widest] = sigma_range_mm(results, object);
+    if (!surface.hats)
+        smoother_ = std::make_unique<SurfaceSmoother>(*surface.geometry, widest);
+    make_samples(least);
+    make_maps(fixations);
+    find_visible(shown, fixations);
+    for (const std::uint32_t node : samples_->nodes()) {
+        const auto triangles = surface.geometry->triangles_at(node);
         parts_.push_back(triangles.empty() ? PartIndex{0} : shown.mesh->triangle_parts[triangles.front()]);
     }
 }
 
-void FixationMaps::find_visible(const StudyObject& object) {
-    const SurfaceGeometry& fine = *surface_.geometry;
-    std::vector<float> seconds(fine.node_count(), 0.0f), exposure(fine.node_count(), 0.0f);
-    for (std::uint32_t v = 0; v < fine.vertex_count(); ++v) {
-        float& of_node = seconds[fine.node_of(v)];
-        of_node = std::max(of_node, object.seconds_visible[v]);
-        if (!object.exposure_density.empty())
-            exposure[fine.node_of(v)] = object.exposure_density[v];
+void FixationMaps::make_samples(double least_sigma_mm) {
+    const SurfaceGeometry& geometry = *surface_.geometry;
+    const double spacing_mm = least_sigma_mm / HatSmoother::hats_per_sigma;
+    if (surface_.hats) {
+        samples_ = std::make_unique<SurfaceSamples>(geometry, surface_.hats->hats());
+    } else if (static_cast<double>(geometry.node_count()) >
+               many_nodes * SurfaceHats::expected_count(geometry, spacing_mm)) {
+        sparser_ = std::make_unique<SurfaceHats>(geometry, spacing_mm);
+        samples_ = std::make_unique<SurfaceSamples>(geometry, *sparser_);
+    } else {
+        samples_ = std::make_unique<SurfaceSamples>(geometry);
     }
-    visible_areas_ = areas_;
-    for (std::uint32_t v = 0; v < areas_.size(); ++v) {
-        const std::uint32_t node = surface_.coarse->fine_node_of(v);
-        if (seconds[node] <= 0.0f)
-            visible_areas_[v] = 0.0;
+    areas_ = samples_->areas_mm2();
+}
+
+void FixationMaps::make_maps(std::span<const StudyFixation* const> fixations) {
+    const SurfaceGeometry& geometry = *surface_.geometry;
+    // Densities are asked for at the samples, and then at the corners of the fixations' triangles.
+    const std::size_t samples = samples_->count();
+    std::vector<std::uint32_t> nodes(samples_->nodes().begin(), samples_->nodes().end());
+    std::map<std::uint32_t, std::size_t> number_of;
+    std::vector<std::array<std::size_t, 3>> corners;
+    for (const StudyFixation* fixation : fixations) {
+        std::array<std::size_t, 3>& own = corners.emplace_back();
+        for (int corner = 0; corner < 3; ++corner) {
+            const std::uint32_t node = geometry.corners(*fixation->triangle)[corner];
+            const auto [number, is_new] = number_of.try_emplace(node, nodes.size());
+            if (is_new)
+                nodes.push_back(node);
+            own[static_cast<std::size_t>(corner)] = number->second;
+        }
+    }
+    std::vector<double> areas = areas_;
+    areas.resize(nodes.size(), 0.0);
+    std::vector<std::uint32_t> vertex_of_node(geometry.node_count(), 0);
+    for (std::uint32_t v = 0; v < geometry.vertex_count(); ++v)
+        vertex_of_node[geometry.node_of(v)] = v;
+    const auto keep = [&](const std::vector<double>& density) {
+        Own& own = maps_.emplace_back();
+        const double least =
+            faded * (density.empty() ? 0.0 : *std::max_element(density.begin(), density.end()));
+        for (std::uint32_t i = 0; i < samples; ++i) {
+            if (density[i] > least)
+                own.at_samples.push_back({i, static_cast<float>(density[i])});
+        }
+        for (std::uint32_t place = 0; place < fixations.size(); ++place) {
+            const StudyFixation& there = *fixations[place];
+            double value = 0.0;
+            for (int corner = 0; corner < 3; ++corner)
+                value +=
+                    there.barycentric[corner] * density[corners[place][static_cast<std::size_t>(corner)]];
+            if (value > least)
+                own.at_fixations.push_back({place, static_cast<float>(value)});
+        }
+        own.at_samples.shrink_to_fit();
+        own.at_fixations.shrink_to_fit();
+    };
+    // Some at a time: all of each takes far more memory than what is kept.
+    constexpr std::size_t at_a_time = 256;
+    maps_.reserve(fixations.size());
+    for (std::size_t begin = 0; begin < fixations.size(); begin += at_a_time) {
+        std::vector<std::vector<SurfaceWeight>> some;
+        for (std::size_t i = begin; i < std::min(fixations.size(), begin + at_a_time); ++i)
+            some.push_back({weight_of(*fixations[i], 1.0)});
+        if (surface_.hats) {
+            for (const std::vector<double>& density : surface_.hats->densities_at(some, nodes, areas))
+                keep(density);
+            continue;
+        }
+        for (const std::vector<double>& density : smoother_->densities(some)) {
+            std::vector<double> chosen;
+            chosen.reserve(nodes.size());
+            for (const std::uint32_t node : nodes)
+                chosen.push_back(density[vertex_of_node[node]]);
+            keep(chosen);
+        }
+    }
+}
+
+void FixationMaps::find_visible(const StudyObject& object, std::span<const StudyFixation* const> fixations) {
+    const SurfaceGeometry& geometry = *surface_.geometry;
+    std::vector<char> is_visible(geometry.node_count(), 0);
+    std::vector<double> exposure(geometry.node_count(), 0.0);
+    for (std::uint32_t v = 0; v < geometry.vertex_count(); ++v) {
+        const std::uint32_t node = geometry.node_of(v);
+        if (object.seconds_visible[v] > 0.0f)
+            is_visible[node] = 1;
+        if (!object.exposure_density.empty())
+            exposure[node] = static_cast<double>(object.exposure_density[v]);
+    }
+    visible_areas_ = samples_->areas_mm2(is_visible);
+    for (const std::uint32_t node : samples_->nodes())
         exposure_.push_back(exposure[node]);
+    for (const StudyFixation* fixation : fixations) {
+        double value = 0.0;
+        for (int corner = 0; corner < 3; ++corner)
+            value += fixation->barycentric[corner] * exposure[geometry.corners(*fixation->triangle)[corner]];
+        exposure_at_.push_back(value);
     }
     const double all = integral(exposure_, visible_areas_);
     if (!(all > 0.0))
         exposure_.clear();
     for (double& density : exposure_)
         density /= all;
+    for (double& density : exposure_at_)
+        density = all > 0.0 ? density / all : 0.0;
 }
 
-void FixationMaps::find_neighbours() {
-    std::vector<std::set<std::uint32_t>> neighbours(areas_.size());
-    for (const glm::uvec3& t : surface_.coarse->mesh().triangles) {
-        for (int k = 0; k < 3; ++k) {
-            const std::uint32_t a = t[k], b = t[(k + 1) % 3];
-            neighbours[a].insert(b);
-            neighbours[b].insert(a);
-        }
-    }
-    neighbours_begin_.push_back(0);
-    for (const std::set<std::uint32_t>& own : neighbours) {
-        neighbours_.insert(neighbours_.end(), own.begin(), own.end());
-        neighbours_begin_.push_back(static_cast<std::uint32_t>(neighbours_.size()));
-    }
+glm::dvec3 FixationMaps::position_mm(std::uint32_t sample) const {
+    return surface_.geometry->node_positions_mm()[samples_->nodes()[sample]];
 }
 
 void FixationMaps::add_to(std::vector<double>& sum, const StudyFixation& fixation, double weight) const {
-    const std::vector<float>& map = maps_[index_of_.at(&fixation)];
-    for (std::size_t v = 0; v < sum.size(); ++v)
-        sum[v] += weight * static_cast<double>(map[v]);
+    for (const Entry& entry : maps_[index_of_.at(&fixation)].at_samples)
+        sum[entry.index] += weight * static_cast<double>(entry.value);
 }
 
 std::vector<double> FixationMaps::sum_of(std::span<const StudyFixation* const> fixations) const {
@@ -114,17 +170,35 @@ std::vector<double> FixationMaps::durations_of(std::span<const StudyFixation* co
     return sum;
 }
 
-double FixationMaps::at(std::span<const double> map, const StudyFixation& fixation) const {
-    double value = 0.0;
-    for (const Place& place : places_[index_of_.at(&fixation)])
-        value += place.share * map[place.vertex];
-    return value;
+std::vector<double> FixationMaps::sum_at(std::span<const StudyFixation* const> fixations,
+                                         std::span<const StudyFixation* const> places) const {
+    std::vector<double> at_all(maps_.size(), 0.0), found;
+    for (const StudyFixation* fixation : fixations) {
+        for (const Entry& entry : maps_[index_of_.at(fixation)].at_fixations)
+            at_all[entry.index] += static_cast<double>(entry.value);
+    }
+    for (const StudyFixation* place : places)
+        found.push_back(at_all[index_of_.at(place)]);
+    return found;
+}
+
+std::vector<double> FixationMaps::exposure_at(std::span<const StudyFixation* const> places) const {
+    std::vector<double> found;
+    for (const StudyFixation* place : places)
+        found.push_back(exposure_at_[index_of_.at(place)]);
+    return found;
+}
+
+std::vector<std::vector<double>>
+FixationMaps::at_vertices(std::span<const std::vector<SurfaceWeight>> weights) const {
+    return surface_.hats ? surface_.hats->densities(weights) : smoother_->densities(weights);
 }
 
 ObjectFixationMaps fixation_maps(const StudyResults& results, const std::vector<ObjectSurface>& surfaces) {
     ObjectFixationMaps maps(surfaces.size());
     for (std::size_t i = 0; i < maps.size(); ++i) {
-        if (surfaces[i].coarse && sigma_range_mm(results, static_cast<int>(i)).second > 0.0)
+        if (surfaces[i].geometry && surfaces[i].scale &&
+            sigma_range_mm(results, static_cast<int>(i)).second > 0.0)
             maps[i] = std::make_unique<FixationMaps>(results, static_cast<int>(i), surfaces[i]);
     }
     return maps;

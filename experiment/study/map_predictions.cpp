@@ -25,7 +25,6 @@ struct GroupMaps {
     std::string level; ///< of the compared column; empty if it makes no groups
     std::vector<ObserverMap> observers;
     std::vector<double> sum;
-    std::size_t fixations = 0;
 };
 
 GroupMaps maps_of_group(const StudyResults& results, int group, int object, const FixationMaps& maps,
@@ -45,7 +44,6 @@ GroupMaps maps_of_group(const StudyResults& results, int group, int object, cons
         std::vector<double> map = maps.sum_of(own);
         for (std::size_t v = 0; v < map.size(); ++v)
             made.sum[v] += map[v];
-        made.fixations += own.size();
         made.observers.push_back({observer, std::move(own), std::move(map)});
     }
     return made;
@@ -71,15 +69,17 @@ struct Scores {
     std::array<std::optional<double>, count> values; ///< KL, NSS, AUC-Judd, AUC-Borji, both gains
 };
 
-Scores scores_of(const ObserverMap& of, const std::vector<double>& predicting, const FixationMaps& maps,
-                 bool is_exposure, std::uint64_t seed) {
+/// A map that predicts: on the surface, and at the fixations that are to be told.
+struct PredictingMap {
+    std::vector<double> density, at_fixations;
+};
+
+Scores scores_of(const ObserverMap& of, const PredictingMap& by, const FixationMaps& maps, bool is_exposure,
+                 std::uint64_t seed) {
     const std::span<const double> areas = maps.visible_areas();
-    const std::vector<double> even(areas.size(), 1.0);
-    std::vector<double> at_fixations, exposure_there, even_there(of.fixations.size(), 1.0);
-    for (const StudyFixation* fixation : of.fixations) {
-        at_fixations.push_back(maps.at(predicting, *fixation));
-        exposure_there.push_back(maps.at(maps.exposure(), *fixation));
-    }
+    const std::vector<double> even(areas.size(), 1.0), even_there(of.fixations.size(), 1.0),
+        exposure_there = maps.exposure_at(of.fixations);
+    const auto& [predicting, at_fixations] = by;
     Scores scores;
     scores.values = {kl_divergence(predicting, of.map, areas),
                      nss(predicting, areas, at_fixations),
@@ -92,22 +92,28 @@ Scores scores_of(const ObserverMap& of, const std::vector<double>& predicting, c
     return scores;
 }
 
-/// The fixations of all but one observer, and the exposure as one more; empty if nobody else has any.
-std::vector<double> predicting_map(const GroupMaps& from, const std::string& observer,
-                                   const FixationMaps& maps) {
-    std::vector<double> map = from.sum;
-    std::size_t fixations = from.fixations;
+/// The fixations of all observers but the one that is told, and the exposure as one more; empty if nobody
+/// else has any.
+PredictingMap predicting_map(const GroupMaps& from, const ObserverMap& told, const FixationMaps& maps) {
+    PredictingMap map{from.sum, {}};
+    Fixations predicting;
     for (const ObserverMap& one : from.observers) {
-        if (one.observer != observer)
+        if (one.observer != told.observer) {
+            predicting.insert(predicting.end(), one.fixations.begin(), one.fixations.end());
             continue;
-        fixations -= one.fixations.size();
-        for (std::size_t v = 0; v < map.size(); ++v)
-            map[v] = std::max(map[v] - one.map[v], 0.0);
+        }
+        for (std::size_t v = 0; v < map.density.size(); ++v)
+            map.density[v] = std::max(map.density[v] - one.map[v], 0.0);
     }
-    if (fixations == 0)
+    if (predicting.empty())
         return {};
-    for (std::size_t v = 0; v < map.size(); ++v)
-        map[v] = (map[v] + maps.exposure()[v]) / static_cast<double>(fixations + 1);
+    map.at_fixations = maps.sum_at(predicting, told.fixations);
+    const std::vector<double> exposure_there = maps.exposure_at(told.fixations);
+    const double count = static_cast<double>(predicting.size() + 1);
+    for (std::size_t v = 0; v < map.density.size(); ++v)
+        map.density[v] = (map.density[v] + maps.exposure()[v]) / count;
+    for (std::size_t i = 0; i < map.at_fixations.size(); ++i)
+        map.at_fixations[i] = (map.at_fixations[i] + exposure_there[i]) / count;
     return map;
 }
 
@@ -122,12 +128,13 @@ struct Prediction {
 void reckon_prediction(Prediction& of, const FixationMaps& maps, std::uint64_t seed) {
     for (const ObserverMap& observer : of.told->observers) {
         if (!of.by) {
-            of.scores.push_back(
-                scores_of(observer, {maps.exposure().begin(), maps.exposure().end()}, maps, true, seed));
+            const PredictingMap exposure{{maps.exposure().begin(), maps.exposure().end()},
+                                         maps.exposure_at(observer.fixations)};
+            of.scores.push_back(scores_of(observer, exposure, maps, true, seed));
             continue;
         }
-        const std::vector<double> predicting = predicting_map(*of.by, observer.observer, maps);
-        if (!predicting.empty())
+        const PredictingMap predicting = predicting_map(*of.by, observer, maps);
+        if (!predicting.density.empty())
             of.scores.push_back(scores_of(observer, predicting, maps, false, seed));
     }
 }

@@ -1,82 +1,13 @@
 #include "experiment/study/map_reliability.h"
 
 #include <algorithm>
-#include <cmath>
+#include <iterator>
 
 #include "experiment/base/parallel.h"
-#include "experiment/statistics/distributions.h"
-#include "experiment/statistics/map_similarity.h"
-#include "experiment/statistics/split_half.h"
+#include "experiment/statistics/map_agreement.h"
 #include "experiment/study/study_maps.h"
 
 namespace overt {
-
-namespace {
-
-/// Mean over random halves of these observers.
-std::optional<double> correlation_of_halves(std::span<const std::vector<double>* const> maps,
-                                            std::span<const double> areas, int splits, std::uint64_t seed) {
-    double sum = 0.0;
-    int count = 0;
-    for (int split = 0; split < splits; ++split) {
-        const auto [first, second] =
-            random_halves(static_cast<std::uint32_t>(maps.size()), seed, static_cast<std::uint64_t>(split));
-        const auto sum_of = [&](std::span<const std::uint32_t> half) {
-            std::vector<double> all(areas.size(), 0.0);
-            for (const std::uint32_t i : half) {
-                for (std::size_t v = 0; v < all.size(); ++v)
-                    all[v] += (*maps[i])[v];
-            }
-            return all;
-        };
-        if (const auto r = correlation(sum_of(first), sum_of(second), areas)) {
-            sum += *r;
-            ++count;
-        }
-    }
-    return count > 0 ? std::optional(sum / count) : std::nullopt;
-}
-
-} // namespace
-
-SplitHalf split_half_of(std::span<const std::vector<double>> of_observers, std::span<const double> areas,
-                        int splits, double confidence, std::uint64_t seed) {
-    SplitHalf found;
-    std::vector<const std::vector<double>*> all;
-    for (const std::vector<double>& one : of_observers)
-        all.push_back(&one);
-    const std::optional<double> r =
-        all.size() < 2 ? std::nullopt : correlation_of_halves(all, areas, splits, seed);
-    if (!r) {
-        found.correlation = found.reliability = Estimate::none(
-            all.size() < 2 ? "halves need two observers with fixations" : "the maps are constant");
-        return found;
-    }
-    found.correlation = Estimate::of(*r);
-    const double reliability = spearman_brown(*r);
-    found.reliability = Estimate::of(reliability);
-    const auto z_of = [](double value) { return std::atanh(std::clamp(value, -0.999999, 0.999999)); };
-    std::vector<double> without;
-    for (std::size_t left_out = 0; left_out < all.size() && all.size() >= 3; ++left_out) {
-        std::vector<const std::vector<double>*> rest = all;
-        rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(left_out));
-        if (const auto r_without = correlation_of_halves(rest, areas, splits, seed))
-            without.push_back(z_of(spearman_brown(*r_without)));
-    }
-    if (without.size() < 3 || without.size() < all.size())
-        return found;
-    const auto n = static_cast<double>(without.size());
-    double mean = 0.0, squares = 0.0;
-    for (const double z : without)
-        mean += z / n;
-    for (const double z : without)
-        squares += (z - mean) * (z - mean);
-    const double error = std::sqrt((n - 1.0) / n * squares);
-    const double reach = student_quantile(0.5 * (1.0 + confidence), n - 1.0) * error;
-    found.reliability.interval =
-        Interval{std::tanh(z_of(reliability) - reach), std::tanh(z_of(reliability) + reach)};
-    return found;
-}
 
 std::vector<MapReliabilityRow> map_reliabilities(const StudyResults& results, const ObjectFixationMaps& maps,
                                                  const LevelLists& levels, const StudyOptions& options) {
@@ -118,10 +49,9 @@ std::vector<MapReliabilityRow> map_reliabilities(const StudyResults& results, co
             of_observers.push_back(own.sum_of(fixations));
         }
         row.observers = static_cast<int>(of_observers.size());
-        const SplitHalf halves = split_half_of(of_observers, own.visible_areas(), options.splits,
-                                               options.confidence, options.seed);
-        row.split_half_cc = halves.correlation;
-        row.reliability = halves.reliability;
+        const MapAgreement agreement = map_agreement(of_observers, own.visible_areas(), options.confidence);
+        row.split_half_cc = agreement.of_halves;
+        row.reliability = agreement.reliability;
     });
     return rows;
 }

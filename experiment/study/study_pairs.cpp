@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <numeric>
@@ -9,98 +10,76 @@
 
 #include "experiment/base/parallel.h"
 #include "experiment/base/random.h"
-#include "experiment/statistics/map_similarity.h"
 #include "experiment/statistics/swap_test.h"
 #include "experiment/study/level_comparisons.h"
+#include "experiment/study/observer_similarities.h"
 #include "experiment/study/study_maps.h"
 
 namespace overt {
 
 namespace {
 
-/// CC and both SIMs.
-struct Similarities {
-    static constexpr int count = 3;
-    std::array<std::optional<double>, count> values;
-};
-
-Similarities similarities(std::span<const double> a, std::span<const double> b,
-                          std::span<const double> areas) {
-    return {{correlation(a, b, areas), similarity(a, b, areas, SimConvention::mit),
-             similarity(a, b, areas, SimConvention::pysaliency)}};
-}
+constexpr std::array<SimilarityEstimate PairRow::*, Similarities::count> similarity_members{
+    &PairRow::cc, &PairRow::sim_mit, &PairRow::sim_pysaliency};
 
 /// A comparison, and what is reckoned of it.
 struct Comparison : LevelComparison {
     std::optional<double> wss_difference_mm2, wss_difference_deg2;
-    Similarities found, between_halves, within_halves;
-    std::vector<Similarities> permuted;
-    std::vector<double> map_a, map_b; ///< empty without maps
+    Similarities found;
+    std::vector<Similarities> permuted; ///< of whole trials dealt out again; empty if that changes nothing
+    std::vector<double> map_a, map_b;   ///< empty without maps
+    std::vector<double> like_a, like_b; ///< the same of as many fixations of either level
 };
 
-Fixations chosen(const Fixations& from, std::span<const std::uint32_t> indices) {
-    Fixations found;
-    for (const std::uint32_t i : indices)
-        found.push_back(from[i]);
+/// As many of them at random.
+Fixations some_of(const Fixations& from, std::size_t count, RandomStream& random) {
+    Fixations some = from;
+    if (count < from.size()) {
+        random.shuffle(std::span(some));
+        some.resize(count);
+    }
+    return some;
+}
+
+/// Fixations by the trial that they are of.
+std::vector<Fixations> fixations_by_trial(const Fixations& fixations) {
+    std::map<int, Fixations> trials;
+    for (const StudyFixation* fixation : fixations)
+        trials[fixation->trial].push_back(fixation);
+    std::vector<Fixations> found;
+    for (auto& [trial, own] : trials)
+        found.push_back(std::move(own));
     return found;
 }
 
-/// Two draws of `count` fixations that have none in common, at random.
-std::pair<Fixations, Fixations> two_draws(const Fixations& from, std::size_t count, RandomStream& random) {
-    std::vector<std::uint32_t> all(from.size());
-    std::iota(all.begin(), all.end(), 0u);
-    random.shuffle(std::span(all));
-    return {chosen(from, std::span(all).first(count)), chosen(from, std::span(all).subspan(count, count))};
-}
-
-/// A mean of each similarity, of those that there are.
-class SimilarityMeans {
-  public:
-    void add(const Similarities& one) {
-        for (std::size_t i = 0; i < one.values.size(); ++i) {
-            if (one.values[i]) {
-                sums_[i] += *one.values[i];
-                ++counts_[i];
-            }
+/// Deals the trials of both levels out again.
+void deal_out_trials(Comparison& of, const FixationMaps& maps, const StudyOptions& options,
+                     std::uint64_t stream, int permutations) {
+    std::vector<std::vector<double>> of_trials;
+    std::vector<Fixations> trials = fixations_by_trial(of.a);
+    const std::size_t in_a = trials.size();
+    std::ranges::move(fixations_by_trial(of.b), std::back_inserter(trials));
+    if (trials.size() < 3)
+        return; // of one trial of each level the other way round is the same
+    std::vector<std::size_t> order(trials.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    for (const Fixations& own : trials)
+        of_trials.push_back(maps.sum_of(own));
+    for (int permutation = 0; permutation < permutations; ++permutation) {
+        RandomStream random(options.seed, "levels of trials",
+                            stream * 100000 + static_cast<std::uint64_t>(permutation));
+        std::vector<std::size_t> shuffled = order;
+        random.shuffle(std::span(shuffled));
+        std::vector<double> sums[2] = {std::vector<double>(of.map_a.size(), 0.0),
+                                       std::vector<double>(of.map_a.size(), 0.0)};
+        for (std::size_t i = 0; i < shuffled.size(); ++i) {
+            std::vector<double>& sum = sums[i < in_a ? 0 : 1];
+            const std::vector<double>& own = of_trials[shuffled[i]];
+            for (std::size_t v = 0; v < sum.size(); ++v)
+                sum[v] += own[v];
         }
+        of.permuted.push_back(similarities(sums[0], sums[1], maps.visible_areas()));
     }
-    Similarities means() const {
-        Similarities means;
-        for (std::size_t i = 0; i < sums_.size(); ++i) {
-            if (counts_[i] > 0)
-                means.values[i] = sums_[i] / counts_[i];
-        }
-        return means;
-    }
-
-  private:
-    std::array<double, Similarities::count> sums_{};
-    std::array<int, Similarities::count> counts_{};
-};
-
-/// Random halves of both levels, each of half as many fixations as the level with fewer has: of both levels,
-/// and of the same one.
-void compare_halves(Comparison& of, const FixationMaps& maps, const StudyOptions& options,
-                    std::uint64_t stream) {
-    const std::size_t half = std::min(of.a.size(), of.b.size()) / 2;
-    if (half < 2)
-        return;
-    SimilarityMeans between, within;
-    for (int split = 0; split < options.splits; ++split) {
-        RandomStream random(options.seed, "halves of levels",
-                            stream * 1000 + static_cast<std::uint64_t>(split));
-        const auto map_of = [&](const Fixations& fixations) { return maps.sum_of(fixations); };
-        const auto [a_first, a_second] = two_draws(of.a, half, random);
-        const auto [b_first, b_second] = two_draws(of.b, half, random);
-        const std::vector<double> a1 = map_of(a_first), a2 = map_of(a_second), b1 = map_of(b_first),
-                                  b2 = map_of(b_second);
-        within.add(similarities(a1, a2, maps.areas()));
-        within.add(similarities(b1, b2, maps.areas()));
-        between.add(similarities(a1, b1, maps.areas()));
-        between.add(similarities(a2, b2, maps.areas()));
-    }
-    of.between_halves = between.means();
-    of.within_halves = within.means();
 }
 
 void reckon(Comparison& of, const FixationMaps* maps, const ObjectScale& scale, const StudyOptions& options,
@@ -111,68 +90,48 @@ void reckon(Comparison& of, const FixationMaps* maps, const ObjectScale& scale, 
         return;
     of.map_a = maps->sum_of(of.a);
     of.map_b = maps->sum_of(of.b);
-    of.found = similarities(of.map_a, of.map_b, maps->areas());
-    compare_halves(of, *maps, options, stream);
-    std::vector<double> both(of.map_a.size());
-    for (std::size_t v = 0; v < both.size(); ++v)
-        both[v] = of.map_a[v] + of.map_b[v];
-    Fixations mixed = of.a;
-    mixed.insert(mixed.end(), of.b.begin(), of.b.end());
-    for (int permutation = 0; permutation < permutations; ++permutation) {
-        RandomStream random(options.seed, "levels of fixations",
-                            stream * 100000 + static_cast<std::uint64_t>(permutation));
-        Fixations shuffled = mixed;
-        random.shuffle(std::span(shuffled));
-        shuffled.resize(of.a.size());
-        const std::vector<double> first = maps->sum_of(shuffled);
-        std::vector<double> second(both.size());
-        for (std::size_t v = 0; v < both.size(); ++v)
-            second[v] = std::max(both[v] - first[v], 0.0);
-        of.permuted.push_back(similarities(first, second, maps->areas()));
-    }
+    of.found = similarities(of.map_a, of.map_b, maps->visible_areas());
+    RandomStream random(options.seed, "as many of either level", stream);
+    const std::size_t fewer = std::min(of.a.size(), of.b.size());
+    of.like_a = maps->sum_of(some_of(of.a, fewer, random));
+    of.like_b = maps->sum_of(some_of(of.b, fewer, random));
+    deal_out_trials(of, *maps, options, stream, permutations);
 }
 
 SimilarityEstimate similarity_of(std::span<const Comparison> comparisons, std::size_t which, int permutations,
                                  const StudyOptions& options) {
     SimilarityEstimate estimate;
     const std::string absent = "no observer has maps in both levels";
-    const auto mean = [&](const auto& value) {
-        return estimated_mean(observer_means(comparisons, value), options.bootstrap(), absent);
-    };
-    estimate.value = mean([&](const Comparison& of) { return of.found.values[which]; });
-    const std::string too_few = "no observer has four fixations in both levels";
-    const auto mean_of_halves = [&](Similarities Comparison::*halves) {
-        return estimated_mean(
-            observer_means(comparisons, [&](const Comparison& of) { return (of.*halves).values[which]; }),
-            options.bootstrap(), too_few);
-    };
-    estimate.between_halves = mean_of_halves(&Comparison::between_halves);
-    estimate.within_halves = mean_of_halves(&Comparison::within_halves);
-    std::vector<double> permuted;
-    for (int i = 0; i < permutations; ++i) {
-        const std::vector<double> means = observer_means(comparisons, [&](const Comparison& of) {
-            const auto index = static_cast<std::size_t>(i);
-            return index < of.permuted.size() ? of.permuted[index].values[which] : std::nullopt;
-        });
-        double sum = 0.0;
-        for (const double one : means)
-            sum += one;
-        if (!means.empty())
-            permuted.push_back(sum / static_cast<double>(means.size()));
-    }
-    if (permuted.empty() || !estimate.value.value) {
+    estimate.value =
+        within(estimated_mean(
+                   observer_means(comparisons, [&](const Comparison& of) { return of.found.values[which]; }),
+                   options.bootstrap(), absent),
+               least_similarity(which));
+    if (!estimate.value.value) {
         estimate.null = Estimate::none(absent);
         return estimate;
     }
+    if (std::ranges::all_of(comparisons, [](const Comparison& of) { return of.permuted.empty(); })) {
+        estimate.null = Estimate::none("one trial of each level: there is nothing to be dealt out again");
+        return estimate;
+    }
+    std::vector<double> permuted;
+    for (int i = 0; i < permutations; ++i) {
+        const std::vector<double> means = observer_means(comparisons, [&](const Comparison& of) {
+            return of.permuted.empty() ? of.found.values[which]
+                                       : of.permuted[static_cast<std::size_t>(i)].values[which];
+        });
+        if (!means.empty())
+            permuted.push_back(std::accumulate(means.begin(), means.end(), 0.0) /
+                               static_cast<double>(means.size()));
+    }
     estimate.p = p_of_least(*estimate.value.value, permuted);
-    double sum = 0.0;
-    for (const double one : permuted)
-        sum += one;
+    const double mean =
+        std::accumulate(permuted.begin(), permuted.end(), 0.0) / static_cast<double>(permuted.size());
     std::sort(permuted.begin(), permuted.end());
     const double outside = 0.5 * (1.0 - options.confidence);
     estimate.null = Estimate::of(
-        sum / static_cast<double>(permuted.size()),
-        Interval{quantile_of_sorted(permuted, outside), quantile_of_sorted(permuted, 1.0 - outside)});
+        mean, Interval{quantile_of_sorted(permuted, outside), quantile_of_sorted(permuted, 1.0 - outside)});
     return estimate;
 }
 
@@ -194,10 +153,32 @@ PairRow row_of(std::span<const Comparison> comparisons, int permutations, const 
     // As they are seen: a large object would weigh more than a small one that looks as large.
     if (const auto test = sign_flip_test(deg2, options.permutation()))
         row.wss_p = test->p;
-    row.cc = similarity_of(comparisons, 0, permutations, options);
-    row.sim_mit = similarity_of(comparisons, 1, permutations, options);
-    row.sim_pysaliency = similarity_of(comparisons, 2, permutations, options);
+    for (std::size_t which = 0; which < Similarities::count; ++which)
+        row.*similarity_members[which] = similarity_of(comparisons, which, permutations, options);
     return row;
+}
+
+/// The similarities of maps of two observers. `cells`: comparisons of one group each.
+void compare_observers(PairRow& row, std::span<const std::span<const Comparison>> cells,
+                       const ObjectFixationMaps& maps, const StudyOptions& options) {
+    std::size_t observers = 0;
+    std::vector<LikeMaps> all;
+    for (std::size_t cell = 0; cell < cells.size(); ++cell) {
+        for (const Comparison& one : cells[cell]) {
+            const auto& own = maps[static_cast<std::size_t>(one.object)];
+            if (own)
+                all.push_back({one.observer, cell, one.object, one.like_a, one.like_b, own->visible_areas()});
+            observers = std::max(observers, one.observer + 1);
+        }
+    }
+    const std::array<ObserverSimilarities, Similarities::count> found =
+        observer_similarities(all, observers, options.confidence);
+    for (std::size_t which = 0; which < Similarities::count; ++which) {
+        SimilarityEstimate& own = row.*similarity_members[which];
+        own.other_level = within(found[which].other_level, least_similarity(which));
+        own.same_level = within(found[which].same_level, least_similarity(which));
+        own.level_effect = found[which].difference;
+    }
 }
 
 /// The test of the maps themselves. `cells`: comparisons of one group each.
@@ -209,7 +190,7 @@ void test_maps(PairRow& row, std::span<const std::span<const Comparison>> cells,
         for (std::size_t object = 0; object < maps.size(); ++object) {
             if (!maps[object])
                 continue;
-            PairedMaps paired(maps[object]->areas());
+            PairedMaps paired(maps[object]->visible_areas());
             for (const Comparison& one : cell) {
                 if (static_cast<std::size_t>(one.object) == object) {
                     paired.add(one.observer, one.map_a, one.map_b);
@@ -275,7 +256,9 @@ std::vector<PairRow> study_pairs(const StudyResults& results, const std::vector<
                 row.column = options.compare;
                 row.a = compared[a];
                 row.b = compared[b];
-                test_maps(row, std::array{std::span<const Comparison>(comparisons)}, maps, options);
+                const std::array cells{std::span<const Comparison>(comparisons)};
+                test_maps(row, cells, maps, options);
+                compare_observers(row, cells, maps, options);
                 rows.push_back(std::move(row));
                 if (of_pair.size() <= pair)
                     of_pair.emplace_back();
@@ -294,6 +277,7 @@ std::vector<PairRow> study_pairs(const StudyResults& results, const std::vector<
         row.b = rows[pair].b;
         const std::vector<std::span<const Comparison>> cells(of_pair[pair].begin(), of_pair[pair].end());
         test_maps(row, cells, maps, options);
+        compare_observers(row, cells, maps, options);
         rows.push_back(std::move(row));
     }
     correct(rows, &PairRow::wss_p, &PairRow::wss_p_holm);

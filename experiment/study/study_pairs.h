@@ -14,21 +14,20 @@ namespace overt {
 /// (objects together). Observers are compared with themselves on each object that they saw in both
 /// levels, and their comparisons averaged. Beside each similarity:
 ///
-/// - halves: of random halves of both levels, one of each, and of both halves of the same level. All are of
-/// as
-///   many fixations, half of what the level with fewer has, so that the two can be held against each other:
-///   without a difference they are alike but for what fixations of one trial have in common, such as its
-///   error of calibration, which makes those of the same level more alike;
-/// - the null: of the same numbers of fixations drawn without regard to the level from both, and p, how often
-///   that gives as small a mean similarity as was found.
+/// - of maps of two observers who saw the same level, and of two who saw different ones, all of as many
+///   fixations of either level (observer_similarities.h): without a difference both are the same;
+/// - the null: whole trials of an observer on an object, dealt out again over both levels, and p, how often
+///   that gives as small a mean similarity as was found. Takes an observer's trials as exchangeable, and not
+///   the fixations of a trial, which share its error of calibration.
 ///
-/// That null takes fixations as independent. The test that does not compares the levels' maps over all
+/// Of one trial of each level there is no null. The test that needs none compares the levels' maps over all
 /// observers and swaps whole maps (swap_test).
 ///
 /// Where there are several groups, rows over all of them follow: the comparisons are those within the groups,
 /// so that what the groups tell apart cannot pass for a difference of levels.
 ///
-/// Maps count fixations alike and are made on the coarse surface. Empty if no column of `--by` is compared.
+/// Maps count fixations alike, and what no frame shows is no part of them. Empty if no column of `--by` is
+/// compared.
 std::vector<PairRow> study_pairs(const StudyResults& results, const std::vector<ObjectSurface>& surfaces,
                                  const ObjectFixationMaps& maps, const LevelLists& levels,
                                  const StudyOptions& options);

@@ -25,6 +25,9 @@ class HatSmoother {
     /// `geometry` must live as long as this. 0 < least_sigma_mm <= widest_sigma_mm, at most 6 times as wide.
     HatSmoother(const SurfaceGeometry& geometry, double least_sigma_mm, double widest_sigma_mm);
 
+    /// Those in whose space heat flows.
+    const SurfaceHats& hats() const { return hats_; }
+
     /// Density by vertex of the mesh for each of the maps, in weight per mm^2. Sigmas from the least to the
     /// widest. The same bits on any number of threads; `most_threads` 0: all processors.
     std::vector<std::vector<double>> densities(std::span<const std::vector<SurfaceWeight>> maps,

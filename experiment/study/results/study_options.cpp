@@ -107,7 +107,6 @@ std::vector<StudyParameter> parameters_of(const StudyOptions& options) {
          "Draws of the bootstrap over observers (BCa)."},
         {"permutations", fmt::format("{}", options.permutations), "",
          "Random permutations, where there are too many to make all."},
-        {"splits", fmt::format("{}", options.splits), "", "Random splits into halves."},
         {"seed", fmt::format("{}", options.seed), "", "Seed of all that is drawn at random."},
     };
 }

@@ -67,7 +67,6 @@ struct StudyOptions {
     double confidence = 0.95;
     int resamples = 2000;    ///< of the bootstrap
     int permutations = 1000; ///< where all are too many
-    int splits = 20;         ///< into random halves
     std::uint64_t seed = 1;  ///< of everything that is drawn
     BootstrapSettings bootstrap() const { return {resamples, confidence, seed}; }
     PermutationSettings permutation() const { return {5 * permutations, 100000, seed}; }

@@ -338,13 +338,11 @@ struct DistributionRow {
 /// A similarity of two maps beside what to compare it with.
 struct SimilarityEstimate {
     Estimate value;
-    /// Of random halves, as many fixations in each: one of either level, and both of the same level. Only
-    /// these two can be held against each other: a similarity grows with the number of fixations.
-    Estimate between_halves, within_halves;
-    Estimate null; ///< of all fixations, dealt out again over the levels within observers
-    /// How often dealing out gives as small a similarity. Takes fixations as exchangeable, which they are not
-    /// where trials differ in their error of calibration: then it is too small. PairRow::maps_p is the test.
-    std::optional<double> p;
+    /// Of maps of two different observers, all of as many fixations of either level: who saw different
+    /// levels, who saw the same one, and the latter less the former, 0 where levels make no difference.
+    Estimate other_level, same_level, level_effect;
+    Estimate null;           ///< of whole trials, dealt out again over the levels within observers
+    std::optional<double> p; ///< how often that gives as small a similarity
 };
 
 /// Table 1: two levels of a factor compared within observers, then averaged.
@@ -411,8 +409,8 @@ struct MapPredictionRow {
 struct MapReliabilityRow {
     std::vector<StudyKey> keys; ///< a group's, or a single one of these: all trials with it; empty: all
     int object = 0;
-    Estimate split_half_cc; ///< of the maps of halves of the observers, mean over random halves
-    Estimate reliability;   ///< the same for all observers together, by Spearman and Brown
+    Estimate split_half_cc; ///< of the maps of two halves of the observers, as the reliability has it
+    Estimate reliability;   ///< of the map of all observers together (map_agreement.h)
     int observers = 0, fixations = 0;
 };
 

@@ -80,9 +80,11 @@ RowLayout<MapReliabilityRow> map_reliability_layout(const StudyResults& results)
                         "each level of each column, and of all.");
     to.keys(results.by, &Row::keys);
     to.object(results, &Row::object);
-    to.estimate("split_half_cc", "Correlation of the maps of random halves of the observers, mean", "",
+    to.estimate("split_half_cc",
+                "Correlation of the maps of two halves of the observers that goes with the reliability", "",
                 &Row::split_half_cc);
-    to.estimate("reliability", "The same for all observers, after Spearman and Brown", "", &Row::reliability);
+    to.estimate("reliability", "Of the map of all observers: Cronbach's alpha over the places of the surface",
+                "", &Row::reliability);
     to.count("observers", "Observers with fixations there", &Row::observers);
     to.count("fixations", "Counted fixations", &Row::fixations);
     return to;

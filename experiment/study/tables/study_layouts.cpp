@@ -213,24 +213,20 @@ RowLayout<PairRow> pairs_layout(const StudyResults& results) {
             return [member, which](const Row& row) { return row.*member.*which; };
         };
         to.estimate(name, what + " of both maps, mean over observers", "", part(&SimilarityEstimate::value));
-        to.estimate(name + "_between_halves",
-                    "The same of a random half of either level's fixations, as many in each as the level "
-                    "with fewer has in a half",
-                    "", part(&SimilarityEstimate::between_halves));
-        to.estimate(name + "_within_halves",
-                    "The same of two random halves of one and the same level, of as many fixations: the "
-                    "ceiling of " +
-                        name +
-                        "_between_halves, somewhat too high where fixations of a trial share "
-                        "an error of calibration",
-                    "", part(&SimilarityEstimate::within_halves));
-        to.estimate(name + "_null", "Of all fixations, dealt out again at random over the levels", "",
+        to.estimate(name + "_other_level",
+                    "The same of maps of two observers who saw different levels, all of as many fixations of "
+                    "either level: mean over pairs",
+                    "", part(&SimilarityEstimate::other_level));
+        to.estimate(name + "_same_level",
+                    "The same of two observers who saw the same level: the ceiling of " + name +
+                        "_other_level",
+                    "", part(&SimilarityEstimate::same_level));
+        to.estimate(name + "_level_effect", "The latter less the former: 0 where levels make no difference",
+                    "", part(&SimilarityEstimate::level_effect));
+        to.estimate(name + "_null", "Of whole trials, dealt out again over the levels within observers", "",
                     part(&SimilarityEstimate::null));
-        to.number(
-            name + "_p",
-            "How often dealing out gives as little; takes fixations as exchangeable and is too small where "
-            "trials differ in their error of calibration: maps_p is the test",
-            "", [member](const Row& row) { return (row.*member).p; });
+        to.number(name + "_p", "How often dealing out gives as little; n/a where each level was one trial",
+                  "", [member](const Row& row) { return (row.*member).p; });
     };
     similarity("cc", "Pearson's correlation", &Row::cc);
     similarity("sim_mit", "Similarity, maps scaled from minimum to maximum first", &Row::sim_mit);

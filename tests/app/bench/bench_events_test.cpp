@@ -123,3 +123,31 @@ TEST_CASE("bench events gives no error of begin and end where no event has a par
     CHECK_THAT(bench.out, Contains("saccades of the reference"));
     CHECK_THAT(bench.out, !Contains("median error"));
 }
+
+TEST_CASE(
+    "bench events says how well two people agree with each other, and where the program differs from them",
+    "[session]") {
+    const test::TemporaryFolder root;
+    // An eye that rests: the first person sees two saccades and a swing, the second one of the saccades.
+    std::ofstream table(root.path() / "resting.tsv");
+    table << "# sampFreq=500 viewDist_m=0.67 screenW_m=0.38 screenH_m=0.3 resX=1024 resY=768\n"
+             "sample\tt_ms\tx_px\ty_px\tAB\tCD\n";
+    for (int i = 0; i < 500; ++i) {
+        const bool first = i >= 100 && i < 110, second = i >= 200 && i < 220, swing = i >= 110 && i < 115;
+        table << i << '\t' << 2 * i << "\t500\t400\t"
+              << (first || second ? 2
+                  : swing         ? 3
+                                  : 1)
+              << '\t' << (first ? 2 : 1) << '\n';
+    }
+    table.close();
+    const std::string said =
+        test::run_overt({"bench", "events", (root.path() / "resting.tsv").string(), "--json"}).out;
+    const std::string people = "two people against each other, 1 recordings: ",
+                      all = "all 2 labellings by people: ";
+    CHECK(figure(said, people + "saccade F1") == Approx(2.0 / 3.0));
+    CHECK(figure(said, people + "saccades of the reference") == 2.0);
+    CHECK(figure(said, people + "saccades found") == 1.0);
+    CHECK(figure(said, all + "saccade samples of the person alone in saccades not found") == 100.0);
+    CHECK(figure(said, all + "saccade samples of the program alone that are swings") == 0.0);
+}

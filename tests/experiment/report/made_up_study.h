@@ -193,8 +193,9 @@ inline StudyResults made_up_study() {
     pair.b = "smooth";
     pair.wss_difference_mm2 = Estimate::of(11.4, Interval{-3.0, 26.0});
     pair.cc.value = Estimate::of(0.35, Interval{0.3, 0.4});
-    pair.cc.between_halves = Estimate::of(0.27);
-    pair.cc.within_halves = Estimate::of(0.29, Interval{0.25, 0.33});
+    pair.cc.other_level = Estimate::of(0.27);
+    pair.cc.same_level = Estimate::of(0.29, Interval{0.25, 0.33});
+    pair.cc.level_effect = Estimate::of(0.02, Interval{-0.01, 0.05});
     pair.maps_cc = 0.71;
     pair.maps_p = 0.0004;
     pair.maps_p_holm = 0.0012;

@@ -9,7 +9,6 @@
 #include "experiment/statistics/distributions.h"
 #include "experiment/statistics/point_spread.h"
 #include "experiment/statistics/proportion.h"
-#include "experiment/statistics/split_half.h"
 
 namespace {
 
@@ -129,20 +128,6 @@ TEST_CASE("means of fewer than six have Student's interval", "[unit]") {
     const Interval interval = *bootstrap_interval_of_mean(std::span(scores).first(5), {});
     CHECK(interval.low == exactly(0.4092554822552741));
     CHECK(interval.high == exactly(0.894744517744726));
-}
-
-TEST_CASE("halves are halves, and Spearman and Brown double them", "[unit]") {
-    CHECK(spearman_brown(0.5) == Approx(2.0 / 3.0));
-    CHECK(spearman_brown(0.3, 4.0) == Approx(1.2 / 1.9));
-    for (std::uint64_t index = 0; index < 20; ++index) {
-        const auto [a, b] = random_halves(7, 3, index);
-        CHECK(a.size() == 3);
-        std::vector<std::uint32_t> all = a;
-        all.insert(all.end(), b.begin(), b.end());
-        std::sort(all.begin(), all.end());
-        CHECK(all == std::vector<std::uint32_t>{0, 1, 2, 3, 4, 5, 6});
-    }
-    CHECK(random_halves(12, 3, 0).first != random_halves(12, 3, 1).first);
 }
 
 } // namespace

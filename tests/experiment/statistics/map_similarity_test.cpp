@@ -138,6 +138,9 @@ TEST_CASE("AUC is a half for fixations anywhere, and nearly one for those on the
     for (std::size_t i = 980; i < 1020; i += 4)
         peak.push_back(map[i]);
     CHECK(*auc_judd(map, areas, anywhere) == Approx(0.5).margin(0.02));
+    // A constant map tells nothing, however many fixations it is asked of.
+    const std::vector<double> constant(map.size(), 3.0), there(7, 3.0);
+    CHECK(*auc_judd(constant, areas, there) == Approx(0.5).margin(1e-12));
     CHECK(*auc_judd(map, areas, peak) > 0.98);
     CHECK(*auc_borji(map, areas, peak, 3) > 0.9);
     CHECK(*auc_borji(map, areas, anywhere, 3) == Approx(0.5).margin(0.03));

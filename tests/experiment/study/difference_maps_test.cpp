@@ -2,7 +2,6 @@
 #include <catch2/catch.hpp>
 
 #include "experiment/study/difference_maps.h"
-#include "experiment/surface/coarse_to_fine.h"
 #include "tests/experiment/study/painted_study.h"
 
 using namespace overt;
@@ -89,34 +88,4 @@ TEST_CASE("too few observers for a small p are counted, one alone has no map", "
     CHECK(one.front().difference.empty());
     CHECK(one.front().absent == "one observer alone saw it in both levels");
     CHECK(differences_of(test::PaintedStudy(3, 1, 6, look)).empty());
-}
-
-TEST_CASE("a linear map comes out linear on the fine surface, and its own values stay", "[unit]") {
-    const Mesh mesh = test::flat_square(100.0, 40);
-    const SurfaceGeometry fine(mesh);
-    const CoarseSurface coarse(fine, 60);
-    REQUIRE(coarse.vertex_count() < mesh.positions.size() / 4);
-    const CoarseToFine to_fine(coarse, fine);
-    const auto height = [](const glm::vec3& at) { return 3.0f + 0.25f * at.x - 0.5f * at.y; };
-    std::vector<float> values;
-    for (const glm::vec3& position : coarse.mesh().positions)
-        values.push_back(height(position));
-    const std::vector<float> on_fine = to_fine.at_vertices(values);
-    REQUIRE(on_fine.size() == mesh.positions.size());
-    int exact = 0;
-    for (std::size_t v = 0; v < on_fine.size(); ++v)
-        exact += std::abs(on_fine[v] - height(mesh.positions[v])) < 1e-3f;
-    CHECK(exact > static_cast<int>(0.99 * static_cast<double>(on_fine.size())));
-    for (std::uint32_t v = 0; v < coarse.vertex_count(); ++v)
-        CHECK(on_fine[coarse.fine_node_of(v)] == Approx(values[v]).margin(1e-4));
-
-    // Inside, beside a corner, beside a side.
-    const glm::dvec3 a{0, 0, 0}, b{1, 0, 0}, c{0, 1, 0};
-    const auto is = [&](const glm::dvec3& point, const glm::dvec3& shares) {
-        return glm::distance(closest_in_triangle(point, a, b, c), shares) < 1e-12;
-    };
-    CHECK(is({0.25, 0.5, 7.0}, {0.25, 0.25, 0.5}));
-    CHECK(is({-1.0, -2.0, 0.0}, {1.0, 0.0, 0.0}));
-    CHECK(is({1.0, 1.0, 0.0}, {0.0, 0.5, 0.5}));
-    CHECK(glm::distance(closest_in_triangle({0.5, 1.0, 0.0}, a, b, b), {0.5, 0.5, 0.0}) < 1e-12);
 }

@@ -105,29 +105,3 @@ TEST_CASE("halves of like-minded observers agree, those of others do not", "[uni
               return test::near({std::cos(turn), std::sin(turn), 0.0}, 0.1, random);
           }) < 0.3);
 }
-
-TEST_CASE("intervals of the reliability hold the truth about as often as they say", "[unit]") {
-    // Maps of observers: a pattern that all have, and noise of their own. With the variances 1 and s^2 the
-    // mean of n observers has the reliability 1 / (1 + s^2 / n).
-    constexpr int observers = 8, places = 400, studies = 200;
-    constexpr double noise = 2.0, truth = 1.0 / (1.0 + noise * noise / observers);
-    const std::vector<double> areas(places, 1.0);
-    int holding = 0;
-    double mean = 0.0;
-    for (int i = 0; i < studies; ++i) {
-        RandomStream random(7, "reliability", static_cast<std::uint64_t>(i));
-        std::vector<double> pattern(places);
-        for (double& value : pattern)
-            value = random.normal();
-        std::vector<std::vector<double>> maps(observers, pattern);
-        for (std::vector<double>& map : maps) {
-            for (double& value : map)
-                value += noise * random.normal();
-        }
-        const SplitHalf halves = split_half_of(maps, areas, 10, 0.95, 1);
-        mean += *halves.reliability.value / studies;
-        holding += halves.reliability.interval->contains(truth);
-    }
-    CHECK(mean == Approx(truth).margin(0.01));
-    CHECK(holding >= 0.9 * studies);
-}

@@ -18,14 +18,14 @@ namespace overt::test {
 inline const glm::dvec3 front{0.0, -1.0, 0.0}, back{0.0, 1.0, 0.0}, top{0.0, 0.0, 1.0};
 
 /// A ball of 100 mm, all of which is visible and exposed alike unless a test says otherwise. Observers look
-/// in each level of "material" once.
+/// in each level of "material" once, or in some trials.
 class PaintedStudy {
   public:
     /// `look(observer, level, random)`: where a fixation is aimed, a direction from the ball's centre.
     using Look = std::function<glm::dvec3(int observer, int level, RandomStream& random)>;
 
     PaintedStudy(int observers, int levels, int fixations, const Look& look, std::uint64_t seed = 1,
-                 const std::string& second_level = "rough") {
+                 const std::string& second_level = "rough", int trials = 1) {
         auto mesh = std::make_shared<Mesh>(icosphere(100.0, 3));
         mesh->part_names = {"body", "head"};
         for (std::size_t t = 0; t < mesh->triangles.size(); ++t)
@@ -47,11 +47,10 @@ class PaintedStudy {
         surface.geometry = std::make_unique<SurfaceGeometry>(*mesh);
         surface.areas_mm2 = surface.geometry->vertex_areas_mm2();
         surface.scale = ObjectScale{1.0, 1000.0, 30.0};
-        surface.coarse = std::make_unique<CoarseSurface>(*surface.geometry, 10000);
-        surface.coarse_geometry = std::make_unique<SurfaceGeometry>(surface.coarse->mesh());
         for (int observer = 0; observer < observers; ++observer) {
             results.sessions.emplace_back().observer = fmt::format("{:02}", observer);
-            for (int level = 0; level < levels; ++level) {
+            for (int number = 0; number < trials * levels; ++number) {
+                const int level = number / trials;
                 StudyTrial trial;
                 trial.session = observer;
                 const std::string name = level == 0 ? "smooth" : level == 1 ? second_level : "matt";
@@ -60,7 +59,7 @@ class PaintedStudy {
                 trial.first_fixation = results.fixations.size();
                 trial.fixations = static_cast<std::size_t>(fixations);
                 RandomStream random(seed, "painted study",
-                                    static_cast<std::uint64_t>(100 * observer + level));
+                                    static_cast<std::uint64_t>(100 * observer + number));
                 for (int i = 0; i < fixations; ++i)
                     add_fixation(*mesh, look(observer, level, random));
                 results.trials.push_back(std::move(trial));

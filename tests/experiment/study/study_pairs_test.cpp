@@ -1,9 +1,9 @@
 /// Pairs of levels of made-up studies: what their similarities can be held against.
-#include <map>
-#include <utility>
+#include <memory>
 
 #include <catch2/catch.hpp>
 
+#include "experiment/study/observer_similarities.h"
 #include "experiment/study/study_pairs.h"
 #include "tests/experiment/study/painted_study.h"
 
@@ -13,7 +13,7 @@ namespace {
 
 PairRow pair_of(test::PaintedStudy& study) {
     study.options.compare = "material";
-    study.options.permutations = 100;
+    study.options.permutations = std::min(study.options.permutations, 100);
     const auto rows = study_pairs(study.results, study.surfaces, fixation_maps(study.results, study.surfaces),
                                   {}, study.options);
     REQUIRE(rows.size() == 1);
@@ -28,79 +28,118 @@ void thin_out(test::PaintedStudy& study, const std::string& level, std::size_t f
     }
 }
 
-} // namespace
-
-TEST_CASE(
-    "halves of two levels that are alike are as similar as halves of one, whatever the levels' numbers of "
-    "fixations",
-    "[unit]") {
-    // Over many studies, so that what is left is no chance: three standard errors are 0.01.
-    double cc = 0.0, sim = 0.0, full = 0.0;
-    constexpr int studies = 12;
-    for (int seed = 1; seed <= studies; ++seed) {
-        test::PaintedStudy study(
-            6, 2, 40, [](int, int, RandomStream& random) { return test::near(test::front, 0.5, random); },
-            static_cast<std::uint64_t>(seed));
-        thin_out(study, "rough", 16);
-        const PairRow row = pair_of(study);
-        cc += (*row.cc.between_halves.value - *row.cc.within_halves.value) / studies;
-        sim += (*row.sim_mit.between_halves.value - *row.sim_mit.within_halves.value) / studies;
-        full += (*row.sim_mit.value.value - *row.sim_mit.within_halves.value) / studies;
-    }
-    INFO("CC " << cc << ", SIM " << sim << ", SIM of all fixations " << full);
-    CHECK(std::abs(cc) < 0.02);
-    CHECK(std::abs(sim) < 0.02);
-    // All fixations have another similarity, which therefore is not held against halves.
-    CHECK(full > 0.05);
+/// Looks at the front. Each trial of `fixations` errs by an amount of its own.
+test::PaintedStudy::Look erring(double spread, double error, int fixations) {
+    struct State {
+        glm::dvec3 error{0.0};
+        int looks = 0;
+    };
+    return [=, state = std::make_shared<State>()](int, int, RandomStream& random) {
+        if (state->looks++ % fixations == 0)
+            state->error = test::near(glm::dvec3(0.0), error, random);
+        return test::near(test::front, spread, random) + state->error;
+    };
 }
 
-TEST_CASE("halves of two levels that differ are less similar than halves of one", "[unit]") {
+} // namespace
+
+TEST_CASE("where levels make no difference, maps of the same one are as alike as maps of different ones, "
+          "whatever their numbers of fixations and the errors of trials",
+          "[unit]") {
+    double cc = 0.0, sim = 0.0, full = 0.0;
+    int holding = 0;
+    constexpr int studies = 40;
+    for (int seed = 1; seed <= studies; ++seed) {
+        test::PaintedStudy study(8, 2, 24, erring(0.4, 0.2, 24), static_cast<std::uint64_t>(seed));
+        thin_out(study, "rough", 10);
+        study.options.permutations = 1;
+        const PairRow row = pair_of(study);
+        cc += *row.cc.level_effect.value / studies;
+        sim += *row.sim_mit.level_effect.value / studies;
+        full += (*row.sim_mit.value.value - *row.sim_mit.same_level.value) / studies;
+        holding += row.cc.level_effect.interval->contains(0.0);
+        CHECK(*row.cc.level_effect.value ==
+              Approx(*row.cc.same_level.value - *row.cc.other_level.value).margin(1e-12));
+    }
+    INFO("CC " << cc << ", SIM " << sim << ", SIM of all fixations " << full << ", holding " << holding);
+    // Three standard errors over the studies.
+    CHECK(std::abs(cc) < 0.012);
+    CHECK(std::abs(sim) < 0.008);
+    CHECK(holding >= 33); // of 40 at 95 %: fewer once in 2,000 such tests
+}
+
+TEST_CASE("maps of two observers who saw different levels that differ are less alike", "[unit]") {
     test::PaintedStudy study(6, 2, 20, [](int, int level, RandomStream& random) {
         return test::near(level == 1 && random.uniform() < 0.5 ? test::top : test::front, 0.2, random);
     });
     const PairRow row = pair_of(study);
-    CHECK(*row.cc.between_halves.value < *row.cc.within_halves.value - 0.1);
-    CHECK(*row.sim_mit.between_halves.value < *row.sim_mit.within_halves.value - 0.05);
+    CHECK(*row.cc.level_effect.value > 0.1);
+    CHECK(row.cc.level_effect.interval->low > 0.0);
+    CHECK(*row.sim_mit.level_effect.value > 0.05);
+    CHECK(row.sim_mit.level_effect.interval->low > 0.0);
     CHECK(*row.maps_p < 0.05);
 }
 
-TEST_CASE("levels with fewer than four fixations have no halves, and it is said", "[unit]") {
+TEST_CASE(
+    "one trial of each level cannot be dealt out again, one observer has nobody to be held against, and "
+    "both are said",
+    "[unit]") {
     test::PaintedStudy study(
-        4, 2, 20, [](int, int, RandomStream& random) { return test::near(test::front, 0.3, random); });
-    thin_out(study, "rough", 3);
+        1, 2, 20, [](int, int, RandomStream& random) { return test::near(test::front, 0.3, random); });
     const PairRow row = pair_of(study);
     CHECK(row.cc.value.value);
-    CHECK_FALSE(row.cc.within_halves.value);
-    CHECK(row.cc.between_halves.absent == "no observer has four fixations in both levels");
+    CHECK_FALSE(row.cc.p);
+    CHECK(row.cc.null.absent == "one trial of each level: there is nothing to be dealt out again");
+    CHECK(row.cc.same_level.absent == "no two observers have maps of both levels on one object");
 }
 
 TEST_CASE(
-    "where trials err and levels are alike, the test of whole maps finds no more than chance allows, and "
-    "the exchange of fixations does",
+    "where trials err and levels are alike, neither whole maps nor whole trials find more than chance allows",
     "[unit]") {
-    int exchange = 0, maps = 0;
-    double within_less_between = 0.0;
-    constexpr int studies = 24;
+    int dealing = 0, maps = 0;
+    constexpr int studies = 40;
     for (int seed = 1; seed <= studies; ++seed) {
-        std::map<std::pair<int, int>, glm::dvec3> errors; // of an observer's only trial of a level
-        test::PaintedStudy study(
-            8, 2, 16,
-            [&](int observer, int level, RandomStream& random) {
-                const auto [error, is_new] = errors.try_emplace({observer, level}, 0.0);
-                if (is_new)
-                    error->second = test::near(glm::dvec3(0.0), 0.15, random);
-                return test::near(test::front, 0.3, random) + error->second;
-            },
-            static_cast<std::uint64_t>(seed));
-        study.options.splits = 5;
+        test::PaintedStudy study(5, 2, 10, erring(0.3, 0.15, 10), static_cast<std::uint64_t>(seed), "rough",
+                                 3);
         const PairRow row = pair_of(study);
-        exchange += *row.cc.p <= 0.05;
-        maps += *row.maps_p <= 0.05;
-        within_less_between += (*row.cc.within_halves.value - *row.cc.between_halves.value) / studies;
+        dealing += *row.cc.p <= 0.05;
+        maps += *row.maps_p <= 0.0625; // of 2^4 ways: 1 / 16
     }
-    INFO(exchange << " and " << maps << " of " << studies);
-    CHECK(maps <= 6); // more by chance in one of 7,000 such tests
-    // Which is why the report shows no p of exchanged fixations, and draws nothing from the two halves.
-    CHECK(exchange > studies / 2);
-    CHECK(within_less_between > 0.0);
+    INFO(dealing << " and " << maps << " of " << studies);
+    // More by chance in one of 3,000 such tests.
+    CHECK(dealing <= 7);
+    CHECK(maps <= 8);
+}
+
+TEST_CASE("trials of levels that differ are not dealt out so unlike each other by chance", "[unit]") {
+    test::PaintedStudy study(
+        4, 2, 8,
+        [](int, int level, RandomStream& random) {
+            return test::near(level == 1 ? test::top : test::front, 0.4, random);
+        },
+        1, "rough", 3);
+    const PairRow row = pair_of(study);
+    CHECK(*row.cc.p <= 0.02);
+    CHECK(*row.cc.value.value < row.cc.null.interval->low);
+    CHECK(*row.sim_pysaliency.p <= 0.02);
+}
+
+TEST_CASE(
+    "what no frame shows is no part of the maps that are compared, and intervals end where similarities do",
+    "[unit]") {
+    test::PaintedStudy study(
+        6, 2, 20, [](int, int, RandomStream& random) { return test::near(test::front, 0.25, random); });
+    const PairRow whole = pair_of(study);
+    StudyObject& ball = study.results.objects[0];
+    for (std::size_t v = 0; v < ball.seconds_visible.size(); ++v) {
+        if (ball.mesh->positions[v].y > -50.0f)
+            ball.seconds_visible[v] = 0.0f;
+    }
+    const PairRow shown = pair_of(study);
+    // On the far side both maps are 0, which made them alike.
+    CHECK(*shown.cc.value.value < *whole.cc.value.value - 0.02);
+    CHECK(*shown.maps_cc < *whole.maps_cc);
+    CHECK(whole.cc.value.interval->high <= 1.0);
+    CHECK(within(Estimate::of(0.99, Interval{0.97, 1.02}), -1.0).interval->high == 1.0);
+    CHECK(within(Estimate::of(0.1, Interval{-0.2, 0.5}), 0.0).interval->low == 0.0);
 }
