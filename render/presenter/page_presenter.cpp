@@ -232,7 +232,9 @@ FlipReport PagePresenter::show(const Screen& screen) {
     clear_picture();
     PlacedPicture placed;
     if (screen.kind != Screen::Kind::blank)
-        placed = draw_screen(screen, geometry_, screens_, display_.background);
+        placed = draw_screen(screen, geometry_, screens_, display_.background, answer_pictures_);
+    targets_ = std::move(placed.targets);
+    surface_->show_pointer(screen.kind == Screen::Kind::answers && screen.answers.shows_pointer);
     if (!placed.picture.pixels.empty()) {
         // It stands on the background already.
         for (glm::vec4& pixel : placed.picture.pixels)
