@@ -7,7 +7,7 @@ namespace overt {
 namespace {
 
 // Shares of a letter's height.
-constexpr double below_question = 0.5, between_items = 0.8, above_accept = 0.9;
+constexpr double below_question = 0.7, between_items = 0.6, above_accept = 0.7;
 constexpr double band_padding = 0.5, message_size = 0.75;
 
 bool is_answered_with_keys(const AnswerItem& item) {
@@ -59,9 +59,11 @@ AnswerSheet lay_out_item(const AnswerItem& item, int index, const AnswerLetters&
     column.put(lay_out_words(item.question, letters, item.colour), 0);
     column.put(means_of(item, index, letters), letters.ems(below_question));
     if (is_answered_with_keys(item)) {
-        // Room for a line, also while nothing is missing.
-        const TextStyle style = letters.plain(message_size, letters.width_px);
+        // Room for a line, also while nothing is missing; what is too long for it is set smaller.
+        TextStyle style = letters.plain(message_size, letters.width_px);
         const int high = measure_text("Xg", style).size_px.y;
+        while (size_of(item.message, style).y > high && style.line_height_px > 8)
+            style.line_height_px = style.line_height_px * 9 / 10;
         AnswerSheet message;
         message.size_px = {size_of(item.message, style).x, high};
         if (!item.message.empty())

@@ -8,11 +8,11 @@ namespace overt {
 namespace {
 
 // Shares of a letter's height.
-constexpr double option_size = 0.85, cap_size = 0.7, chip_padding = 0.5, chip_gap = 0.6;
+constexpr double option_size = 0.85, cap_size = 0.7, box_padding = 0.5, box_gap = 0.6;
 constexpr double longest_question = 34.0; // some sixty letters, of which eyes find the next line's beginning
 constexpr double widest_picture = 9.0, least_picture = 3.0;
 constexpr double number_width = 9.0, text_width = 30.0;
-constexpr int text_lines = 4;
+constexpr int text_lines = 4, most_lines = 2; // of a text, and of an option with others beside it
 
 std::string written_on(const std::string& key) {
     constexpr std::pair<std::string_view, std::string_view> arrows[] = {
@@ -29,6 +29,7 @@ std::string written_on(const std::string& key) {
 struct OptionContent {
     AnswerSheet sheet;
     bool fits = true; ///< no word of its label is wider than the box
+    int lines = 0;    ///< of its label
 };
 
 OptionContent content_of(const AnswerOption& option, const AnswerLetters& letters, int inner_px) {
@@ -54,6 +55,7 @@ OptionContent content_of(const AnswerOption& option, const AnswerLetters& letter
     const int beside = cap.size_px.x > 0 ? cap.size_px.x + letters.ems(option.label.empty() ? 0.0 : 0.4) : 0;
     const TextStyle style = letters.plain(option_size, std::max(8, inner_px - beside));
     const glm::ivec2 words = size_of(option.label, style);
+    content.lines = option.label.empty() ? 0 : measure_text(option.label, style).lines;
     content.fits = widest_word_px(option.label, style) <= style.wrap_width_px &&
                    (option.picture.empty() || inner_px >= letters.ems(least_picture));
     const glm::ivec2 row(beside + words.x, std::max(cap.size_px.y, words.y));
@@ -131,7 +133,7 @@ AnswerSheet lay_out_words(const std::string& words, const AnswerLetters& letters
 
 AnswerSheet lay_out_choice(const AnswerItem& item, int index, const AnswerLetters& letters) {
     const int count = static_cast<int>(item.options.size());
-    const int padding = letters.ems(chip_padding), gap = letters.ems(chip_gap);
+    const int padding = letters.ems(box_padding), gap = letters.ems(box_gap);
     const bool has_boxes = item.kind != AnswerItem::Kind::keys;
     // As many beside each other as have room for their words.
     std::vector<OptionContent> contents;
@@ -142,7 +144,7 @@ AnswerSheet lay_out_choice(const AnswerItem& item, int index, const AnswerLetter
         bool all_fit = true;
         for (const AnswerOption& option : item.options) {
             contents.push_back(content_of(option, letters, inner));
-            all_fit = all_fit && contents.back().fits;
+            all_fit = all_fit && contents.back().fits && contents.back().lines <= most_lines;
         }
         const int rows = (count + columns - 1) / columns;
         // A last row with a single one looks like an afterthought.

@@ -20,7 +20,7 @@ namespace {
 
 // Shares of the screen's size. What stands in the middle ends above the keys, and these above the meter.
 constexpr double safe_width = 0.8, highest = 0.05, lowest = 0.79, keys_middle = 0.86, pages_middle = 0.93;
-constexpr double widest_keys = 0.9;
+constexpr double widest_keys = 0.9, lowest_answer = 0.93;
 constexpr double frame_inset = 0.025;
 constexpr double meter_width = 0.2, meter_height = 0.05; // a text's margin below is a twentieth of the screen
 
@@ -309,6 +309,9 @@ class Surroundings {
     Rows middle() const {
         const int gap = screen_px_.y / 100;
         Rows rows{static_cast<int>(highest * screen_px_.y), static_cast<int>(lowest * screen_px_.y)};
+        // Below answers there is nothing but keys and how far this is.
+        if (screen_->kind == Screen::Kind::answers && !keys_ && screen_->pages <= 1)
+            rows.end = static_cast<int>(lowest_answer * screen_px_.y);
         if (frame_)
             rows.first = std::max(rows.first, frame_->end() + gap);
         if (keys_)
