@@ -24,10 +24,11 @@ struct KeyHint {
 /// A line of a form: a label, and beside it what is typed or the choices that there are.
 struct FormRow {
     std::string label;
-    std::string value;                ///< what is typed; of a choice, the one that is chosen, or empty
-    std::vector<std::string> choices; ///< empty: a value is typed
-    bool is_here = false;             ///< it is being filled in
-    bool is_at_fault = false;         ///< what stands there cannot stay
+    std::string value;                  ///< what is typed; of a choice, the one that is chosen, or empty
+    std::vector<std::string> choices;   ///< empty: a value is typed
+    std::vector<std::string> ends = {}; ///< words before the first of the choices and after the last, or none
+    bool is_here = false;               ///< it is being filled in
+    bool is_at_fault = false;           ///< what stands there cannot stay
 };
 
 /// A screen that is not a stimulus. All words are UTF-8.
