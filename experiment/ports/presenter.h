@@ -99,8 +99,15 @@ class Presenter {
     /// for use between a presentation's first and last flip.
     virtual FlipReport show(const Screen& screen) = 0;
 
-    /// What of the answers on the screen that was shown last lies at this place, from the middle of the
-    /// screen in pixels of the display: decided by where it was drawn. Nothing on any other screen.
+    /// From now on these answers stand on the screen with every stimulus, where their up_deg says, and what
+    /// the slots cover of them is not seen; they stay as they are. The mouse's pointer is seen there if they
+    /// are answered with it. Null: no longer. Lays out text: not between a presentation's first and last
+    /// flip. Throws as show() does.
+    virtual void put_beside_stimuli(const AnswerView* /*answers*/) {}
+
+    /// What of the answers on the screen that was shown last, or that stand beside the stimulus, lies at this
+    /// place, from the middle of the screen in pixels of the display: decided by where it was drawn. Nothing
+    /// on any other screen.
     virtual AnswerPlace place_in_answers(double /*right_px*/, double /*down_px*/) const noexcept {
         return {};
     }

@@ -209,3 +209,44 @@ TEST_CASE("the presenter says what of the answers on its screen lies at a place,
     presenter.show({.kind = Screen::Kind::blank, .text = ""});
     CHECK(presenter.place_in_answers(at.x, at.y).item == -1);
 }
+
+TEST_CASE("answers stand beside a stimulus, which covers what of them is in its place", "[gl]") {
+    Bench bench;
+    bench.geometry.screen_px = {640, 360};
+    bench.geometry.screen_mm = {230.0, 130.0};
+    bench.geometry.image_origin_px = {304, 164};
+    PagePresenter presenter(*bench.context, bench.display, bench.pages, bench.geometry, bench.settings,
+                            bench.screens);
+    const auto bright_rows = [&](int first, int end) {
+        const std::vector<std::byte> canvas = presenter.read_canvas();
+        int bright = 0;
+        for (int y = first; y < end; ++y)
+            for (int x = 0; x < 640; ++x)
+                bright += std::to_integer<int>(canvas[static_cast<std::size_t>(y * 640 + x) * 4 + 2]) > 60;
+        return bright;
+    };
+    presenter.load_frames({});
+    AnswerView answers;
+    answers.items = {choice_of("", {{"first", "f", "", false}, {"second", "j", "", false}})};
+    answers.up_deg = -3.0; // far enough below the middle
+    presenter.put_beside_stimuli(&answers);
+    presenter.flip({1});
+    CHECK(bright_rows(210, 360) > 50); // words and boxes
+    CHECK(bright_rows(164, 196) == 0); // beside the stimulus there is nothing
+    const std::vector<std::byte> canvas = presenter.read_canvas();
+    CHECK(std::to_integer<int>(canvas[(180 * 640 + 320) * 4]) == 2); // page 1 in its place
+    Screen screen{.kind = Screen::Kind::answers, .text = ""};
+    screen.answers = answers;
+    const auto targets =
+        draw_screen(screen, bench.geometry, bench.screens, bench.settings.background).targets;
+    const glm::dvec2 at = middle_of(targets[0].box) - 0.5 * glm::dvec2(bench.geometry.screen_px);
+    CHECK(presenter.place_in_answers(at.x, at.y).option == 0);
+    // A frame that is empty leaves them there, and so do further ones.
+    presenter.flip(no_frame);
+    presenter.flip({2});
+    CHECK(bright_rows(210, 360) > 50);
+    presenter.put_beside_stimuli(nullptr);
+    presenter.flip({1});
+    CHECK(bright_rows(0, 360) == 0);
+    CHECK(presenter.place_in_answers(at.x, at.y).option == -1);
+}
