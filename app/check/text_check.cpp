@@ -51,7 +51,9 @@ std::vector<ShownText> shown_texts(const Protocol& protocol) {
         const std::string entry = fmt::format("observer_field[{}]", i);
         texts.push_back({entry + ".title", &field.title, fmt::format("the title of field \"{}\"", field.id)});
         texts.push_back({entry + ".note", &field.note, fmt::format("the note of field \"{}\"", field.id)});
-        add_numbered(texts, entry + ".choices", "choice", field.choices);
+        if (field.kind == FieldKind::choice)
+            add_numbered(texts, entry + ".choices", "choice", field.choices);
+        add_numbered(texts, entry + ".ends", "end", field.ends);
     }
     return texts;
 }
@@ -60,13 +62,15 @@ std::vector<ShownText> shown_texts(const Protocol& protocol) {
 
 namespace {
 
-/// The form as a whole.
-void check_form(const Protocol& protocol, const ScreenGeometry& geometry, Diagnostics& diagnostics) {
-    if (protocol.observer_fields.empty())
-        return;
-    const ObserverForm form(protocol.observer_fields, {}, protocol.words);
+/// The form as a whole, as it is asked at a time.
+void check_form(const Protocol& protocol, const std::string& when, const ScreenGeometry& geometry,
+                Diagnostics& diagnostics) {
+    const std::vector<ObserverFieldSettings> fields = fields_asked(protocol.observer_fields, when);
+    const ObserverForm form(fields, {}, protocol.words);
     const ScreenTextFit fit = fit_screen(form.screen(), geometry, protocol.screens.text_height_deg);
-    const Place place = protocol.places.of("observer_field[0]");
+    const auto first = std::ranges::find(protocol.observer_fields, when, &ObserverFieldSettings::when);
+    const Place place =
+        protocol.places.of(fmt::format("observer_field[{}]", first - protocol.observer_fields.begin()));
     constexpr const char* remedy =
         "ask for less, shorten titles and choices, or set [screens] text_height_deg";
     if (!fit.fits)
@@ -134,7 +138,8 @@ void check_texts(const Protocol& protocol, Diagnostics& diagnostics) {
         }
     }
     if (diagnostics.error_count() == 0)
-        check_form(protocol, geometry, diagnostics);
+        for (const std::string& when : moments_asked(protocol.observer_fields))
+            check_form(protocol, when, geometry, diagnostics);
 }
 
 } // namespace overt

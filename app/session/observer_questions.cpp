@@ -50,7 +50,7 @@ void ask_for_values(std::span<const ObserverFieldSettings> fields, FieldValues& 
                     std::ostream& to) {
     for (std::size_t i = 0; i < fields.size(); ++i) {
         const ObserverFieldSettings& field = fields[i];
-        if (!values[i].empty())
+        if (!values[i].empty() || field.when != form_at_begin)
             continue;
         if (!field.note.empty())
             to << field.note << "\n";
@@ -80,10 +80,11 @@ void simulate_values(std::span<const ObserverFieldSettings> fields, FieldValues&
     }
 }
 
-void require_values(std::span<const ObserverFieldSettings> fields, const FieldValues& values) {
+void require_values(std::span<const ObserverFieldSettings> fields, const FieldValues& values,
+                    bool is_opened) {
     std::vector<std::string> missing;
     for (std::size_t i = 0; i < fields.size(); ++i) {
-        if (fields[i].required && values[i].empty())
+        if (fields[i].required && values[i].empty() && !(is_opened && fields[i].when == form_at_begin))
             missing.push_back(fmt::format("\n  --observer-field {}=…   {}: {}", fields[i].id, fields[i].title,
                                           expected_in(fields[i])));
     }

@@ -133,7 +133,8 @@ Resumption resumption_of(const SessionRecord& record, const Protocol& protocol, 
 bool is_opened(const SessionRecord& record, const Protocol& protocol) {
     const std::vector<RecordedConsent> consents = record.consents();
     return (protocol.consent.text.empty() || (!consents.empty() && consents.back().accepted)) &&
-           (protocol.observer_fields.empty() || !record.observer_fields().empty());
+           (fields_asked(protocol.observer_fields, form_at_begin).empty() ||
+            !record.observer_fields().empty());
 }
 
 void say_where_it_stands(const ResumedSession& session, const SessionHistory& before) {
@@ -208,6 +209,8 @@ ResumedSession take_up_session(const RunOptions& options, const SessionPlace& pl
     const SessionHistory before = record.history();
     ResumedSession session{folder, record.header(), before, {}, {}};
     session.history.is_opened = is_opened(record, protocol);
+    for (const RecordedObserverField& field : record.observer_fields())
+        session.history.forms.push_back(field.asked);
     session.resumption = resumption_of(record, protocol, before, *options.resume);
     session.history.steps.push_back({RecordedStep::Kind::resumed, -1, {}, *options.resume});
     session.history.counted_trials -= static_cast<int>(

@@ -90,7 +90,8 @@ SimulatedFaults read_faults_or_report(const std::filesystem::path& file) {
 
 /// The form as far as it is filled in outside of the window. Throws InputError for what is missing where
 /// it cannot be asked for.
-FieldValues fill_in_form(const Protocol& protocol, const RunOptions& options) {
+/// `is_opened`: what is asked at the beginning is in the record already.
+FieldValues fill_in_form(const Protocol& protocol, const RunOptions& options, bool is_opened) {
     const std::span<const ObserverFieldSettings> fields = protocol.observer_fields;
     FieldValues values = values_given(fields, options.observer_fields);
     if (options.simulate_observer)
@@ -99,9 +100,10 @@ FieldValues fill_in_form(const Protocol& protocol, const RunOptions& options) {
     const bool asks_in_window = options.ask_at == AskAt::window && has_window && !options.simulate_observer;
     if (!options.simulate_observer && has_terminal &&
         (options.ask_at == AskAt::terminal || (options.ask_at == AskAt::window && !has_window)))
-        ask_for_values(fields, values, std::cin, std::cerr);
+        ask_for_values(is_opened ? std::span<const ObserverFieldSettings>() : fields, values, std::cin,
+                       std::cerr);
     if (!asks_in_window)
-        require_values(fields, values);
+        require_values(fields, values, is_opened);
     return values;
 }
 
@@ -117,9 +119,7 @@ SessionPlan plan_session(const RunOptions& options, const SessionPlace& place, c
         plan.earlier_sessions = say_earlier_sessions(place, options.session_number);
     }
     plan.faults = read_faults_or_report(options.faults);
-    // The observer of a resumed session has filled in the form already.
-    if (!plan.resumed || !plan.resumed->history.is_opened)
-        plan.fields = fill_in_form(protocol, options);
+    plan.fields = fill_in_form(protocol, options, plan.resumed && plan.resumed->history.is_opened);
     if (observer.number > protocol.schedule.observers && !plan.resumed)
         fmt::print(stderr,
                    "observer {} has number {}, and [schedule] plans {}: what goes round over the observers "

@@ -32,12 +32,14 @@ ButtonBoxPanel::ButtonBoxPanel(std::vector<BoxInHand> boxes, const Clock& clock,
     recorded_.reserve(most_changes);
     for (BoxInHand& box : boxes) {
         Hand hand{std::move(box), std::vector<int>(most_buttons, -1)};
+        for (int number = 0; number < most_buttons; ++number)
+            hand.names.emplace_back(hand.in_hand.box->button_name(number));
         const std::vector<ButtonMeaning>& meanings = hand.in_hand.meanings;
         for (std::size_t i = 0; i < meanings.size(); ++i) {
             // A digit is the name of a button and of a key: whichever the box has.
             bool is_there = false;
             for (int number = 0; number < most_buttons; ++number) {
-                if (hand.in_hand.box->button_name(number) != meanings[i].button)
+                if (hand.names[static_cast<std::size_t>(number)] != ShortName(meanings[i].button))
                     continue;
                 hand.meaning_of[static_cast<std::size_t>(number)] = static_cast<int>(i);
                 is_there = true;
@@ -120,14 +122,41 @@ std::optional<ResponsePress> ButtonBoxPanel::next_press() noexcept {
     std::optional<ResponsePress> press;
     while (!press && told < recorded_.size()) {
         const Change& change = recorded_[told++];
+        note_input(change);
         press = press_of(hands_[change.hand], change.change);
     }
     recorded_.erase(recorded_.begin(), recorded_.begin() + static_cast<std::ptrdiff_t>(told));
     for (Change change; !press && next_change(change);) {
         keep(change);
+        note_input(change);
         press = press_of(hands_[change.hand], change.change);
     }
     return press;
+}
+
+/// What an observer's button did since an answer is awaited.
+void ButtonBoxPanel::note_input(const Change& change) noexcept {
+    const Hand& hand = hands_[change.hand];
+    const int button = change.change.button;
+    if (awaited_ != Awaited::answer || hand.in_hand.is_operators || change.change.at < since_ || button < 0 ||
+        button >= most_buttons || input_count_ == inputs_.size())
+        return;
+    inputs_[input_count_++] = {.kind = change.change.is_down ? ObserverInput::Kind::key_down
+                                                             : ObserverInput::Kind::key_up,
+                               .at = change.change.at,
+                               .uncertainty = change.change.uncertainty,
+                               .device = ShortName(hand.in_hand.id),
+                               .key = hand.names[static_cast<std::size_t>(button)]};
+}
+
+std::optional<ObserverInput> ButtonBoxPanel::next_input() noexcept {
+    if (input_count_ == 0)
+        return answering_ ? answering_->next_input() : std::nullopt;
+    const ObserverInput input = inputs_[0];
+    std::copy(inputs_.begin() + 1, inputs_.begin() + static_cast<std::ptrdiff_t>(input_count_),
+              inputs_.begin());
+    --input_count_;
+    return input;
 }
 
 /// The operator's presses stay, and all are recorded.
@@ -138,6 +167,7 @@ void ButtonBoxPanel::await(Awaited what, SessionTime since, const Trial* trial) 
     pressed_on_.waits_for(what);
     awaited_ = what;
     since_ = since;
+    input_count_ = 0;
     box_answered_ = false;
     answered_ = nullptr;
     if (answering_)

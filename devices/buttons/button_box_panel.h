@@ -38,6 +38,8 @@ class ButtonBoxPanel final : public ResponsePanel {
     std::optional<SetupKey> next_setup_key() override {
         return answering_ ? answering_->next_setup_key() : std::nullopt;
     }
+    /// Buttons of the observers' boxes by the names on them, and what the other panel tells.
+    std::optional<ObserverInput> next_input() noexcept override;
     std::optional<ResponsePress> poll() noexcept override;
     bool has_keyboard() const noexcept override { return !answering_ || answering_->has_keyboard(); }
     std::string answer() override;
@@ -48,8 +50,9 @@ class ButtonBoxPanel final : public ResponsePanel {
   private:
     struct Hand {
         BoxInHand in_hand;
-        std::vector<int> meaning_of; ///< by the button's number: index into the meanings, or -1
-        bool is_noted = false;       ///< what it is stands in the record
+        std::vector<int> meaning_of;       ///< by the button's number: index into the meanings, or -1
+        std::vector<ShortName> names = {}; ///< by the button's number
+        bool is_noted = false;             ///< what it is stands in the record
         int losses = 0;
     };
     /// What is to be recorded.
@@ -62,6 +65,7 @@ class ButtonBoxPanel final : public ResponsePanel {
     const ButtonMeaning* meaning(const Hand& hand, int button) const noexcept;
     bool next_change(Change& into) noexcept;
     void keep(const Change& change) noexcept;
+    void note_input(const Change& change) noexcept;
     std::optional<ResponsePress> next_press() noexcept;
     std::optional<ResponsePress> press_of(const Hand& hand, const ButtonChange& change) noexcept;
     void write_news(SessionLog& log, Hand& hand);
@@ -79,6 +83,8 @@ class ButtonBoxPanel final : public ResponsePanel {
     bool box_answered_ = false;
     std::array<ResponsePress, 16> kept_{}; ///< the operator's, that came while something was prepared
     std::size_t kept_count_ = 0;
+    std::array<ObserverInput, 128> inputs_{}; ///< since an answer is awaited, told by nobody yet
+    std::size_t input_count_ = 0;
     std::vector<Change> changes_;  ///< to be recorded, with room for those of a presentation
     std::vector<Change> recorded_; ///< of which nobody was told yet, with room as well
     std::int64_t unrecorded_ = 0;

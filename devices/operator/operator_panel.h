@@ -24,6 +24,7 @@ class OperatorPanel final : public ResponsePanel {
 
     void await(Awaited what, SessionTime since, const Trial* trial) override;
     std::optional<SetupKey> next_setup_key() override { return answering_->next_setup_key(); }
+    std::optional<ObserverInput> next_input() noexcept override { return answering_->next_input(); }
     std::optional<ResponsePress> poll() noexcept override;
     bool has_keyboard() const noexcept override { return answering_->has_keyboard(); }
     std::string answer() override { return answering_->answer(); }

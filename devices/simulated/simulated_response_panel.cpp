@@ -23,11 +23,18 @@ SimulatedResponsePanel::SimulatedResponsePanel(const Clock& clock, const Simulat
                                                const std::vector<ScriptedOperatorKey>& script)
     : clock_(&clock), observer_(&observer) {
     for (const ScriptedOperatorKey& key : script)
-        operators_.push_back({key, {}, false});
+        operators_.push_back({.scripted = key});
 }
 
 void SimulatedResponsePanel::await(Awaited what, SessionTime since, const Trial* trial) {
     pressed_on_.waits_for(what);
+    awaited_ = what;
+    for (Operator& one : operators_)
+        one.is_answering = false; // what was left of it answered something else
+    if (what == Awaited::answer) {
+        next_press_.reset();
+        return;
+    }
     if (what == Awaited::decision) {
         next_press_ = since + operators_decision;
         // To what is asked without a key, such as whether a calibration is good enough, yes; but not for
@@ -108,9 +115,12 @@ std::optional<ResponsePress> SimulatedResponsePanel::scripted_press() noexcept {
         if (!one.due || one.is_done || now < *one.due)
             continue;
         one.is_done = true;
-        if (!one.scripted.pressed.empty()) {
-            const bool goes_on = one.scripted.key == Key::next;
-            note(*one.due, &one.scripted, goes_on);
+        if (one.scripted.is_observers()) {
+            one.is_answering = awaited_ == Awaited::answer;
+            const bool is_key = !one.scripted.pressed.empty();
+            const bool goes_on = is_key && !one.is_answering && one.scripted.key == Key::next;
+            if (is_key)
+                note(*one.due, &one.scripted, goes_on);
             if (goes_on)
                 return ResponsePress{Key::next, *one.due};
             continue;
@@ -119,6 +129,24 @@ std::optional<ResponsePress> SimulatedResponsePanel::scripted_press() noexcept {
         return ResponsePress{one.scripted.key, *one.due};
     }
     return std::nullopt;
+}
+
+std::optional<ObserverInput> SimulatedResponsePanel::next_input() noexcept {
+    const SessionTime now = clock_->now();
+    const auto next_at = [](const Operator& one) {
+        return *one.due + one.scripted.inputs[one.inputs_told].after;
+    };
+    Operator* earliest = nullptr;
+    for (Operator& one : operators_)
+        if (one.is_answering && one.inputs_told < one.scripted.inputs.size() && next_at(one) <= now &&
+            (!earliest || next_at(one) < next_at(*earliest)))
+            earliest = &one;
+    if (!earliest)
+        return std::nullopt;
+    ObserverInput input = earliest->scripted.inputs[earliest->inputs_told].input;
+    input.at = next_at(*earliest);
+    ++earliest->inputs_told;
+    return input;
 }
 
 std::optional<ResponsePress> SimulatedResponsePanel::poll() noexcept {

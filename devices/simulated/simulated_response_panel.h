@@ -26,6 +26,8 @@ class SimulatedResponsePanel final : public ResponsePanel {
 
     void await(Awaited what, SessionTime since, const Trial* trial) override;
     std::optional<ResponsePress> poll() noexcept override;
+    /// What the script has the observer do, at its own times.
+    std::optional<ObserverInput> next_input() noexcept override;
     std::string answer() override { return answer_; }
     void entered(SessionPhase phase, int trial) noexcept override;
 
@@ -37,8 +39,10 @@ class SimulatedResponsePanel final : public ResponsePanel {
   private:
     struct Operator {
         ScriptedOperatorKey scripted;
-        std::optional<SessionTime> due; ///< nothing: its phase has not come yet
+        std::optional<SessionTime> due = {}; ///< nothing: its phase has not come yet
         bool is_done = false;
+        bool is_answering = false; ///< its inputs are told when their times come
+        std::size_t inputs_told = 0;
     };
     /// A key of the observer's, to be recorded.
     struct Noted {
@@ -63,6 +67,7 @@ class SimulatedResponsePanel final : public ResponsePanel {
     int own_decisions_ = 0;                    ///< of this phase, to questions that no scripted key led to
     std::string answer_;
     PressedOn pressed_on_;
+    Awaited awaited_ = Awaited::key;
     std::array<Noted, 64> noted_{}; ///< with room for those of a presentation
     std::size_t noted_count_ = 0;
 };

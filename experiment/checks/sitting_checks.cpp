@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <map>
 #include <set>
 #include <utility>
@@ -9,6 +10,26 @@
 namespace overt {
 
 namespace {
+
+void check_when(ProtocolExamination& examination, const ObserverFieldSettings& field,
+                const std::string& path) {
+    if (field.when == form_at_begin || field.when == form_at_end)
+        return;
+    const std::vector<BlockSettings>& blocks = examination.protocol.blocks;
+    if (field.when.starts_with(form_after_block)) {
+        const std::string block = field.when.substr(form_after_block.size());
+        if (std::ranges::find(blocks, block, &BlockSettings::id) != blocks.end())
+            return;
+        std::string known;
+        for (const BlockSettings& one : blocks)
+            known += fmt::format("{}\"{}\"", known.empty() ? "" : ", ", one.id);
+        examination.error({path}, fmt::format("there is no block \"{}\"", block),
+                          known.empty() ? "the protocol has no [[block]]" : "there are: " + known);
+        return;
+    }
+    examination.error({path}, fmt::format("\"{}\" is no time at which a form is filled in", field.when),
+                      "write \"begin\", \"end\", or \"block:\" and the id of a block");
+}
 
 void check_observer_fields(ProtocolExamination& examination) {
     const std::vector<ObserverFieldSettings>& fields = examination.protocol.observer_fields;
@@ -27,6 +48,12 @@ void check_observer_fields(ProtocolExamination& examination) {
                 examination.error({path(key)}, fmt::format("\"{}\" is for fields of kind \"number\"", key));
         if (field.min && field.max && *field.min > *field.max)
             examination.error({path("min"), path("max")}, "\"min\" is larger than \"max\"");
+        for (const std::string_view key : {"steps", "ends"})
+            if (field.kind != FieldKind::scale && examination.is_written(path(key)))
+                examination.error({path(key)}, fmt::format("\"{}\" is for fields of kind \"scale\"", key));
+        if (!field.ends.empty() && field.ends.size() != 2)
+            examination.error({path("ends")}, "a scale has two ends", "write ends = [\"…\", \"…\"]");
+        check_when(examination, field, path("when"));
         std::set<std::string_view> choices;
         for (const std::string& choice : field.choices)
             if (trimmed(choice) != choice || choice.empty() || !choices.insert(choice).second)

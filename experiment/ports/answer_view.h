@@ -31,20 +31,20 @@ struct AnswerItem {
         notice  ///< words alone: feedback, points, a message
     };
     Kind kind = Kind::keys;
-    std::string question; ///< with emphasis as in Screen::text; may be empty
-    std::vector<AnswerOption>
-        options; ///< of choice and steps, in the order in which they are shown (left to right)
-    std::vector<std::string>
-        ends;      ///< words at the ends of a line or steps (two), or spread evenly over it (more)
+    std::string question = {}; ///< with emphasis as in Screen::text; may be empty
+    std::vector<AnswerOption> options =
+        {}; ///< of choice and steps, in the order in which they are shown (left to right)
+    std::vector<std::string> ends =
+        {};        ///< words at the ends of a line or steps (two), or spread evenly over it (more)
     int ticks = 0; ///< of a line; 0: none
-    std::optional<double> marker; ///< of a line, 0 (left end) to 1; nothing until it was first touched
-    std::optional<std::string> marker_label; ///< its value, where the observer is to see it
-    std::string typed;
+    std::optional<double> marker = {}; ///< of a line, 0 (left end) to 1; nothing until it was first touched
+    std::optional<std::string> marker_label = {}; ///< its value, where the observer is to see it
+    std::string typed = {};
     std::size_t caret = 0;         ///< in `typed`, bytes
-    std::string unit;              ///< behind a number
+    std::string unit = {};         ///< behind a number
     bool is_here = true;           ///< keys go here
     bool is_right_to_left = false; ///< the scale begins at the right; how words run follows from the words
-    std::string message;           ///< what is missing or wrong, below it
+    std::string message = {};      ///< what is missing or wrong, below it
     enum class Colour : std::uint8_t { plain, good, bad };
     Colour colour = Colour::plain; ///< of a notice
 };

@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -50,12 +51,28 @@ std::string range_of(const ObserverFieldSettings& field) {
     return field.max ? fmt::format("≤ {}", *field.max) : std::string();
 }
 
+std::vector<ObserverFieldSettings> fields_asked(std::span<const ObserverFieldSettings> fields,
+                                                std::string_view when) {
+    std::vector<ObserverFieldSettings> asked;
+    std::ranges::copy_if(fields, std::back_inserter(asked),
+                         [&](const ObserverFieldSettings& field) { return field.when == when; });
+    return asked;
+}
+
+std::vector<std::string> moments_asked(std::span<const ObserverFieldSettings> fields) {
+    std::vector<std::string> moments;
+    for (const ObserverFieldSettings& field : fields)
+        if (std::ranges::find(moments, field.when) == moments.end())
+            moments.push_back(field.when);
+    return moments;
+}
+
 std::vector<RecordedObserverField> filled_in(std::span<const ObserverFieldSettings> fields,
-                                             const FieldValues& values) {
+                                             const FieldValues& values, std::optional<SessionTime> at) {
     std::vector<RecordedObserverField> recorded;
     for (std::size_t i = 0; i < fields.size(); ++i) {
         if (!values[i].empty())
-            recorded.push_back({fields[i].id, fields[i].title, values[i]});
+            recorded.push_back({fields[i].id, fields[i].title, values[i], fields[i].when, at});
     }
     return recorded;
 }
@@ -71,6 +88,11 @@ void complete_field(ObserverFieldSettings& field, bool has_kind) {
             field.min = field.min.value_or(standard->min);
             field.max = field.max.value_or(standard->max);
         }
+    }
+    if (field.kind == FieldKind::scale) {
+        field.choices.clear();
+        for (int step = 1; step <= field.steps; ++step)
+            field.choices.push_back(std::to_string(step));
     }
     if (field.title.empty())
         field.title = standard != std::end(standard_fields) ? std::string(standard->title) : field.id;
@@ -91,6 +113,7 @@ std::optional<std::string> fault_of(const ObserverFieldSettings& field, std::str
         break;
     }
     case FieldKind::choice:
+    case FieldKind::scale:
         if (std::find(field.choices.begin(), field.choices.end(), value) != field.choices.end())
             return std::nullopt;
         break;
@@ -106,6 +129,8 @@ std::string expected_in(const ObserverFieldSettings& field) {
         const std::string range = range_of(field);
         return range.empty() ? "a number" : "a number, " + range;
     }
+    case FieldKind::scale:
+        return fmt::format("a whole number, 1 … {}", field.steps);
     case FieldKind::choice:
         return fmt::format("one of \"{}\"", fmt::join(field.choices, "\", \""));
     }
@@ -138,6 +163,7 @@ std::string simulated_value(const ObserverFieldSettings& field, std::uint64_t se
         return fmt::format("{}", drawn >= low && drawn <= high ? drawn : low);
     }
     case FieldKind::choice:
+    case FieldKind::scale:
         return field.choices[random.below(static_cast<std::uint32_t>(field.choices.size()))];
     }
     return "simulated";

@@ -44,12 +44,12 @@ struct ObserverInput {
         let_go ///< the keyboard went to another window: whatever was held counts as released
     };
     Kind kind = Kind::key_down;
-    SessionTime at;
+    SessionTime at{};
     /// A key of the keyboard came so long before `at` at most; of a box, within ± this.
     SessionDuration uncertainty{};
-    ShortName device; ///< "keyboard", "mouse", or the box as the protocol calls it
-    ShortName key;    ///< what is written on it, in the words of [operator] keys: "7", "f", "left", "space",
-                      ///< "enter", "escape"
+    ShortName device{}; ///< "keyboard", "mouse", or the box as the protocol calls it
+    ShortName key{}; ///< what is written on it, in the words of [operator] keys: "7", "f", "left", "space",
+                     ///< "enter", "escape"
     char32_t character = 0;
     /// From the middle of the screen, in pixels of the display (not of the window where the desktop enlarges
     /// it).

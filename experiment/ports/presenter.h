@@ -24,10 +24,11 @@ struct KeyHint {
 /// A line of a form: a label, and beside it what is typed or the choices that there are.
 struct FormRow {
     std::string label;
-    std::string value;                ///< what is typed; of a choice, the one that is chosen, or empty
-    std::vector<std::string> choices; ///< empty: a value is typed
-    bool is_here = false;             ///< it is being filled in
-    bool is_at_fault = false;         ///< what stands there cannot stay
+    std::string value;                  ///< what is typed; of a choice, the one that is chosen, or empty
+    std::vector<std::string> choices;   ///< empty: a value is typed
+    std::vector<std::string> ends = {}; ///< words before the first of the choices and after the last, or none
+    bool is_here = false;               ///< it is being filled in
+    bool is_at_fault = false;           ///< what stands there cannot stay
 };
 
 /// A screen that is not a stimulus. All words are UTF-8.
@@ -101,8 +102,15 @@ class Presenter {
     /// for use between a presentation's first and last flip.
     virtual FlipReport show(const Screen& screen) = 0;
 
-    /// What of the answers on the screen that was shown last lies at this place, from the middle of the
-    /// screen in pixels of the display: decided by where it was drawn. Nothing on any other screen.
+    /// From now on these answers stand on the screen with every stimulus, where their up_deg says, and what
+    /// the slots cover of them is not seen; they stay as they are. The mouse's pointer is seen there if they
+    /// are answered with it. Null: no longer. Lays out text: not between a presentation's first and last
+    /// flip. Throws as show() does.
+    virtual void put_beside_stimuli(const AnswerView* /*answers*/) {}
+
+    /// What of the answers on the screen that was shown last, or that stand beside the stimulus, lies at this
+    /// place, from the middle of the screen in pixels of the display: decided by where it was drawn. Nothing
+    /// on any other screen.
     virtual AnswerPlace place_in_answers(double /*right_px*/, double /*down_px*/) const noexcept {
         return {};
     }

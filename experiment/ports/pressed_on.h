@@ -26,7 +26,7 @@ class PressedOn {
     /// After what was pressed before has been taken.
     void waits_for(Awaited what) noexcept {
         now_ = next_;
-        is_observers_ = what == Awaited::key || what == Awaited::response;
+        is_observers_ = what == Awaited::key || what == Awaited::response || what == Awaited::answer;
     }
 
     /// The screen, where keys are recorded: in trials and between them, but not where a form is filled in,

@@ -13,6 +13,7 @@ namespace overt {
 
 /// Devices of key presses that are no response boxes, which the protocol names.
 inline constexpr std::string_view keyboard_device = "keyboard";
+inline constexpr std::string_view mouse_device = "mouse"; ///< of what is told of it, see ObserverInput
 inline constexpr std::string_view simulated_observer_device = "simulated observer";
 
 struct RecordedKeyPress {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "experiment/base/enum_names.h"
@@ -44,7 +45,9 @@ struct RecordedStep {
 struct SessionHistory {
     std::vector<RecordedStep> steps;
     int counted_trials = 0;
-    bool is_opened = false; ///< consent and form are in the record
+    bool is_opened = false; ///< consent and the form of the beginning are in the record
+    std::vector<std::string> forms =
+        {}; ///< parts of the form that are in the record, by when they were asked
 };
 
 } // namespace overt

@@ -80,6 +80,11 @@ std::vector<Key> observer_fields() {
         {"max", &F::max, left_out("the standard field's, or no limit"), "Of a number: the largest."},
         {"required", &F::required, "Whether a session begins only when the field is filled in."},
         {"note", &F::note, left_out("none"), "Shown while the field is filled in."},
+        {"steps", &F::steps, range(2, 11), "Of a scale: how many numbers it has, from 1."},
+        {"ends", &F::ends, left_out("none"), "Of a scale: what its first and its last step mean."},
+        {"when", &F::when,
+         "When the observer is asked: `\"begin\"` of the session, its `\"end\"`, or `\"block:ID\"`, once the "
+         "trials of that block are done."},
     };
 }
 

@@ -79,7 +79,7 @@ void ObserverForm::type(char32_t character) {
     if (!is_text(character))
         return;
     std::string& value = values_[focus_];
-    if (field().kind != FieldKind::choice) {
+    if (!field().has_choices()) {
         if (value.size() < longest_value)
             append_utf8(value, character);
         return;
@@ -110,7 +110,7 @@ void ObserverForm::type(char32_t character) {
 void ObserverForm::erase() {
     message_.clear();
     std::string& value = values_[focus_];
-    if (field().kind == FieldKind::choice) {
+    if (field().has_choices()) {
         value.clear();
         return;
     }
@@ -123,7 +123,7 @@ void ObserverForm::erase() {
 
 void ObserverForm::choose(int step) {
     message_.clear();
-    if (field().kind != FieldKind::choice)
+    if (!field().has_choices())
         return;
     const auto& choices = field().choices;
     const int count = static_cast<int>(choices.size());
@@ -165,14 +165,15 @@ Screen ObserverForm::screen() const {
         screen.rows.push_back(
             {.label = field.required ? field.title : fmt::format("{} ({})", field.title, words_.optional),
              .value = values_[i],
-             .choices = field.kind == FieldKind::choice ? field.choices : std::vector<std::string>(),
+             .choices = field.has_choices() ? field.choices : std::vector<std::string>(),
+             .ends = field.ends,
              .is_here = i == focus_,
              .is_at_fault =
                  !values_[i].empty() && i != focus_ && fault_of(field, trimmed(values_[i])).has_value()});
     }
     screen.rows[focus_].is_at_fault = !message_.empty();
     screen.text = fmt::format("# {}\n{}", words_.form_title, message_.empty() ? field().note : message_);
-    if (field().kind == FieldKind::choice)
+    if (field().has_choices())
         screen.keys.push_back({"← →", words_.choose});
     const bool is_last = focus_ + 1 == fields_.size();
     if (fields_.size() > 1)

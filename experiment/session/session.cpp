@@ -1,10 +1,13 @@
 #include "experiment/session/session.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "experiment/base/counted.h"
 #include "experiment/ports/event_kinds.h"
 #include "experiment/protocol/all_stimuli.h"
+#include "experiment/session/form_filling.h"
 #include "experiment/session/session_opening.h"
 #include "experiment/session/session_screens.h"
 
@@ -40,6 +43,10 @@ Session::Session(const Protocol& protocol, const Schedule& schedule, const Scree
 SessionResult Session::run(const TrialDone& trial_done, const SessionHistory& history) {
     SessionResult result;
     result.completed_trials = history.counted_trials;
+    forms_done_ = history.forms;
+    for (const RecordedStep& step : history.steps)
+        if (step.kind == RecordedStep::Kind::trial)
+            block_ = schedule_.trials[static_cast<std::size_t>(step.trial)].block;
     state_.note(phase_event, std::string(name_of(SessionPhase::set_up)));
     ports_.panel.entered(SessionPhase::set_up, -1);
     SessionOpening(state_, control_, fields_).run(history.is_opened);
@@ -52,8 +59,18 @@ SessionResult Session::run(const TrialDone& trial_done, const SessionHistory& hi
             const std::optional<SessionStep> step = queue.next();
             if (!step)
                 break;
-            run_step(queue, *step, result, trial_done);
+            // What comes before the next trial is of its block.
+            const std::optional<Trial> next =
+                step->kind == SessionStep::Kind::trial ? step->trial : queue.expected();
+            if (block_ >= 0 && next && next->block != block_)
+                ask_after_block(block_);
+            if (!state_.is_over())
+                run_step(queue, *step, result, trial_done);
         }
+        if (!state_.is_over() && block_ >= 0)
+            ask_after_block(block_);
+        if (!state_.is_over())
+            ask_at(std::string(form_at_end));
     }
     result.aborted = state_.is_over();
     result.reason = state_.why_over();
@@ -67,6 +84,21 @@ SessionResult Session::run(const TrialDone& trial_done, const SessionHistory& hi
     state_.write_down();
     state_.note(result.aborted ? session_aborted_event : session_completed_event, result.reason);
     return result;
+}
+
+void Session::ask_after_block(int block) {
+    if (static_cast<std::size_t>(block) < state_.protocol.blocks.size())
+        ask_at(std::string(form_after_block) + state_.protocol.blocks[static_cast<std::size_t>(block)].id);
+}
+
+/// Once: a block whose trials were moved to its end, or that begins again, asks no second time.
+void Session::ask_at(const std::string& when) {
+    if (fields_asked(state_.protocol.observer_fields, when).empty() ||
+        std::ranges::find(forms_done_, when) != forms_done_.end())
+        return;
+    state_.enter(SessionPhase::rest);
+    if (fill_in_form(state_, control_, fields_, when))
+        forms_done_.push_back(when);
 }
 
 void Session::farewell() {
@@ -101,6 +133,7 @@ void Session::run_step(TrialQueue& queue, const SessionStep& step, SessionResult
     case SessionStep::Kind::trial:
         break;
     }
+    block_ = step.trial.block;
     TrialRun::Attempt attempt = trials_.run(step.trial, queue.expected(), false);
     judge(queue, step.trial, attempt);
     state_.record().trial_finished(step.trial, attempt.outcome);

@@ -49,6 +49,8 @@ class Session {
     void run_break();
     void judge(TrialQueue& queue, const Trial& trial, TrialRun::Attempt& attempt);
     void farewell();
+    void ask_after_block(int block);
+    void ask_at(const std::string& when);
 
     const Schedule& schedule_;
     SessionPorts ports_;
@@ -56,6 +58,8 @@ class Session {
     OperatorControl control_;
     TrialRun trials_;
     FieldValues fields_;
+    std::vector<std::string> forms_done_; ///< parts of the form that are in the record already
+    int block_ = -1;                      ///< of the last trial
 };
 
 } // namespace overt

@@ -1,12 +1,10 @@
 #include "experiment/session/session_opening.h"
 
-#include <algorithm>
-
 #include <fmt/format.h>
 
 #include "experiment/base/content_hash.h"
 #include "experiment/ports/event_kinds.h"
-#include "experiment/session/observer_form.h"
+#include "experiment/session/form_filling.h"
 #include "experiment/session/session_screens.h"
 
 namespace overt {
@@ -29,7 +27,8 @@ bool read_text(SessionState& state, OperatorControl& control, const std::string&
 }
 
 void SessionOpening::run(bool is_known) {
-    if (!is_known && (!ask_for_consent() || !fill_in_form()))
+    if (!is_known &&
+        (!ask_for_consent() || !fill_in_form(state_, control_, fields_, std::string(form_at_begin))))
         return;
     if (read_text(state_, control_, state_.protocol.screens.welcome_text, "welcome"))
         read_instructions();
@@ -56,43 +55,6 @@ bool SessionOpening::ask_for_consent() {
                                                     : "nobody agreed to take part");
         return accepted;
     }
-}
-
-bool SessionOpening::fill_in_form() {
-    const std::vector<ObserverFieldSettings>& fields = state_.protocol.observer_fields;
-    const bool is_full =
-        std::none_of(fields_.begin(), fields_.end(), [](const auto& value) { return value.empty(); });
-    if (fields.empty())
-        return true;
-    if (!is_full && state_.ports.can_type) {
-        ObserverForm form(fields, fields_, state_.protocol.words);
-        const auto show = [&] { state_.ports.panel.await_entry(state_.show(form.screen())); };
-        show();
-        for (bool is_submitted = false; !is_submitted;) {
-            bool is_changed = false;
-            while (const std::optional<ResponsePress> press = state_.ports.panel.poll()) {
-                if (is_operators(press->key)) {
-                    if (!control_.act_on(*press))
-                        return false;
-                    show();
-                } else if (form.take(*press)) {
-                    is_submitted = true;
-                    break;
-                }
-                is_changed = true;
-            }
-            if (state_.ends_by_itself())
-                return false;
-            // Several keys in one look: drawn once. Presses that come while it is drawn are kept.
-            if (is_changed && !is_submitted)
-                state_.show(form.screen());
-            if (!is_changed)
-                state_.ports.clock.wait_until(state_.now() + key_interval);
-        }
-        fields_ = form.values();
-    }
-    state_.log().observer_fields(filled_in(fields, fields_));
-    return true;
 }
 
 void SessionOpening::read_instructions() {

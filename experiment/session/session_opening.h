@@ -7,9 +7,9 @@ namespace overt {
 
 class SessionOpening {
   public:
-    /// Both must outlive this. `fields`: what of the form is filled in already.
-    SessionOpening(SessionState& state, OperatorControl& control, FieldValues fields)
-        : state_(state), control_(control), fields_(std::move(fields)) {}
+    /// All must outlive this. `fields`: what of the form is filled in already, and then.
+    SessionOpening(SessionState& state, OperatorControl& control, FieldValues& fields)
+        : state_(state), control_(control), fields_(fields) {}
 
     /// Until calibration may begin, or the session is over. Of an observer who declines nothing else is
     /// recorded. `is_known`: consent and form are in the record already.
@@ -17,12 +17,11 @@ class SessionOpening {
 
   private:
     bool ask_for_consent();
-    bool fill_in_form();
     void read_instructions();
 
     SessionState& state_;
     OperatorControl& control_;
-    FieldValues fields_;
+    FieldValues& fields_;
 };
 
 /// Shows a text until a key is pressed, however long that takes, and notes `what` it was; nothing where the

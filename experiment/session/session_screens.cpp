@@ -1,5 +1,6 @@
 #include "experiment/session/session_screens.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -159,8 +160,14 @@ std::vector<std::pair<std::string, Screen>> all_of(const Protocol& protocol) {
             all.emplace_back(std::move(name), std::move(screen));
     };
     add("consent", consent(protocol));
-    if (!protocol.observer_fields.empty())
-        add("form", ObserverForm(protocol.observer_fields, {}, protocol.words).screen());
+    for (const std::string& when : moments_asked(protocol.observer_fields)) {
+        const std::vector<ObserverFieldSettings> fields = fields_asked(protocol.observer_fields, when);
+        const std::string block = when.substr(std::min(when.size(), form_after_block.size()));
+        add(when == form_at_begin ? "form"
+            : when == form_at_end ? "form_end"
+                                  : "form_after_" + block,
+            ObserverForm(fields, {}, protocol.words).screen());
+    }
     add("welcome", text(protocol, protocol.screens.welcome_text));
     for (std::size_t page = 0; page < protocol.instructions.pages.size(); ++page)
         add(fmt::format("instructions_{}", page + 1), instructions(protocol, page));

@@ -93,6 +93,36 @@ void put_text(InkCanvas& canvas, const std::string& text, const TextStyle& style
     cairo_restore(cairo);
 }
 
+void put_caret(InkCanvas& canvas, const std::string& text, const TextStyle& style, glm::ivec2 top_left_px,
+               std::size_t before_byte) {
+    require_utf8(text);
+    const Layout layout = lay_out(canvas.cairo(), text, style);
+    PangoRectangle extent{}, strong{};
+    pango_layout_get_pixel_extents(layout.get(), nullptr, &extent);
+    pango_layout_get_cursor_pos(layout.get(), static_cast<int>(std::min(before_byte, text.size())), &strong,
+                                nullptr);
+    const double x = top_left_px.x + 2 - extent.x + static_cast<double>(strong.x) / PANGO_SCALE,
+                 y = top_left_px.y + 2 - extent.y + static_cast<double>(strong.y) / PANGO_SCALE;
+    canvas.line({x, y}, {x, y + static_cast<double>(strong.height) / PANGO_SCALE}, 1.0,
+                std::max(1.0, style.line_height_px / 12.0));
+}
+
+TextPart lines_around(const std::string& text, const TextStyle& style, std::size_t byte, int lines) {
+    require_utf8(text);
+    InkCanvas measuring({1, 1});
+    const Layout layout = lay_out(measuring.cairo(), text, style);
+    const int count = pango_layout_get_line_count(layout.get());
+    int here = 0;
+    pango_layout_index_to_line_x(layout.get(), static_cast<int>(std::min(byte, text.size())), FALSE, &here,
+                                 nullptr);
+    const int last = std::max(here, std::min(count, lines) - 1), first = std::max(0, last + 1 - lines);
+    const auto begin_of = [&](int line) {
+        return static_cast<std::size_t>(pango_layout_get_line_readonly(layout.get(), line)->start_index);
+    };
+    const PangoLayoutLine* const end = pango_layout_get_line_readonly(layout.get(), last);
+    return {begin_of(first), static_cast<std::size_t>(end->start_index + end->length)};
+}
+
 LinearImage draw_text(const std::string& text, const TextStyle& style) {
     InkCanvas canvas(measure_text(text, style).size_px);
     put_text(canvas, text, style, {0, 0});

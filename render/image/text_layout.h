@@ -41,6 +41,19 @@ LinearImage draw_text(const std::string& text, const TextStyle& style);
 void put_text(InkCanvas& canvas, const std::string& text, const TextStyle& style, glm::ivec2 top_left_px,
               double strength = 1.0);
 
+/// A line before the letter that begins at this byte of a text that put_text() would put there, also of an
+/// empty one.
+void put_caret(InkCanvas& canvas, const std::string& text, const TextStyle& style, glm::ivec2 top_left_px,
+               std::size_t before_byte);
+
+/// Some bytes of a text: `begin` … `end` - 1.
+struct TextPart {
+    std::size_t begin = 0, end = 0;
+};
+/// So many lines of a text as it is wrapped, with the one in which this byte stands; as many as there are, if
+/// there are no more. Throws InputError if the text is not UTF-8.
+TextPart lines_around(const std::string& text, const TextStyle& style, std::size_t byte, int lines);
+
 /// Writes a line over a picture, as large as it has room for: `bottom_px` is the middle of its lower edge.
 /// On a dark band, so that it is read on any picture.
 void write_on(LinearImage& picture, const std::string& text, glm::ivec2 bottom_px);

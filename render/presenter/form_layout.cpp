@@ -1,6 +1,8 @@
 #include "render/presenter/form_layout.h"
 
 #include <algorithm>
+#include <string>
+#include <utility>
 
 namespace overt {
 
@@ -36,7 +38,9 @@ FormLayout::FormLayout(std::span<const FormRow> rows, const TextStyle& style)
     // Choices stand in one line if there is room for them.
     for (const FormRow& row : rows_) {
         int all = 0;
-        for (const std::string& choice : row.choices)
+        std::vector<std::string> shown = row.choices;
+        shown.insert(shown.end(), row.ends.begin(), row.ends.end());
+        for (const std::string& choice : shown)
             all += measure_text(choice, style_).size_px.x + 3 * ems(chip_padding);
         value_px_ = std::clamp(all, value_px_, std::max(value_px_, inner - label_px_ - ems(column_gap)));
     }
@@ -61,7 +65,15 @@ FormLayout::FormLayout(std::span<const FormRow> rows, const TextStyle& style)
 void FormLayout::place_chips(const FormRow& row, RowPlace& place) {
     const int padding = static_cast<int>(chip_padding * em_px_);
     int start = 0, line = 0;
-    for (const std::string& choice : row.choices) {
+    // A scale's words stand before its first step and after its last.
+    std::vector<std::pair<std::string, bool>> shown;
+    if (!row.ends.empty())
+        shown.emplace_back(row.ends.front(), true);
+    for (const std::string& choice : row.choices)
+        shown.emplace_back(choice, false);
+    if (row.ends.size() > 1)
+        shown.emplace_back(row.ends.back(), true);
+    for (const auto& [choice, is_end] : shown) {
         const TextMeasure measure = measure_text(choice, value_style_);
         unknown_glyphs_ += measure.unknown_glyphs;
         const int width = measure.size_px.x + 2 * padding;
@@ -69,7 +81,7 @@ void FormLayout::place_chips(const FormRow& row, RowPlace& place) {
             start = 0;
             ++line;
         }
-        place.chips.push_back({choice, start, line * line_px_ * 5 / 4, width});
+        place.chips.push_back({choice, start, line * line_px_ * 5 / 4, width, is_end});
         start += width + padding;
     }
     place.height_px = std::max(place.height_px, line * line_px_ * 5 / 4 + line_px_);
@@ -110,10 +122,11 @@ void FormLayout::put_value(InkCanvas& canvas, const FormRow& row, const RowPlace
         const int left = corner.x + left_of(column + chip.start_px, chip.width_px);
         const InkBox box{static_cast<double>(left), static_cast<double>(top + chip.top_px),
                          static_cast<double>(chip.width_px), static_cast<double>(line_px_)};
-        const bool is_chosen = chip.text == row.value;
+        const bool is_chosen = !chip.is_end && chip.text == row.value;
         if (is_chosen)
             canvas.fill(box, 0.14, 0.3 * em);
-        canvas.outline(box, is_chosen ? 1.0 : 0.35, is_chosen ? 2.0 * line : line, 0.3 * em);
+        if (!chip.is_end)
+            canvas.outline(box, is_chosen ? 1.0 : 0.35, is_chosen ? 2.0 * line : line, 0.3 * em);
         put_text(canvas, chip.text, value_style_,
                  {left + static_cast<int>(chip_padding * em), top + chip.top_px}, is_chosen ? 1.0 : 0.75);
     }

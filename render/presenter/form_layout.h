@@ -25,6 +25,7 @@ class FormLayout {
     struct Chip {
         std::string text;
         int start_px = 0, top_px = 0, width_px = 0;
+        bool is_end = false; ///< of a scale: words, not a choice
     };
     struct RowPlace {
         int top_px = 0, height_px = 0;

@@ -159,8 +159,9 @@ void PagePresenter::expect_slots(std::span<const PlacedStimulus> shown) noexcept
     }
 }
 
-void PagePresenter::clear_picture() noexcept {
-    blit(context_->gl(), background_, picture_, {0, 0}, {0, 0}, geometry_.screen_px);
+void PagePresenter::clear_picture(bool for_stimulus) noexcept {
+    blit(context_->gl(), for_stimulus ? around_stimuli() : background_, picture_, {0, 0}, {0, 0},
+         geometry_.screen_px);
     is_stimulus_on_canvas_ = false;
     for (InSlot& slot : in_slots_)
         slot.page_on_canvas = -1;
@@ -168,14 +169,14 @@ void PagePresenter::clear_picture() noexcept {
 
 void PagePresenter::put_page(InSlot& slot, int page) noexcept {
     if (!is_stimulus_on_canvas_)
-        clear_picture();
+        clear_picture(true);
     is_stimulus_on_canvas_ = true;
     // A frame is held for several refreshes: what is there need not be drawn again.
     if (page == slot.page_on_canvas)
         return;
     const glm::ivec2 size = store_.patch().size_px;
     if (page < 0) {
-        blit(context_->gl(), background_, picture_, slot.patch_px, slot.patch_px, size);
+        blit(context_->gl(), around_stimuli(), picture_, slot.patch_px, slot.patch_px, size);
     } else {
         page_target_.attach_layer(*loaded_->textures, page);
         blit(context_->gl(), page_target_, picture_, {0, 0}, slot.patch_px, size);
@@ -275,7 +276,9 @@ FlipReport PagePresenter::show(const Screen& screen) {
     if (screen.kind == Screen::Kind::noise || screen.kind == Screen::Kind::scrambled)
         put_masks(screen);
     else if (screen.kind != Screen::Kind::blank)
-        placed = draw_screen(screen, geometry_, screens_, display_.background);
+        placed = draw_screen(screen, geometry_, screens_, display_.background, answer_pictures_);
+    targets_ = std::move(placed.targets);
+    surface_->show_pointer(screen.kind == Screen::Kind::answers && screen.answers.shows_pointer);
     if (!placed.picture.pixels.empty()) {
         // It stands on the background already.
         for (glm::vec4& pixel : placed.picture.pixels)
@@ -285,6 +288,27 @@ FlipReport PagePresenter::show(const Screen& screen) {
     put_patch(false);
     throw_on_gl_error(*context_, "drawing a screen");
     return present();
+}
+
+void PagePresenter::put_beside_stimuli(const AnswerView* answers) {
+    beside_ = {};
+    is_stimulus_on_canvas_ = false; // what stands there is drawn anew with the next flip
+    if (!answers)
+        return;
+    beside_.shows_pointer = answers->shows_pointer;
+    if (answers->items.empty() && answers->accept.empty())
+        return;
+    Screen screen{.kind = Screen::Kind::answers, .text = ""};
+    screen.answers = *answers;
+    PlacedPicture placed = draw_screen(screen, geometry_, screens_, display_.background, answer_pictures_);
+    beside_.targets = std::move(placed.targets);
+    for (glm::vec4& pixel : placed.picture.pixels)
+        pixel.w = 1.0f;
+    beside_.picture.emplace(*context_, geometry_.screen_px, encoder_.format());
+    blit(context_->gl(), background_, *beside_.picture, {0, 0}, {0, 0}, geometry_.screen_px);
+    if (!placed.picture.pixels.empty())
+        put_on(*beside_.picture, placed.picture, placed.origin_px);
+    throw_on_gl_error(*context_, "drawing answers beside a stimulus");
 }
 
 void PagePresenter::show_level(const LevelBar& bar) {
@@ -302,6 +326,8 @@ FlipReport PagePresenter::flip_slots(std::span<const AnimationFrameIndex> frames
     for (std::size_t i = 0; i < frames.size(); ++i)
         is_onset = is_onset || (frames[i].value >= 0 &&
                                 (!is_stimulus_on_canvas_ || in_slots_[i].page_on_canvas < 0));
+    if (!is_stimulus_on_canvas_)
+        surface_->show_pointer(beside_.shows_pointer);
     if (is_onset && display_.onset_trigger != 0) {
         if (has_t_lock(display_.output))
             send_with_next_flip(t_lock::outputs_row, onset_packet_);

@@ -10,6 +10,7 @@
 #include "experiment/stimulus/gaze_tags.h"
 #include "experiment/stimulus/photodiode_patch.h"
 #include "render/image/linear_image.h"
+#include "render/presenter/answer_sheet.h"
 #include "render/presenter/frame_store.h"
 #include "render/signal/display_encoder.h"
 #include "render/signal/signal_pass.h"
@@ -35,6 +36,11 @@ class PagePresenter final : public Presenter {
     void expect_slots(std::span<const PlacedStimulus> shown) noexcept override;
     void use_spare_time() noexcept override { store_.use_spare_time(); }
     FlipReport show(const Screen& screen) override;
+    void put_beside_stimuli(const AnswerView* answers) override;
+    AnswerPlace place_in_answers(double right_px, double down_px) const noexcept override {
+        return place_among(is_stimulus_on_canvas_ ? beside_.targets : targets_,
+                           0.5 * glm::dvec2(geometry_.screen_px) + glm::dvec2(right_px, down_px));
+    }
     void show_level(const LevelBar& bar) override;
     FlipReport flip_slots(std::span<const AnimationFrameIndex> frames) noexcept override;
     void raise_with_next_flip(std::uint16_t outputs, double pulse_ms) noexcept override {
@@ -70,7 +76,7 @@ class PagePresenter final : public Presenter {
     bool is_interrupted() const noexcept { return interrupted_ && interrupted_->load(); }
     const Framebuffer& canvas() const { return signal_ ? *signal_ : picture_; }
     void check_depth() const;
-    void clear_picture() noexcept;
+    void clear_picture(bool for_stimulus = false) noexcept;
     /// A loaded stimulus in its slot.
     struct InSlot {
         std::size_t stimulus = 0; ///< of the stored ones
@@ -110,6 +116,16 @@ class PagePresenter final : public Presenter {
     std::optional<Framebuffer> veil_;
     FrameStore store_;
     Framebuffer page_target_;
+    AnswerPictures answer_pictures_;
+    std::vector<AnswerTarget> targets_; ///< of the answers that are shown
+    /// What stands around stimuli, if answers are given there: the background with them on it.
+    struct Beside {
+        std::optional<Framebuffer> picture;
+        std::vector<AnswerTarget> targets;
+        bool shows_pointer = false;
+    };
+    Beside beside_;
+    const Framebuffer& around_stimuli() const { return beside_.picture ? *beside_.picture : background_; }
     std::vector<glm::ivec2> slots_px_;
     const StoredStimuli* loaded_ = nullptr; ///< null: nothing
     std::vector<PlacedStimulus> shown_;     ///< what is loaded

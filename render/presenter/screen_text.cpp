@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "render/image/text_markup.h"
+#include "render/presenter/answer_layout.h"
 #include "render/presenter/form_layout.h"
 #include "render/presenter/validation_layout.h"
 
@@ -19,7 +20,7 @@ namespace {
 
 // Shares of the screen's size. What stands in the middle ends above the keys, and these above the meter.
 constexpr double safe_width = 0.8, highest = 0.05, lowest = 0.79, keys_middle = 0.86, pages_middle = 0.93;
-constexpr double widest_keys = 0.9;
+constexpr double widest_keys = 0.9, lowest_answer = 0.93;
 constexpr double frame_inset = 0.025;
 constexpr double meter_width = 0.2, meter_height = 0.05; // a text's margin below is a twentieth of the screen
 
@@ -53,7 +54,8 @@ TextStyle scaled(TextStyle style, double factor) {
 /// The parts of a screen above each other, for one size of letters.
 class Middle {
   public:
-    Middle(const Screen& screen, const ScreenGeometry& geometry, const TextStyle& letters)
+    Middle(const Screen& screen, const ScreenGeometry& geometry, const TextStyle& letters,
+           AnswerPictures& pictures)
         : words_(split_title(screen.text)), body_(letters), title_(scaled(letters, title_size)),
           below_(scaled(letters, form_size)) {
         const int widest = static_cast<int>(safe_width * geometry.screen_px.x);
@@ -80,13 +82,27 @@ class Middle {
             body_.centred = centred.longest_paragraph <= 2;
             add(centred, body_height_px_);
         }
+        if (screen.kind == Screen::Kind::answers) {
+            answers_.emplace(lay_out_answers(screen.answers, {letters, widest / 2 * 2, &pictures}));
+            TextMeasure measure;
+            measure.size_px = answers_->size_px;
+            measure.widest_line_px = answers_->size_px.x;
+            measure.unknown_glyphs = answers_->unknown_glyphs;
+            measure.lines = 1;
+            int height = 0;
+            add(measure, height);
+            up_px_ = screen.answers.up_deg
+                         ? std::optional(*screen.answers.up_deg * geometry.px_per_deg_at_centre())
+                         : std::nullopt;
+        }
     }
 
     const TextMeasure& measure() const { return measure_; }
 
-    void put_on(InkCanvas& canvas, const Rows& rows) const {
+    void put_on(InkCanvas& canvas, const Rows& rows) {
         const glm::ivec2 screen = canvas.size_px();
-        int top = std::min((screen.y - measure_.size_px.y) / 2, rows.end - measure_.size_px.y);
+        const int up = static_cast<int>(up_px_.value_or(0.0));
+        int top = std::min((screen.y - measure_.size_px.y) / 2 - up, rows.end - measure_.size_px.y);
         top = std::max(top, rows.first);
         if (!words_.title.empty()) {
             put_centred(canvas, words_.title, title_, top);
@@ -99,7 +115,22 @@ class Middle {
                 put_centred(canvas, words_.body, below_, top);
         } else if (!words_.body.empty()) {
             put_centred(canvas, words_.body, body_, top);
+            top += body_height_px_ + gap_px_;
         }
+        if (answers_) {
+            answers_corner_px_ = {(screen.x - answers_->size_px.x) / 2, top};
+            answers_->put_on(canvas, answers_corner_px_);
+        }
+    }
+
+    /// Of answers, once they were put there: what else is to be drawn, and what can be touched.
+    void finish(PlacedPicture& placed, float grey, float background, AnswerPictures& pictures) const {
+        if (!answers_)
+            return;
+        answers_->colour(placed.picture, placed.origin_px, answers_corner_px_, grey, background, pictures);
+        AnswerSheet on_screen;
+        on_screen.add(*answers_, answers_corner_px_);
+        placed.targets = std::move(on_screen.targets);
     }
 
   private:
@@ -122,6 +153,9 @@ class Middle {
     TitledText words_;
     TextStyle body_, title_, below_;
     std::optional<FormLayout> form_;
+    std::optional<AnswerSheet> answers_;
+    glm::ivec2 answers_corner_px_{0};
+    std::optional<double> up_px_; ///< of the middle of all of it, from the middle of the screen
     TextMeasure measure_;
     int gap_px_ = 0, title_height_px_ = 0, body_height_px_ = 0;
 };
@@ -275,6 +309,9 @@ class Surroundings {
     Rows middle() const {
         const int gap = screen_px_.y / 100;
         Rows rows{static_cast<int>(highest * screen_px_.y), static_cast<int>(lowest * screen_px_.y)};
+        // Below answers there is nothing but keys and how far this is.
+        if (screen_->kind == Screen::Kind::answers && !keys_ && screen_->pages <= 1)
+            rows.end = static_cast<int>(lowest_answer * screen_px_.y);
         if (frame_)
             rows.first = std::max(rows.first, frame_->end() + gap);
         if (keys_)
@@ -308,16 +345,16 @@ class Surroundings {
 };
 
 ScreenTextFit fit_middle(const Screen& screen, const ScreenGeometry& geometry, double text_height_deg,
-                         const Rows& rows) {
+                         const Rows& rows, AnswerPictures& pictures) {
     TextStyle style = style_of(geometry, text_height_deg);
     const int wanted = style.line_height_px, most = rows.end - rows.first;
-    TextMeasure measure = Middle(screen, geometry, style).measure();
+    TextMeasure measure = Middle(screen, geometry, style, pictures).measure();
     const auto is_too_large = [&] {
         return measure.size_px.y > most || measure.size_px.x > geometry.screen_px.x;
     };
     while (is_too_large() && style.line_height_px > smallest_line_px) {
         style.line_height_px = std::max(smallest_line_px, style.line_height_px * 9 / 10);
-        measure = Middle(screen, geometry, style).measure();
+        measure = Middle(screen, geometry, style, pictures).measure();
     }
     return {measure, style.line_height_px, style.line_height_px < wanted, !is_too_large()};
 }
@@ -325,12 +362,19 @@ ScreenTextFit fit_middle(const Screen& screen, const ScreenGeometry& geometry, d
 } // namespace
 
 ScreenTextFit fit_screen(const Screen& screen, const ScreenGeometry& geometry, double text_height_deg) {
+    AnswerPictures pictures;
     return fit_middle(screen, geometry, text_height_deg,
-                      Surroundings(screen, geometry, text_height_deg).middle());
+                      Surroundings(screen, geometry, text_height_deg).middle(), pictures);
 }
 
 PlacedPicture draw_screen(const Screen& screen, const ScreenGeometry& geometry, const ScreenSettings& screens,
                           double background) {
+    AnswerPictures pictures;
+    return draw_screen(screen, geometry, screens, background, pictures);
+}
+
+PlacedPicture draw_screen(const Screen& screen, const ScreenGeometry& geometry, const ScreenSettings& screens,
+                          double background, AnswerPictures& pictures) {
     const auto grey = static_cast<float>(screens.text_grey), behind = static_cast<float>(background);
     if (screen.kind == Screen::Kind::target)
         return draw_target(screen, geometry, grey, behind);
@@ -340,12 +384,14 @@ PlacedPicture draw_screen(const Screen& screen, const ScreenGeometry& geometry, 
     const Rows rows = surroundings.middle();
     TextStyle style = style_of(geometry, screens.text_height_deg);
     InkCanvas canvas(geometry.screen_px);
+    std::optional<Middle> middle;
     if (screen.kind == Screen::Kind::validation) {
         put_validation(canvas, lay_out_validation(screen, geometry.screen_px, rows.first, rows.end, style));
     } else if (screen.kind != Screen::Kind::camera) {
-        style.line_height_px = fit_middle(screen, geometry, screens.text_height_deg, rows).line_height_px;
-        const Middle middle(screen, geometry, style);
-        middle.put_on(canvas, rows);
+        style.line_height_px =
+            fit_middle(screen, geometry, screens.text_height_deg, rows, pictures).line_height_px;
+        middle.emplace(screen, geometry, style, pictures);
+        middle->put_on(canvas, rows);
     }
     surroundings.put_on(canvas,
                         begins_at_the_right(screen.rows.empty() ? screen.text : screen.rows.front().label));
@@ -357,6 +403,8 @@ PlacedPicture draw_screen(const Screen& screen, const ScreenGeometry& geometry, 
         return placed;
     }
     placed.picture = canvas.tinted_ink(grey, behind, placed.origin_px);
+    if (middle)
+        middle->finish(placed, grey, behind, pictures);
     return placed;
 }
 

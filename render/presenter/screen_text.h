@@ -11,6 +11,7 @@
 #include "render/image/ink_canvas.h"
 #include "render/image/linear_image.h"
 #include "render/image/text_layout.h"
+#include "render/presenter/answer_sheet.h"
 
 namespace overt {
 
@@ -33,10 +34,16 @@ ScreenTextFit fit_screen(const Screen& screen, const ScreenGeometry& geometry, d
 struct PlacedPicture {
     LinearImage picture;
     glm::ivec2 origin_px{0};
-    std::vector<InkBox> texts = {}; ///< where each text of it stands on the screen
+    std::vector<InkBox> texts = {};         ///< where each text of it stands on the screen
+    std::vector<AnswerTarget> targets = {}; ///< of answers, on the screen
 };
 
-/// The screen as it is shown, in the grey of the texts on the display's background.
+/// The screen as it is shown, in the grey of the texts on the display's background. `pictures`: of choices,
+/// as they were read already. Throws InputError for a text that is not UTF-8 and a picture that cannot be
+/// read.
+PlacedPicture draw_screen(const Screen& screen, const ScreenGeometry& geometry, const ScreenSettings& screens,
+                          double background, AnswerPictures& pictures);
+/// The same, reading them.
 PlacedPicture draw_screen(const Screen& screen, const ScreenGeometry& geometry, const ScreenSettings& screens,
                           double background);
 

@@ -20,6 +20,9 @@ class DisplaySurface {
     virtual FlipReport present(const Framebuffer& canvas) noexcept = 0;
     virtual bool closed() const noexcept = 0;
 
+    /// Whether the mouse's pointer is seen, where there is one that would be hidden.
+    virtual void show_pointer(bool /*is_shown*/) noexcept {}
+
     /// See Presenter::take_swap_modes().
     virtual std::optional<SwapModes> take_swap_modes() noexcept { return {}; }
 
@@ -77,6 +80,7 @@ class WindowDisplay final : public DisplaySurface {
     std::optional<SwapModes> take_swap_modes() noexcept override {
         return watch_ ? watch_->take() : std::nullopt;
     }
+    void show_pointer(bool is_shown) noexcept override { window_->show_pointer(is_shown); }
     bool closed() const noexcept override {
         return window_->close_requested() || window_->disturbance() != WindowDisturbance::none;
     }

@@ -19,6 +19,9 @@ struct WindowContext::State {
     // A ring, so that a key pressed in the middle of a presentation allocates nothing.
     std::array<WindowKeyPress, 64> presses{};
     std::size_t first = 0, count = 0;
+    WindowInputs inputs;
+    glm::ivec2 window_size{1}, framebuffer_px{1};
+    bool is_pointer_shown = true;
     glm::dvec2 pointer_px{0.0}, pressed_px{0.0};
     Dragging dragging;
     // What is held still, and what became of it.
@@ -42,8 +45,21 @@ struct WindowContext::State {
 
     static void on_size(GLFWwindow* window, int width, int height) {
         auto& state = *static_cast<State*>(glfwGetWindowUserPointer(window));
+        state.framebuffer_px = {width, height};
         if (glm::ivec2(width, height) != state.held_framebuffer_px)
             state.disturb(WindowDisturbance::resized);
+    }
+
+    static void on_window_size(GLFWwindow* window, int width, int height) {
+        static_cast<State*>(glfwGetWindowUserPointer(window))->window_size = {width, height};
+    }
+
+    /// Where the pointer is, in pixels of the framebuffer: the desktop's own units may be larger. Half a
+    /// pixel more, since X tells the number of the pixel that the pointer is in.
+    glm::dvec2 from_middle_px() const {
+        const glm::dvec2 scale =
+            glm::dvec2(framebuffer_px) / glm::dvec2(glm::max(window_size, glm::ivec2(1)));
+        return pointer_px * scale + 0.5 - 0.5 * glm::dvec2(framebuffer_px);
     }
 
     static void on_position(GLFWwindow* window, int x, int y) {
@@ -70,6 +86,8 @@ struct WindowContext::State {
     static void on_focus(GLFWwindow* window, int has_it) {
         auto& state = *static_cast<State*>(glfwGetWindowUserPointer(window));
         state.has_lost_focus = has_it == GLFW_FALSE;
+        if (state.has_lost_focus)
+            state.inputs.push({.kind = ObserverInput::Kind::let_go});
         state.is_down.reset(); // what is let go elsewhere is not told
     }
 
@@ -78,13 +96,20 @@ struct WindowContext::State {
         if (glfwGetMouseButton(window, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS)
             state.dragging.by_px += glm::dvec2(x, y) - state.pointer_px;
         state.pointer_px = {x, y};
+        state.inputs.push(
+            {.kind = ObserverInput::Kind::pointer_moved, .from_middle_px = state.from_middle_px()});
     }
 
     static void on_button(GLFWwindow* window, int button, int action, int) {
+        auto& state = *static_cast<State*>(glfwGetWindowUserPointer(window));
+        constexpr int left_middle_right[] = {1, 3, 2}; // by GLFW's numbers
+        state.inputs.push({.kind = action == GLFW_PRESS ? ObserverInput::Kind::pointer_down
+                                                        : ObserverInput::Kind::pointer_up,
+                           .from_middle_px = state.from_middle_px(),
+                           .button = button < 3 ? left_middle_right[button] : button + 1});
         if (button != GLFW_MOUSE_BUTTON_LEFT)
             return;
         constexpr double least_way_px = 4.0;
-        auto& state = *static_cast<State*>(glfwGetWindowUserPointer(window));
         if (action == GLFW_PRESS)
             state.pressed_px = state.pointer_px;
         else if (glm::distance(state.pressed_px, state.pointer_px) < least_way_px &&
@@ -93,7 +118,10 @@ struct WindowContext::State {
     }
 
     static void on_wheel(GLFWwindow* window, double, double steps) {
-        static_cast<State*>(glfwGetWindowUserPointer(window))->dragging.wheel_steps += steps;
+        auto& state = *static_cast<State*>(glfwGetWindowUserPointer(window));
+        state.dragging.wheel_steps += steps;
+        state.inputs.push(
+            {.kind = ObserverInput::Kind::wheel, .from_middle_px = state.from_middle_px(), .steps = steps});
     }
 
     void push(const WindowKeyPress& press) {
@@ -114,6 +142,11 @@ struct WindowContext::State {
     static void on_key(GLFWwindow* window, int key, int code, int action, int modifiers) {
         auto& state = *static_cast<State*>(glfwGetWindowUserPointer(window));
         const bool was_down = state.set_down(code, action != GLFW_RELEASE);
+        if (action == GLFW_RELEASE || (action == GLFW_PRESS && !was_down))
+            state.inputs.push(
+                {.kind = action == GLFW_RELEASE ? ObserverInput::Kind::key_up : ObserverInput::Kind::key_down,
+                 .code = code,
+                 .glfw_key = key});
         if (action == GLFW_RELEASE)
             return;
         state.last_key = {
@@ -128,6 +161,7 @@ struct WindowContext::State {
         written.key = WindowKey::character;
         written.character = static_cast<char32_t>(character);
         state.push(written);
+        state.inputs.push({.kind = ObserverInput::Kind::text, .character = written.character});
     }
 };
 
@@ -169,7 +203,10 @@ WindowContext::WindowContext(const WindowRequest& request) : state_(std::make_un
             glfwShowWindow(state_->window);
     }
     glfwSetWindowUserPointer(state_->window, state_.get());
+    glfwGetWindowSize(state_->window, &state_->window_size.x, &state_->window_size.y);
+    state_->framebuffer_px = framebuffer_px();
     glfwSetFramebufferSizeCallback(state_->window, &State::on_size);
+    glfwSetWindowSizeCallback(state_->window, &State::on_window_size);
     glfwSetWindowPosCallback(state_->window, &State::on_position);
     glfwSetWindowFocusCallback(state_->window, &State::on_focus);
     glfwSetKeyCallback(state_->window, &State::on_key);
@@ -178,8 +215,7 @@ WindowContext::WindowContext(const WindowRequest& request) : state_(std::make_un
     glfwSetCursorPosCallback(state_->window, &State::on_pointer);
     glfwSetMouseButtonCallback(state_->window, &State::on_button);
     glfwSetScrollCallback(state_->window, &State::on_wheel);
-    if (request.fullscreen)
-        glfwSetInputMode(state_->window, GLFW_CURSOR, GLFW_CURSOR_HIDDEN);
+    show_pointer(false);
     make_current();
     load_functions(glfwGetProcAddress, ContextKind::window, "GLFW window");
     if (framebuffer_px() != request.size_px) {
@@ -221,6 +257,20 @@ bool WindowContext::next_key_press(WindowKeyPress& press) noexcept {
     state_->first = (state_->first + 1) % state_->presses.size();
     --state_->count;
     return true;
+}
+
+bool WindowContext::next_input(WindowInput& input) noexcept { return state_->inputs.next(input); }
+
+void WindowContext::show_pointer(bool is_shown) noexcept {
+    if (is_shown == state_->is_pointer_shown || !is_fullscreen())
+        return;
+    state_->is_pointer_shown = is_shown;
+    const glm::dvec2 size(state_->window_size);
+    glm::dvec2 at(0.0);
+    glfwGetCursorPos(state_->window, &at.x, &at.y);
+    if (is_shown && (at.x < 0.0 || at.y < 0.0 || at.x >= size.x || at.y >= size.y))
+        glfwSetCursorPos(state_->window, 0.5 * size.x, 0.5 * size.y);
+    glfwSetInputMode(state_->window, GLFW_CURSOR, is_shown ? GLFW_CURSOR_NORMAL : GLFW_CURSOR_HIDDEN);
 }
 
 WindowContext::Dragging WindowContext::take_dragging() noexcept {

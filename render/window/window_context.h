@@ -12,6 +12,7 @@
 
 #include "render/gl/gl_context.h"
 #include "render/window/native_window.h"
+#include "render/window/window_inputs.h"
 
 namespace overt {
 
@@ -122,7 +123,14 @@ class WindowContext final : public GlContext {
     /// Takes pending events; key presses are queued for next_key_press().
     void poll_events() noexcept;
     bool next_key_press(WindowKeyPress& press) noexcept;
+    /// Presses, releases, characters, the pointer: beside the presses of next_key_press(), and in their
+    /// order.
+    bool next_input(WindowInput& input) noexcept;
     bool close_requested() const noexcept;
+
+    /// Whether a full screen shows the mouse's pointer; it does not, until it is told. A pointer that is
+    /// elsewhere then comes to the middle of the window. A window that is no full screen always shows it.
+    void show_pointer(bool is_shown) noexcept;
 
     /// It had the keyboard, and another window has it now; as of poll_events().
     bool has_lost_focus() const noexcept;

@@ -1,6 +1,9 @@
 #include "render/window/window_keys.h"
 
+#include <algorithm>
+#include <array>
 #include <cctype>
+#include <charconv>
 #include <string_view>
 #include <utility>
 
@@ -88,21 +91,31 @@ WindowKey window_key_of(int key, int modifiers) noexcept {
 }
 
 std::string key_name(const WindowKeyPress& press) {
-    const int key = press.glfw_key;
+    return std::string(key_name_of(press.glfw_key, press.code).view());
+}
+
+ShortName key_name_of(int key, int code) noexcept {
     for (const auto& [number, name] : called)
         if (number == key)
-            return std::string(name);
+            return name;
+    const auto numbered = [](std::string_view words, int number) {
+        std::array<char, ShortName::capacity> name{};
+        char* const end = std::copy(words.begin(), words.end(), name.begin());
+        return ShortName({name.data(), std::to_chars(end, name.data() + name.size(), number).ptr});
+    };
     if (key >= GLFW_KEY_F1 && key <= GLFW_KEY_F25)
-        return fmt::format("f{}", 1 + key - GLFW_KEY_F1);
+        return numbered("f", 1 + key - GLFW_KEY_F1);
     if (key >= GLFW_KEY_KP_0 && key <= GLFW_KEY_KP_9)
-        return fmt::format("keypad {}", key - GLFW_KEY_KP_0);
-    const char* const written = glfwGetKeyName(key, press.code);
+        return numbered("keypad ", key - GLFW_KEY_KP_0);
+    const char* const written = glfwGetKeyName(key, code);
     if (written && *written)
-        return written;
+        return ShortName(written);
     // Of the layout of an American keyboard, where nothing is known of this one's.
-    if (key > GLFW_KEY_SPACE && key <= GLFW_KEY_GRAVE_ACCENT)
-        return std::string(1, static_cast<char>(std::tolower(key)));
-    return fmt::format("scancode {}", press.code);
+    if (key > GLFW_KEY_SPACE && key <= GLFW_KEY_GRAVE_ACCENT) {
+        const char letter = static_cast<char>(std::tolower(key));
+        return ShortName({&letter, 1});
+    }
+    return numbered("scancode ", code);
 }
 
 std::string modifier_names(const WindowKeyPress& press) {

@@ -149,6 +149,43 @@ void WindowResponsePanel::look() noexcept {
     focus_changes_[focus_change_count_++] = {looked_, is_focus_lost_};
 }
 
+namespace {
+/// Where another device answers, the keyboard still writes words and numbers.
+bool edits(int glfw_key) noexcept {
+    constexpr std::string_view editing[] = {"enter",  "keypad enter", "tab", "backspace",
+                                            "delete", "home",         "end"};
+    const ShortName name = key_name_of(glfw_key, 0);
+    return std::ranges::find(editing, name.view()) != std::end(editing);
+}
+} // namespace
+
+bool WindowResponsePanel::is_operators_key(int glfw_key) const noexcept {
+    const WindowKeyPress press{window_key_of(glfw_key, 0)};
+    return std::ranges::any_of(operators_, [&](const auto& one) { return one.first.is(press); });
+}
+
+std::optional<ObserverInput> WindowResponsePanel::next_input() noexcept {
+    using Kind = ObserverInput::Kind;
+    for (WindowInput told; awaited_ == Awaited::answer && window_->next_input(told);) {
+        const bool is_key = told.kind == Kind::key_down || told.kind == Kind::key_up;
+        if (is_key && (is_operators_key(told.glfw_key) || !(answers_ || edits(told.glfw_key))))
+            continue;
+        const bool is_mouse = told.kind == Kind::pointer_moved || told.kind == Kind::pointer_down ||
+                              told.kind == Kind::pointer_up || told.kind == Kind::wheel;
+        ObserverInput input{.kind = told.kind, .at = looked_, .uncertainty = looked_ - looked_before_};
+        input.device = ShortName(is_mouse ? mouse_device : keyboard_device);
+        if (is_key)
+            input.key = key_name_of(told.glfw_key, told.code);
+        input.character = told.character;
+        input.right_px = told.from_middle_px.x;
+        input.down_px = told.from_middle_px.y;
+        input.button = told.button;
+        input.steps = told.steps;
+        return input;
+    }
+    return answering_ ? answering_->next_input() : std::nullopt;
+}
+
 void WindowResponsePanel::write_down(SessionLog& log) {
     for (std::size_t i = 0; i < focus_change_count_; ++i)
         log.event({focus_changes_[i].at, -1, keyboard_event,
@@ -240,6 +277,8 @@ void WindowResponsePanel::await(Awaited what, SessionTime since, const Trial* tr
             kept_[kept_count_++] = *meant;
         else if (is_last_noted_)
             noted_[noted_count_ - 1].meaning.reset(); // it came too early to mean anything
+    }
+    for (WindowInput early; window_->next_input(early);) {
     }
     pressed_on_.waits_for(what);
     awaited_ = what == Awaited::response ? Awaited::key : what;

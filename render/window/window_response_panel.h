@@ -33,6 +33,7 @@ class WindowResponsePanel final : public ResponsePanel {
 
     void await(Awaited what, SessionTime since, const Trial* trial) override;
     std::optional<SetupKey> next_setup_key() override;
+    std::optional<ObserverInput> next_input() noexcept override;
     std::optional<ResponsePress> poll() noexcept override;
     std::string answer() override { return answering_ ? answering_->answer() : std::string(); }
     bool has_keyboard() const noexcept override { return !window_->has_lost_focus(); }
@@ -56,6 +57,7 @@ class WindowResponsePanel final : public ResponsePanel {
     };
 
     void look() noexcept;
+    bool is_operators_key(int glfw_key) const noexcept;
     /// The next one of the window, noted where keys are recorded.
     bool next_press(WindowKeyPress& press) noexcept;
     /// The same until one means something; what it means is noted with it.

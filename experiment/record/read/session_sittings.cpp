@@ -41,12 +41,16 @@ std::vector<RecordedConsent> SessionRecord::consents() const {
 
 std::vector<RecordedObserverField> SessionRecord::observer_fields() const {
     return reading_session(file_, [&] {
-        return read_later_rows(*database_, "observer_field",
-                               "SELECT id, title, value FROM observer_field ORDER BY n", [](Query& row) {
-                                   RecordedObserverField field;
-                                   row.read(field.id, field.title, field.value);
-                                   return field;
-                               });
+        const char* const sql =
+            has_table(*database_, "observer_form")
+                ? "SELECT f.id, title, value, COALESCE(asked, 'begin'), at_ns FROM observer_field f "
+                  "LEFT JOIN observer_form USING (id) ORDER BY n"
+                : "SELECT id, title, value, 'begin', NULL FROM observer_field ORDER BY n";
+        return read_later_rows(*database_, "observer_field", sql, [](Query& row) {
+            RecordedObserverField field;
+            row.read(field.id, field.title, field.value, field.asked, field.at);
+            return field;
+        });
     });
 }
 

@@ -30,6 +30,11 @@ void forget_sittings_from(const std::filesystem::path& session_file, int sitting
         database.exec("PRAGMA defer_foreign_keys = ON");
         database.exec("CREATE TEMP TABLE forgotten AS SELECT trial_id FROM trial WHERE sitting >= " +
                       std::to_string(sitting));
+        // Of later parts of the form it is known in which sitting they were filled in.
+        if (has_table(database, "observer_form"))
+            database.exec(fmt::format("DELETE FROM observer_field WHERE id IN (SELECT id FROM observer_form "
+                                      "WHERE asked <> 'begin' AND sitting >= {})",
+                                      sitting));
         for (const SealedTable& table : tables_to_seal(database)) {
             const char* const name = table.name.c_str();
             if (has_column(database, name, "sitting"))
@@ -38,7 +43,8 @@ void forget_sittings_from(const std::filesystem::path& session_file, int sitting
                 database.exec(
                     fmt::format("DELETE FROM {} WHERE trial_id IN (SELECT trial_id FROM forgotten)", name));
         }
-        // The form has no sitting: it is filled in before the tracker is calibrated.
+        // What is filled in at the beginning has no sitting in older sessions: it comes before the tracker is
+        // calibrated.
         if (has_table(database, "observer_field") && !was_calibrated(database))
             database.exec("DELETE FROM observer_field");
         for (const char* const table : {"seal", "sealed_table", "file_hash"})

@@ -196,6 +196,31 @@ TEST_CASE("a press at a box answers with its own time and words, and is recorded
     CHECK(devices.panel.answer() == "typed");
 }
 
+TEST_CASE("while an answer is awaited, an observer's buttons are told with both edges", "[unit]") {
+    AnsweringDevices devices;
+    devices.panel.entered(SessionPhase::response_screen, 4);
+    devices.press(devices.observers, 1); // too early
+    CHECK(devices.says_nothing());
+    devices.panel.await_answer(devices.clock.now(), nullptr);
+    devices.press(devices.observers, 1);
+    devices.press(devices.observers, 1, false);
+    devices.press(devices.operators, 1); // the operator's is not the observer's
+    CHECK(devices.says_nothing());
+    const auto down = devices.panel.next_input(), up = devices.panel.next_input();
+    REQUIRE(down);
+    REQUIRE(up);
+    CHECK(down->kind == ObserverInput::Kind::key_down);
+    CHECK(down->device.view() == "pad");
+    CHECK(down->key.view() == "B");
+    CHECK(down->uncertainty == 700us);
+    CHECK(up->kind == ObserverInput::Kind::key_up);
+    CHECK(up->at >= down->at);
+    CHECK_FALSE(devices.panel.next_input());
+    // They are recorded as ever.
+    devices.panel.write_down(devices.log);
+    CHECK(devices.log.all.size() == 4);
+}
+
 TEST_CASE("neither answers for the other", "[unit]") {
     AnsweringDevices devices;
     // The operator's question: the observer's yes is none, nor is any other of their buttons.

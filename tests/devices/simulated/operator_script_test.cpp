@@ -37,6 +37,65 @@ TEST_CASE("an operator's key is read with its phase, trial, time and answer", "[
     CHECK_THROWS_AS(read_operator_key("rest+1=abort,1", 4), InputError);
 }
 
+TEST_CASE("what answers is read: keys with how long they are held, words, the mouse", "[unit]") {
+    using Kind = ObserverInput::Kind;
+    const auto inputs = [](const std::string& words) {
+        return read_operator_key("response screen+1=" + words, 4).inputs;
+    };
+    const auto held = inputs("press 7 for 0.4");
+    REQUIRE(held.size() == 3);
+    CHECK(held[0].input.kind == Kind::key_down);
+    CHECK(held[0].input.key.view() == "7");
+    CHECK(held[1].input.character == U'7');
+    CHECK(held[2].input.kind == Kind::key_up);
+    CHECK(held[2].after == std::chrono::milliseconds(400));
+    CHECK(inputs("press left shift").size() == 2); // it writes nothing
+    const auto typed = inputs("type a ä\u05d0");
+    REQUIRE(typed.size() == 4);
+    CHECK(typed[2].input.character == U'ä');
+    CHECK(typed[3].input.character == U'\u05d0');
+    const auto clicked = inputs("click -120.5 30");
+    REQUIRE(clicked.size() == 3);
+    CHECK(clicked[1].input.kind == Kind::pointer_down);
+    CHECK(clicked[1].input.right_px == -120.5);
+    CHECK(clicked[1].input.down_px == 30.0);
+    CHECK(clicked[1].input.device.view() == "mouse");
+    const auto dragged = inputs("drag 0 0 100 -50");
+    CHECK(dragged.back().input.kind == Kind::pointer_up);
+    CHECK(dragged.back().input.right_px == 100.0);
+    CHECK(dragged.back().input.down_px == -50.0);
+    CHECK(inputs("wheel -2").front().input.steps == -2.0);
+    for (const char* wrong : {"click 1", "click 1 x", "drag 1 2 3", "wheel", "type ", "type"})
+        CHECK_THROWS_AS(inputs(wrong), InputError);
+}
+
+TEST_CASE("an observer's script answers at its own times, and leaves other keys what they are", "[unit]") {
+    Sitting sitting(31);
+    VirtualClock& clock = sitting.clock;
+    SimulatedResponsePanel panel(clock, sitting.observer,
+                                 {read_operator_key("response screen@2+0.5=press 7 for 0.3", 4),
+                                  read_operator_key("response screen@2+0.6=press left", 4)});
+    panel.entered(SessionPhase::response_screen, 1);
+    const SessionTime since = clock.now();
+    panel.await_answer(since, nullptr);
+    std::vector<ObserverInput> told;
+    for (int i = 0; i < 300; ++i) {
+        clock.wait_until(clock.now() + std::chrono::milliseconds(4));
+        CHECK_FALSE(panel.poll());
+        while (const auto input = panel.next_input())
+            told.push_back(*input);
+    }
+    // By their times, and not one script after the other: 7 down, its letter, left down and up, 7 up.
+    REQUIRE(told.size() == 5);
+    CHECK(told[0].at == since + std::chrono::milliseconds(500));
+    CHECK(told[2].key.view() == "left");
+    CHECK(told[2].at == since + std::chrono::milliseconds(600));
+    CHECK(told[4].key.view() == "7");
+    CHECK(told[4].kind == ObserverInput::Kind::key_up);
+    CHECK(told[4].at == since + std::chrono::milliseconds(800));
+    CHECK(panel.closing_warnings().empty());
+}
+
 TEST_CASE("a scripted key is pressed once, at its time in its phase, and its question is answered",
           "[unit]") {
     Sitting sitting(31);
