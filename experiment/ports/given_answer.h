@@ -27,18 +27,18 @@ struct GivenAnswer {
     std::string item; ///< of a scale with several; else empty
     std::string kind; ///< as in `answer_kinds`
     bool is_missed = true;
-    std::string value;            ///< what was meant: a choice, a step's label or number, what was typed
-    std::optional<double> number; ///< of a scale and of a number
-    std::string key, device;      ///< by which it was given, or accepted where it is accepted apart
+    std::string value = {};            ///< what was meant: a choice, a step's label or number, what was typed
+    std::optional<double> number = {}; ///< of a scale and of a number
+    std::string key = {}, device = {}; ///< by which it was given, or accepted where it is accepted apart
     /// What a trial says is right, as a value; empty: nothing is, or nobody knows it.
-    std::string correct;
-    std::optional<bool> is_correct; ///< nothing: missed, or nothing is correct
+    std::string correct = {};
+    std::optional<bool> is_correct = {}; ///< nothing: missed, or nothing is correct
 
     AnswerZero zero = AnswerZero::window;
-    std::optional<SessionTime> stimulus_onset, window_onset, window_end, screen_onset;
-    std::optional<SessionTime> first_input_at;  ///< the first that changed it, in time
-    std::optional<SessionTime> answered_at;     ///< when it was given, or accepted
-    std::optional<SessionDuration> uncertainty; ///< of answered_at; nothing: missed
+    std::optional<SessionTime> stimulus_onset = {}, window_onset = {}, window_end = {}, screen_onset = {};
+    std::optional<SessionTime> first_input_at = {};  ///< the first that changed it, in time
+    std::optional<SessionTime> answered_at = {};     ///< when it was given, or accepted
+    std::optional<SessionDuration> uncertainty = {}; ///< of answered_at; nothing: missed
     bool is_tied = false; ///< two keys that answer differently were pressed at the same time
 
     int place = 0;   ///< which of the trial's answers and items it was in turn, from 0
@@ -68,7 +68,7 @@ template <> inline constexpr auto names_of<InputState> = enum_names<InputState>(
 
 /// An input of an attempt, as one answer saw it.
 struct AnswerInput {
-    std::string id; ///< of the answer
+    std::string id, item; ///< of the answer
     ObserverInput input;
     InputState state = InputState::open;
     bool has_counted = false;     ///< it changed the answer, or gave it

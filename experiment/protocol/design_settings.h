@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "experiment/answers/task_answer.h"
 #include "experiment/base/enum_names.h"
 #include "experiment/base/named_words.h"
 #include "experiment/protocol/step_settings.h"
@@ -41,6 +42,7 @@ struct Task {
     std::filesystem::path trials_file = {}; ///< of a table; resolved against the protocol's folder
     CatchSettings catch_trials = {};
     int repetitions = 1; ///< how often each of its trials comes
+    std::vector<TaskAnswer> answers = {}; ///< none: the answer is spoken
 };
 
 /// Where simulated observers look for a task: the shares that go to areas, each once, the head first. A task

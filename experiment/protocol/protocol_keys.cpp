@@ -90,7 +90,12 @@ const KeyTable& protocol_keys() {
              &Protocol::tasks,
              task(),
              "A question that observers are asked about what they see. At least one.",
-             {{"trials", &Task::trials, trials(),
+             {{"answer", &Task::answers, answer(),
+               "`[[task.answer]]`: something that is answered in each trial of the task that stands before "
+               "it, "
+               "one or several; see [answers.md](answers.md). Steps ask for it by its id. Without any, the "
+               "answer is spoken."},
+              {"trials", &Task::trials, trials(),
                "A rule that makes the task's trials of the levels of factors. `overt check` says how many it "
                "gives."},
               {"catch", &Task::catch_trials, catch_trials(),

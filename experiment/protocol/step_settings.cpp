@@ -118,9 +118,10 @@ class StepReader {
             read_duration_or_wait(value, step);
             return;
         case StepKind::answer: {
-            static constexpr std::string_view answers[] = {"spoken"};
-            std::string answer;
-            take(value, "answer", answer, one_of(answers));
+            step.answers_place = value.place;
+            take(value, "answer", step.answers, identifier());
+            if (step.answers == std::vector<std::string>{"spoken"})
+                step.answers.clear();
             return;
         }
         case StepKind::feedback:
@@ -280,14 +281,18 @@ class StepReader {
     void read_until(const TomlValue& value, StepSettings& step) {
         if (const auto* const word = std::get_if<std::string>(&value.content)) {
             step.ends_by_key = *word == "key";
-            if (!step.ends_by_key)
+            step.ends_by_answer = *word == "answer";
+            step.answers_place = value.place;
+            if (!step.ends_by_key && !step.ends_by_answer)
                 fault(value.place, fmt::format("until: unknown value \"{}\"", *word),
-                      "write \"key\", or what gaze is waited for: { gaze_within_deg = 1.5, patience_s = 5 }");
+                      "write \"key\", \"answer\", or what gaze is waited for: { gaze_within_deg = 1.5, "
+                      "patience_s = 5 }");
             return;
         }
         const TomlTable* const table = value.table();
         if (!table) {
-            fault(value.place, fmt::format("until: expected \"key\" or a table, found {}", value.kind()));
+            fault(value.place,
+                  fmt::format("until: expected \"key\", \"answer\" or a table, found {}", value.kind()));
             return;
         }
         GazeWait& wait = step.gaze.emplace();
