@@ -97,6 +97,26 @@ void AnswerSheet::close(SessionTime at) noexcept {
             asked.window.closes = at;
 }
 
+void AnswerSheet::pause(SessionDuration for_so_long) noexcept {
+    for (Asked& asked : asked_)
+        if (asked.window.closes)
+            *asked.window.closes += for_so_long;
+}
+
+bool AnswerSheet::is_given() const noexcept { return std::ranges::all_of(asked_, &Asked::is_given); }
+
+int AnswerSheet::given_count() const noexcept {
+    return static_cast<int>(std::ranges::count(asked_, true, &Asked::is_given));
+}
+
+SessionTime AnswerSheet::given_last_at() const noexcept {
+    SessionTime last;
+    for (const Asked& asked : asked_)
+        if (asked.is_given)
+            last = std::max(last, *asked.answered_at);
+    return last;
+}
+
 std::size_t AnswerSheet::first_on(int page) const noexcept {
     std::size_t i = 0;
     while (i < asked_.size() && asked_[i].page < page)
@@ -315,6 +335,29 @@ AnswerView AnswerSheet::view(const std::string& accept) const {
     if (is_accepted)
         view.accept = accept;
     return view;
+}
+
+std::vector<AnswerOffer> AnswerSheet::offers() const {
+    std::vector<AnswerOffer> offers;
+    for (const Asked& asked : asked_) {
+        if (asked.page != page_ || asked.is_done)
+            continue;
+        const TaskAnswer& settings = asked.settings();
+        const AnswerForm& form = asked.answering->form();
+        AnswerOffer& offer = offers.emplace_back();
+        offer.id = settings.id;
+        offer.item = form.item;
+        offer.kind = name_of(settings.kind);
+        offer.correct = form.correct;
+        if (settings.accepts_by_key())
+            offer.accept_key = settings.accept_key;
+        asked.answering->offer(offer);
+    }
+    return offers;
+}
+
+std::optional<SessionTime> AnswerSheet::opened_at() const noexcept {
+    return is_complete() ? std::nullopt : asked_[here_].window.opens;
 }
 
 GivenAnswer AnswerSheet::given(const Asked& asked) const {

@@ -57,6 +57,8 @@ class AnswerSheet {
     void begin_step() noexcept { is_button_down_ = false; }
     /// Presses count no longer.
     void close(SessionTime at) noexcept;
+    /// Windows that are open stay open for so much longer.
+    void pause(SessionDuration for_so_long) noexcept;
 
     /// `place`: where the pointer is. Whether what view() says changed.
     bool take(const ObserverInput& input, const AnswerPlace& place) noexcept;
@@ -67,10 +69,21 @@ class AnswerSheet {
     /// The same of a step that shows the stimulus, by ends_stimulus: all was answered.
     std::optional<SessionTime> ends_stimulus_at() const noexcept;
     bool is_complete() const noexcept { return page_ >= pages_; }
+    /// All of them were answered, and none was passed over.
+    bool is_given() const noexcept;
+    /// How many were, and when the last.
+    int given_count() const noexcept;
+    SessionTime given_last_at() const noexcept;
 
     /// The screen as it is now: the page that is being answered, or the last one. `accept`: words of what
     /// accepts it.
     AnswerView view(const std::string& accept) const;
+
+    /// What is still to be answered on this page.
+    std::vector<AnswerOffer> offers() const;
+    /// When presses began to count for what keys go to now; nothing: they do not yet.
+    std::optional<SessionTime> opened_at() const noexcept;
+    int page() const noexcept { return page_; }
 
     /// Rows of all that was asked, in turn; and of all inputs.
     void add_to(std::vector<GivenAnswer>& given, std::vector<AnswerInput>& inputs) const;

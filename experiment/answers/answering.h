@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "experiment/answers/task_answer.h"
+#include "experiment/ports/answer_offer.h"
 #include "experiment/ports/answer_view.h"
 #include "experiment/ports/observer_input.h"
 
@@ -45,6 +46,8 @@ class Answering {
     virtual std::optional<double> number() const noexcept { return std::nullopt; }
     /// All but the question.
     virtual void draw(AnswerItem& item) const = 0;
+    /// How it can be given; all but id, item, kind, correct, and the key that accepts.
+    virtual void offer(AnswerOffer& offer) const = 0;
 
     const AnswerForm& form() const { return form_; }
     const TaskAnswer& settings() const { return *form_.settings; }

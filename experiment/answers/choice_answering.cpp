@@ -40,6 +40,12 @@ class ChoiceAnswering final : public Answering {
         }
     }
 
+    void offer(AnswerOffer& offer) const override {
+        for (std::size_t i = 0; i < values().size(); ++i)
+            offer.values.push_back(values()[written(static_cast<int>(i))]);
+        offer.keys = settings().keys;
+    }
+
   private:
     /// A key without choices means itself.
     const std::vector<std::string>& values() const {

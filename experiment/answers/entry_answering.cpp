@@ -40,6 +40,12 @@ class EntryAnswering : public Answering {
         item.unit = settings().unit;
     }
 
+    void offer(AnswerOffer& offer) const override {
+        offer.low = settings().min;
+        offer.high = settings().max;
+        offer.step = settings().step.value_or(0.0);
+    }
+
   protected:
     virtual bool takes(char32_t character) const noexcept { return character >= U' ' && character != 0x7F; }
     const std::string& typed() const noexcept { return typed_; }

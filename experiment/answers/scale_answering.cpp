@@ -80,6 +80,21 @@ class ScaleAnswering final : public Answering {
             item.marker_label = as_written(*number());
     }
 
+    void offer(AnswerOffer& offer) const override {
+        offer.low = settings().low();
+        offer.high = settings().high();
+        offer.step = span() / moves();
+        offer.is_turned = is_turned_;
+        for (int i = 0; i < settings().steps.value_or(0); ++i) {
+            const auto index = static_cast<std::size_t>(i);
+            offer.numbers.push_back(settings().number_of_step(i));
+            offer.values.push_back(index < settings().labels.size() ? settings().labels[index]
+                                                                    : as_written(offer.numbers.back()));
+            if (std::string key = settings().key_of_step(i); !key.empty())
+                offer.keys.push_back(std::move(key));
+        }
+    }
+
   private:
     double span() const { return settings().high() - settings().low(); }
     int moves() const {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "experiment/base/enum_names.h"
 #include "experiment/ports/observer_input.h"
@@ -57,6 +58,20 @@ struct GivenAnswer {
         return answered_at && from ? std::optional(*answered_at - *from) : std::nullopt;
     }
 };
+
+/// Of a trial as a whole: every answer for which something is correct was; nothing where nothing is, or where
+/// one of them is missed and does not count as wrong.
+inline std::optional<bool> correctness_of(const std::vector<GivenAnswer>& answers) {
+    std::optional<bool> all;
+    for (const GivenAnswer& answer : answers) {
+        if (answer.correct.empty())
+            continue;
+        if (!answer.is_correct)
+            return std::nullopt;
+        all = all.value_or(true) && *answer.is_correct;
+    }
+    return all;
+}
 
 /// Where an input fell.
 enum class InputState : std::uint8_t {
