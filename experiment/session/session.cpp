@@ -33,7 +33,7 @@ bool comes_again(const AttemptResult& practice, const RepeatSettings& repeats) {
 Session::Session(const Protocol& protocol, const Schedule& schedule, const ScreenPoint& screen_centre,
                  SessionPorts ports, FieldValues fields)
     : schedule_(schedule), ports_(std::move(ports)), state_(protocol, ports_), control_(state_),
-      trials_(state_, control_, screen_centre, schedule.seed), fields_(std::move(fields)) {
+      trials_(state_, control_, screen_centre, schedule_), fields_(std::move(fields)) {
     fields_.resize(protocol.observer_fields.size());
 }
 

@@ -34,10 +34,11 @@ void tell_of_flip(PresentationListener& listener, const FlipRecord& flip,
 } // namespace
 
 TrialRun::TrialRun(SessionState& state, OperatorControl& control, const ScreenPoint& screen_centre,
-                   std::uint64_t seed)
+                   const Schedule& schedule)
     : state_(state), control_(control), drift_checks_(state, control, screen_centre),
-      answers_(state, control), seed_(seed), cycles_(page_cycles(state.protocol)), shown_(cycles_.front()),
-      ledger_(shown_, WhenLate::drop), watch_(screen_geometry_of(state.protocol), state.protocol.display) {
+      answers_(state, control), asking_(state, control, schedule), seed_(schedule.seed),
+      cycles_(page_cycles(state.protocol)), shown_(cycles_.front()), ledger_(shown_, WhenLate::drop),
+      watch_(screen_geometry_of(state.protocol), state.protocol.display) {
     for (UsedTracker& used : state.trackers())
         feeds_.push_back({used, TrackerFeed(used.tracker)});
 }
@@ -57,7 +58,9 @@ TrialRun::Attempt TrialRun::run(const Trial& trial, const std::optional<Trial>& 
     const Clock::Disturbance before = state_.ports.clock.disturbance();
     Running running{.trial = trial, .next = next, .is_practice = is_practice, .attempt = attempt};
     running.plan = plan_trial(state_.protocol, seed_, trial, is_practice);
+    asking_.begin_trial(trial, running.plan, is_practice);
     run_steps(running);
+    asking_.finish(attempt.outcome);
     note_disturbance(before);
     mark_result(trial, attempt);
     state_.write_down();
@@ -92,7 +95,7 @@ void TrialRun::present(Running& running, std::size_t number) {
             cut_to(cycles_[static_cast<std::size_t>(further.stimulus.motion)], step.refreshes, step.still()));
     slots_.begin(trial.index, std::move(cycles_beside));
     ports.presenter.take_swap_modes(); // those before are not the presentation's
-    await_gaze(running, step, state_.now());
+    await_end(running, number, state_.now());
     add_row(running, step);
     const int patience = step.patience_refreshes.value_or(shown_.total_refreshes);
 
@@ -101,7 +104,7 @@ void TrialRun::present(Running& running, std::size_t number) {
     ledger_.begin(trial.index);
     state_.markers.begin_presentation();
     while (!ledger_.is_complete() && ledger_.next_refresh() < patience && !is_cut_short() &&
-           !watch_.has_come() && !was_next_pressed_) {
+           !watch_.has_come() && !was_next_pressed_ && !asking_.has_ended(number)) {
         // Take what the trackers have seen so far.
         take_items(trial.index);
         if (watch_.has_come())
@@ -122,7 +125,10 @@ void TrialRun::present(Running& running, std::size_t number) {
         watch_.flipped(flip);
         for (PresentationListener* const listener : ports.listeners)
             tell_of_flip(*listener, flip, beside);
-        // Remember what the operator pressed, here or at the tracker's host.
+        // Take what the observer answers, and remember what the operator pressed, here or at the tracker's
+        // host.
+        if (ledger_.shown_refreshes() == 1)
+            asking_.stimulus_lit(number, ledger_.onset());
         look_at_keys();
         own.look_at_state();
     }
@@ -134,11 +140,12 @@ void TrialRun::present(Running& running, std::size_t number) {
     if (ledger_.shown_refreshes() > 0)
         begin_row(running, ledger_.onset());
     AttemptStep& row = outcome.steps.back();
-    row.ended_by = ledger_.is_complete() ? StepEnd::time
-                   : watch_.has_come()   ? StepEnd::gaze
-                   : was_next_pressed_   ? StepEnd::key
-                   : is_cut_short()      ? StepEnd::stopped
-                                         : StepEnd::patience;
+    row.ended_by = ledger_.is_complete()       ? StepEnd::time
+                   : watch_.has_come()         ? StepEnd::gaze
+                   : was_next_pressed_         ? StepEnd::key
+                   : is_cut_short()            ? StepEnd::stopped
+                   : asking_.has_ended(number) ? StepEnd::answer
+                                               : StepEnd::patience;
     take_gaze(row, step);
 }
 
@@ -243,6 +250,7 @@ void TrialRun::look_at_keys() noexcept {
         if (is_operators(press->key) && (!pressed_ || ends_it))
             pressed_ = press;
     }
+    asking_.look();
 }
 
 /// What was decided at the tracker's host, or became of the tracker, becomes of the attempt.

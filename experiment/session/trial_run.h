@@ -7,6 +7,7 @@
 
 #include "experiment/design/trial_plan.h"
 #include "experiment/design/trial_queue.h"
+#include "experiment/session/answer_asking.h"
 #include "experiment/session/answer_taking.h"
 #include "experiment/session/drift_checks.h"
 #include "experiment/session/gaze_watch.h"
@@ -18,9 +19,9 @@ namespace overt {
 
 class TrialRun {
   public:
-    /// `state` and `control` must outlive this. `seed`: of the session, from which steps are drawn.
+    /// `state`, `control` and `schedule` must outlive this.
     TrialRun(SessionState& state, OperatorControl& control, const ScreenPoint& screen_centre,
-             std::uint64_t seed);
+             const Schedule& schedule);
 
     /// What an attempt was like.
     struct Attempt {
@@ -49,9 +50,10 @@ class TrialRun {
     void ask(Running& running, std::size_t number);
     void check_drift(Running& running, const PlannedStep& step);
     void take_answer(Running& running, std::size_t number);
+    void ask_answers(Running& running, std::size_t number);
     void stand(Running& running, std::size_t number);
     void hold(Running& running, std::size_t number);
-    void await_gaze(Running& running, const PlannedStep& step, SessionTime since);
+    void await_end(Running& running, std::size_t number, SessionTime since);
     void take_gaze(AttemptStep& row, const PlannedStep& step) const;
     bool is_gaze_missed(Running& running, std::size_t number);
     void add_row(Running& running, const PlannedStep& step);
@@ -84,7 +86,8 @@ class TrialRun {
     OperatorControl& control_;
     DriftChecks drift_checks_;
     AnswerTaking answers_;
-    std::uint64_t seed_;
+    AnswerAsking asking_;
+    std::uint64_t seed_;            ///< of the session, from which steps are drawn
     std::vector<PageCycle> cycles_; ///< by motion
     PageCycle shown_;               ///< what the step that shows the stimulus lights
     RefreshLedger ledger_;
