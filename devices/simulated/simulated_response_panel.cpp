@@ -20,14 +20,23 @@ constexpr int most_own_decisions = 5;
 } // namespace
 
 SimulatedResponsePanel::SimulatedResponsePanel(const Clock& clock, const SimulatedObserver& observer,
-                                               const std::vector<ScriptedOperatorKey>& script)
-    : clock_(&clock), observer_(&observer) {
+                                               const std::vector<ScriptedOperatorKey>& script,
+                                               const SimulatedAnswers* answers)
+    : clock_(&clock), observer_(&observer), answers_(answers) {
     for (const ScriptedOperatorKey& key : script)
         operators_.push_back({key, {}, false});
 }
 
 void SimulatedResponsePanel::await(Awaited what, SessionTime since, const Trial* trial) {
     pressed_on_.waits_for(what);
+    keys_.clear();
+    if (what == Awaited::answer) {
+        next_press_.reset();
+        asked_in_ = trial;
+        offer(std::move(offers_));
+        keys_.awaited(since);
+        return;
+    }
     if (what == Awaited::decision) {
         next_press_ = since + operators_decision;
         // To what is asked without a key, such as whether a calibration is good enough, yes; but not for
@@ -49,6 +58,13 @@ void SimulatedResponsePanel::await(Awaited what, SessionTime since, const Trial*
         next_press_ = since + observer_->reading_time(texts_read_++);
         answer_.clear();
     }
+}
+
+void SimulatedResponsePanel::offer(const std::vector<AnswerOffer>& answers) {
+    std::vector<AnswerOffer> offered = answers;
+    offers_ = std::move(offered);
+    if (answers_ && asked_in_)
+        keys_.plan(*answers_, offers_, *asked_in_);
 }
 
 void SimulatedResponsePanel::entered(SessionPhase phase, int trial) noexcept {

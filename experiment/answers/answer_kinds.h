@@ -19,10 +19,7 @@ MakeAnswering key_answering, choice_answering, scale_answering, number_answering
 struct AnswerKindRow {
     std::string_view name;
     std::string_view explanation; ///< for the reference of protocols; follows the name and a colon
-    /// How it is given, for `overt check`: {choices} are the choices with their keys, {range} is that of a
-    /// scale or a number.
-    std::string_view words;
-    MakeAnswering* make; ///< null: it is not given by inputs
+    MakeAnswering* make;          ///< null: it is not given by inputs
     /// The keys of [[task.answer]] that it has besides those of all kinds; empty behind the last.
     std::array<std::string_view, 18> keys;
     bool accepts_by_key;  ///< unless the protocol says otherwise
@@ -35,14 +32,12 @@ template <>
 inline constexpr auto kinds_of<AnswerKind> = std::to_array<AnswerKindRow>({
     {"choice",
      "one of `choices`, each with a key, or chosen with the mouse",
-     "{choices}",
      choice_answering,
      {"choices", "labels", "keys", "with", "accept", "accept_key", "mapping"},
      false,
      true},
     {"key",
      "one of `keys`, of which the screen says nothing but the question",
-     "{choices}",
      key_answering,
      {"choices", "keys", "mapping"},
      false,
@@ -50,7 +45,6 @@ inline constexpr auto kinds_of<AnswerKind> = std::to_array<AnswerKindRow>({
     {"scale",
      "a place on a scale: of `steps`, or a line from `min` to `max`; the marker is not there until the first "
      "press",
-     "{range}",
      scale_answering,
      {"steps", "min", "max", "step", "labels", "keys", "ends", "of", "order", "per_screen", "ticks", "with",
       "accept", "accept_key", "direction", "shows_value", "mapping"},
@@ -58,25 +52,12 @@ inline constexpr auto kinds_of<AnswerKind> = std::to_array<AnswerKindRow>({
      false},
     {"number",
      "a number that is typed",
-     "{range}",
      number_answering,
      {"min", "max", "step", "unit", "accept_key"},
      true,
      false},
-    {"text",
-     "words that are typed",
-     "up to {longest} characters",
-     text_answering,
-     {"longest", "accept_key"},
-     true,
-     false},
-    {"spoken",
-     "spoken, and recorded as `[answers]` says; a key goes on",
-     "spoken",
-     nullptr,
-     {},
-     false,
-     false},
+    {"text", "words that are typed", text_answering, {"longest", "accept_key"}, true, false},
+    {"spoken", "spoken, and recorded as `[answers]` says; a key goes on", nullptr, {}, false, false},
 });
 
 } // namespace overt

@@ -349,6 +349,7 @@ std::vector<AnswerOffer> AnswerSheet::offers() const {
         offer.item = form.item;
         offer.kind = name_of(settings.kind);
         offer.correct = form.correct;
+        offer.limit_s = settings.limit_s;
         if (settings.accepts_by_key())
             offer.accept_key = settings.accept_key;
         asked.answering->offer(offer);

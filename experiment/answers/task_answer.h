@@ -60,6 +60,27 @@ struct AnswerOpening {
     double after_s = 0.0;
 };
 
+/// What simulated observers answer, for a study to find: `simulated` of [[task.answer]].
+struct AnswerTruth {
+    std::string by; ///< a factor whose levels are numbers; empty: none
+    // Of choices. Among slots: the one with the largest slope x level + noise, of which the difference of two
+    // has a standard deviation of 1; the first has `bias` on top. Among words: the middle one, and as many
+    // further as slope x (level - offset) + bias + noise says.
+    double slope = 1.0, bias = 0.0;
+    double lapses = 0.0;        ///< share of answers by chance
+    double share_correct = 0.9; ///< without `by`, where something is correct
+    // Of scales and numbers: offset + gain x level + noise x normal.
+    std::optional<double> offset;
+    double gain = 1.0, noise = 0.0;
+    std::vector<double> cuts; ///< of a scale with steps: as many steps up as cuts lie below that
+    // From the window's begin: shift + log-normal.
+    double shift_s = 0.25, median_s = 0.6, log_sd = 0.35;
+    // Shares of trials.
+    double early = 0.0;   ///< with a press before the window, too
+    double late = 0.0;    ///< answered after the window closed
+    double missing = 0.0; ///< not answered
+};
+
 struct TaskAnswer {
     std::string id;
     AnswerKind kind{};
@@ -92,6 +113,7 @@ struct TaskAnswer {
     AnswerMapping mapping = AnswerMapping::fixed;
     std::string correct; ///< a value, "column:NAME", "none"; empty: as the trial has it
     MissedAnswer missed = MissedAnswer::apart;
+    AnswerTruth truth;
 
     /// Lines, numbers and texts are accepted by a key of their own unless the protocol says otherwise.
     bool accepts_by_key() const;

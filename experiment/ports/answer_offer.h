@@ -16,9 +16,10 @@ struct AnswerOffer {
     /// Of a line and of a number.
     std::optional<double> low, high;
     double step = 0.0; ///< of a line: how far a press of "left" or "right" moves it; of a number its grid
-    bool is_turned = false; ///< "right" goes to the low end
-    std::string accept_key; ///< that makes it stand; empty: it stands at once
-    std::string correct;    ///< a value; empty: nobody knows
+    bool is_turned = false;        ///< "right" goes to the low end
+    std::string accept_key;        ///< that makes it stand; empty: it stands at once
+    std::optional<double> limit_s; ///< for how long presses count
+    std::string correct;           ///< a value; empty: nobody knows
 };
 
 } // namespace overt

@@ -110,6 +110,34 @@ std::vector<Key> answer() {
     };
 }
 
+std::vector<Key> answer_truth() {
+    using T = AnswerTruth;
+    return {
+        {"by", &T::by, left_out("none"),
+         "A factor whose levels are numbers: of choices among slots, their levels are compared."},
+        {"slope", &T::slope, range(-1e6, 1e6),
+         "Of choices: how many standard deviations of the judgement a unit of the factor is; among two slots "
+         "that differ by d, the larger is chosen with the probability of a normal number below slope * d."},
+        {"bias", &T::bias, range(-100, 100),
+         "Of choices: on top of the first slot's, or of the judgement, in standard deviations."},
+        {"lapses", &T::lapses, range(0, 1), "Of choices: share that is chosen by chance."},
+        {"share_correct", &T::share_correct, range(0, 1),
+         "Of choices without `by`, where something is correct: how often that is chosen."},
+        {"offset", &T::offset, left_out("the scale's middle; 0 with `by`"),
+         "Of scales and numbers: the judgement at level 0; of words, the level of indifference."},
+        {"gain", &T::gain, range(-1e6, 1e6), "How much the judgement grows with a unit of the factor."},
+        {"noise", &T::noise, range(0, 1e6), "Standard deviation of the judgement."},
+        {"cuts", &T::cuts, left_out("the nearest step"),
+         "Of a scale with steps: judgements between steps, in rising order, one fewer than steps."},
+        {"shift_s", &T::shift_s, range(0, 60, "s"), "Shortest response time, from the window's begin."},
+        {"median_s", &T::median_s, range(0.001, 600, "s"), "Median of what is added to it, log-normal."},
+        {"log_sd", &T::log_sd, range(0, 3), "Standard deviation of its logarithm."},
+        {"early", &T::early, range(0, 1), "Share of trials with a press before the window, too."},
+        {"late", &T::late, range(0, 1), "Share that is answered after the window has closed."},
+        {"missing", &T::missing, range(0, 1), "Share that is not answered."},
+    };
+}
+
 } // namespace key_rows
 
 } // namespace overt

@@ -19,7 +19,7 @@ std::vector<Key> bake(), frames();
 // What is asked, and in which order (design_keys.cpp).
 std::vector<Key> protocol(), schedule(), task();
 // How it is answered (answer_keys.cpp).
-std::vector<Key> answer();
+std::vector<Key> answer(), answer_truth();
 // Where trials come from (trials_keys.cpp).
 std::vector<Key> trials(), catch_trials(), draw();
 // The order of trials and of observers (order_keys.cpp).

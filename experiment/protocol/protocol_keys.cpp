@@ -90,11 +90,15 @@ const KeyTable& protocol_keys() {
              &Protocol::tasks,
              task(),
              "A question that observers are asked about what they see. At least one.",
-             {{"answer", &Task::answers, answer(),
+             {{"answer",
+               &Task::answers,
+               answer(),
                "`[[task.answer]]`: something that is answered in each trial of the task that stands before "
                "it, "
                "one or several; see [answers.md](answers.md). Steps ask for it by its id. Without any, the "
-               "answer is spoken."},
+               "answer is spoken.",
+               {{"simulated", &TaskAnswer::truth, answer_truth(),
+                 "What simulated observers answer: effects of known size, for a study to find."}}},
               {"trials", &Task::trials, trials(),
                "A rule that makes the task's trials of the levels of factors. `overt check` says how many it "
                "gives."},

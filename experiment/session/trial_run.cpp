@@ -237,6 +237,8 @@ void TrialRun::mark_result(const Trial& trial, const Attempt& attempt) {
         variable(in + "object", state_.protocol.objects[static_cast<std::size_t>(stimulus.object)].id);
         variable(in + "material", state_.protocol.materials[static_cast<std::size_t>(stimulus.material)].id);
     }
+    for (const auto& [name, value] : answer_variables(attempt.outcome.given))
+        variable(name, value);
     variable("missed_refreshes", fmt::format("{}", attempt.outcome.missed_refreshes));
     mark(MarkedEvent::result, now, fmt::format("TRIAL_RESULT {}", goes_on(attempt) ? 0 : 1));
 }
