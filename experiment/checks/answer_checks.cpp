@@ -338,6 +338,30 @@ class AskingChecks {
     std::size_t number_;
 };
 
+/// Blocks that end by what was answered.
+void check_criteria(ProtocolExamination& examination) {
+    const Protocol& protocol = examination.protocol;
+    for (std::size_t i = 0; i < protocol.blocks.size(); ++i) {
+        const BlockSettings& block = protocol.blocks[i];
+        const std::string path = fmt::format("block[{}].criterion", i);
+        if (!block.criterion.is_written())
+            continue;
+        if (block.criterion.of_last > 0 && block.criterion.of_last < block.criterion.correct)
+            examination.error({path + ".of_last"},
+                              fmt::format("of the last {} never {} are correct", block.criterion.of_last,
+                                          block.criterion.correct));
+        const bool is_answered = std::ranges::any_of(protocol.tasks, [&](const Task& task) {
+            const bool is_asked =
+                block.tasks.empty() || std::ranges::find(block.tasks, task.id) != block.tasks.end();
+            return is_asked && !task.answers.empty();
+        });
+        if (!is_answered)
+            examination.error(
+                {path}, fmt::format("nothing that is correct or wrong is answered in block \"{}\"", block.id),
+                "add a [[task.answer]] to a task of the block");
+    }
+}
+
 } // namespace
 
 void check_answers(ProtocolExamination& examination) {
@@ -348,6 +372,7 @@ void check_answers(ProtocolExamination& examination) {
         if (!examination.faulty.contains(fmt::format("task[{}].steps", i)))
             AskingChecks(examination, i).run();
     }
+    check_criteria(examination);
 }
 
 } // namespace overt

@@ -23,7 +23,7 @@ std::vector<Key> answer(), answer_truth();
 // Where trials come from (trials_keys.cpp).
 std::vector<Key> trials(), catch_trials(), draw();
 // The order of trials and of observers (order_keys.cpp).
-std::vector<Key> block(), group();
+std::vector<Key> block(), criterion(), group();
 // How a session goes besides its trials (practice_keys.cpp).
 std::vector<Key> practice(), breaks(), repeat();
 // Where simulated observers look (simulation_keys.cpp).

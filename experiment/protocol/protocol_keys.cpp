@@ -116,7 +116,12 @@ const KeyTable& protocol_keys() {
              "limits of its own, and one blocked by a factor has none from there on this factor (by "
              "stimulus: none on stimulus, object and material).",
              {{"draw", &BlockSettings::draw, draw(),
-               "A list of entries drawn for the block, such as the objects that an observer learns."}}},
+               "A list of entries drawn for the block, such as the objects that an observer learns."},
+              {"criterion", &BlockSettings::criterion, criterion(),
+               "The block is over as soon as so many of its last trials were answered correctly; what is "
+               "left of "
+               "it does not come. Trials in which nothing is correct are not counted, and a missed answer is "
+               "not correct. For practice until it is understood."}}},
             {"group", &Protocol::groups, group(),
              "A group of observers, for what differs between observers. Observers are assigned by their "
              "number: in turn, first to the first group, a group that is full being passed over. Squares and "

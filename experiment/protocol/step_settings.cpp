@@ -150,13 +150,20 @@ class StepReader {
                 take(key.value, key.key, step.answered, required());
             else if (key.key == "missed")
                 take(key.value, key.key, step.missed, required());
+            else if (key.key == "correct")
+                take(key.value, key.key, step.correct, required());
+            else if (key.key == "wrong")
+                take(key.value, key.key, step.wrong, required());
+            else if (key.key == "colour")
+                take(key.value, key.key, step.is_coloured);
             else
                 fault(key.key_place, fmt::format("feedback: unknown key \"{}\"", key.key),
-                      "keys are answered, missed");
+                      "keys are answered, correct, wrong, missed, colour");
         }
-        if (step.answered.empty() && step.missed.empty() && faults.size() == before)
+        if (step.answered.empty() && step.missed.empty() && step.correct.empty() && step.wrong.empty() &&
+            faults.size() == before)
             fault(value.place, "feedback: no words are given",
-                  "write answered = \"…\", missed = \"…\", or one of them");
+                  "write correct = \"…\", wrong = \"…\", missed = \"…\", answered = \"…\", or some of them");
     }
 
     void read_other(const StepKindRow& kind, const TomlEntry& key, StepSettings& step) {

@@ -121,6 +121,8 @@ struct StepSettings {
     Place frame_place;
     double cell_deg = 0.25;       ///< side of a mask's squares
     std::string answered, missed; ///< words of a feedback
+    std::string correct, wrong;   ///< the same, where that is known; empty: as `answered`
+    bool is_coloured = false;     ///< they are green and red
 };
 
 /// An hour: nobody looks at a step for longer, and refreshes can be counted.

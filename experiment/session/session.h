@@ -3,9 +3,11 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
+#include "experiment/design/block_feedback.h"
 #include "experiment/design/trial_queue.h"
 #include "experiment/protocol/protocol.h"
 #include "experiment/session/operator_control.h"
@@ -44,12 +46,15 @@ class Session {
   private:
     void run_step(TrialQueue& queue, const SessionStep& step, SessionResult& result,
                   const TrialDone& trial_done);
+    void give_feedback(int block);
+    void take_answers(const SessionHistory& history);
     void run_instructions(const SessionStep& step);
     void run_practice(const SessionStep& step, const std::optional<Trial>& next);
     void run_break();
     void judge(TrialQueue& queue, const Trial& trial, TrialRun::Attempt& attempt);
     void farewell();
 
+    std::map<int, AnsweredTrials> answered_; ///< by block
     const Schedule& schedule_;
     SessionPorts ports_;
     SessionState state_;

@@ -11,6 +11,7 @@
 #include "experiment/session/answer_taking.h"
 #include "experiment/session/drift_checks.h"
 #include "experiment/session/gaze_watch.h"
+#include "experiment/session/step_screens.h"
 #include "experiment/session/tracker_feed.h"
 #include "experiment/timing/refresh_ledger.h"
 #include "experiment/timing/slot_cycles.h"
@@ -51,6 +52,7 @@ class TrialRun {
     void check_drift(Running& running, const PlannedStep& step);
     void take_answer(Running& running, std::size_t number);
     void ask_answers(Running& running, std::size_t number);
+    StepCircumstances circumstances(const Running& running, std::size_t number) const;
     void stand(Running& running, std::size_t number);
     void hold(Running& running, std::size_t number);
     void await_end(Running& running, std::size_t number, SessionTime since);

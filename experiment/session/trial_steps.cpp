@@ -226,14 +226,23 @@ void TrialRun::ask_answers(Running& running, std::size_t number) {
     row.end = press.at;
 }
 
+/// What a step's words depend on.
+StepCircumstances TrialRun::circumstances(const Running& running, std::size_t number) const {
+    StepCircumstances of{state_.protocol, running.trial, seed_, number, running.is_answered};
+    if (asking_.asks()) {
+        of.is_answered = asking_.is_answered();
+        of.is_correct = asking_.is_correct();
+    }
+    return of;
+}
+
 /// A screen that stands for a time, outside of what is watched.
 void TrialRun::stand(Running& running, std::size_t number) {
     const PlannedStep& step = running.plan.steps[number];
     // What comes after the answer belongs to its screen.
     if (state_.phase() != SessionPhase::response_screen && state_.phase() != SessionPhase::task_screen)
         state_.enter(SessionPhase::task_screen, state_.trial());
-    const Screen screen =
-        screen_of(step, {state_.protocol, running.trial, seed_, number, running.is_answered});
+    const Screen screen = screen_of(step, circumstances(running, number));
     const SessionTime onset = state_.show(screen);
     mark_step(step, onset);
     add_row(running, step);
@@ -251,8 +260,7 @@ void TrialRun::hold(Running& running, std::size_t number) {
     // What only waits for an answer that came already is passed over.
     if (step.ends_by_answer() && asking_.is_needless(number))
         return;
-    const Screen screen =
-        screen_of(step, {state_.protocol, running.trial, seed_, number, running.is_answered});
+    const Screen screen = screen_of(step, circumstances(running, number));
     const double refresh_hz = state_.protocol.display.refresh_hz;
     const SessionTime onset = state_.show(screen);
     mark_step(step, onset);

@@ -404,7 +404,11 @@ void RowWriter::write(const TrialFinish& finish) {
                       step.ended_by ? std::optional(name_of(*step.ended_by)) : std::nullopt, step.gaze_onset,
                       step.gaze_detected);
     write_answers(outcome);
+    for (const int trial : outcome.left_out)
+        insert_values(database_, "OR REPLACE INTO given_up", trial, sitting_, "the criterion was met");
     seals_.seal_trial(sitting_, trial_counts_.trial_id);
+    if (!outcome.left_out.empty())
+        seals_.seal_rest(SealKind::other, sitting_);
     forget_file_hash(database_);
     commit_to_disk();
 }
