@@ -17,6 +17,7 @@
 #include "app/stimuli/bake_estimate.h"
 #include "experiment/base/counted.h"
 #include "experiment/checks/design_report.h"
+#include "experiment/design/answer_words.h"
 #include "experiment/design/schedule.h"
 #include "experiment/design/trial_plan.h"
 #include "render/gl/headless_context.h"
@@ -77,7 +78,7 @@ DesignReport report_on(const Experiment& experiment, const CheckOptions& options
 std::string steps_of_tasks(const Protocol& protocol) {
     std::string text;
     for (const Task& task : protocol.tasks)
-        text += describe_steps(protocol, task);
+        text += describe_steps(protocol, task) + describe_answers(protocol, task);
     return text;
 }
 

@@ -9,7 +9,8 @@ namespace {
 constexpr ResponseDevice known_devices[] = {
     {"simulated", [](const ResponseParts& parts) { return parts.simulate_observer; },
      [](const ResponseParts& parts, ResponsePanel*) -> std::unique_ptr<ResponsePanel> {
-         return std::make_unique<SimulatedResponsePanel>(parts.clock, parts.observer, parts.operator_keys);
+         return std::make_unique<SimulatedResponsePanel>(parts.clock, parts.observer, parts.operator_keys,
+                                                         parts.answers);
      }},
     {"window keyboard", [](const ResponseParts& parts) { return parts.window != nullptr; },
      [](const ResponseParts& parts, ResponsePanel* answering) -> std::unique_ptr<ResponsePanel> {

@@ -12,6 +12,7 @@
 
 namespace overt {
 
+class SimulatedAnswers;
 class SimulatedObserver;
 class WindowContext;
 struct ScriptedOperatorKey;
@@ -24,6 +25,7 @@ struct ResponseParts {
     WindowContext* window = nullptr; ///< null in a session without a window
     bool simulate_observer = false;
     const std::vector<ScriptedOperatorKey>& operator_keys; ///< of a simulated operator
+    const SimulatedAnswers* answers = nullptr;             ///< of the simulated observer, by keys
 };
 
 struct ResponseDevice {

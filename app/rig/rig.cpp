@@ -9,6 +9,7 @@
 #include "app/rig/video_check.h"
 #include "devices/simulated/faulty_tracker.h"
 #include "devices/simulated/operator_script.h"
+#include "devices/simulated/simulated_keys.h"
 #include "devices/simulated/simulated_observer.h"
 #include "experiment/base/error.h"
 #include "experiment/base/random.h"
@@ -121,6 +122,7 @@ void Rig::open(SimulatedFaults faults, SessionTime start) {
     if (maps_are_live())
         live_maps_ = std::make_unique<LiveMaps>(display_.context(), objects_, library_.cache().poses(),
                                                 geometry.image_px, protocol_->slots.size());
+    simulated_answers_ = std::make_unique<SimulatedAnswers>(*protocol_, request_.seed);
     observer_ = std::make_unique<SimulatedObserver>(make_observed_scene(*protocol_, objects_, geometry),
                                                     request_.seed);
     MadeTracker made = make_tracker({.protocol = *protocol_,
@@ -133,8 +135,8 @@ void Rig::open(SimulatedFaults faults, SessionTime start) {
     tracker_ = std::move(made.tracker);
     faulty_tracker_ = made.faulty;
     open_further_trackers();
-    panels_ = make_response_devices(
-        {*protocol_, clock(), *observer_, display_.window(), request_.simulate_observer, operator_keys_});
+    panels_ = make_response_devices({*protocol_, clock(), *observer_, display_.window(),
+                                     request_.simulate_observer, operator_keys_, simulated_answers_.get()});
     if (is_on_a_real_screen())
         display_.window()->hold_still();
 }

@@ -26,6 +26,7 @@ namespace overt {
 
 struct BoxIdentity;
 class FaultyTracker;
+class SimulatedAnswers;
 class SimulatedObserver;
 struct ScriptedOperatorKey;
 
@@ -143,6 +144,7 @@ class Rig {
     std::unique_ptr<PagePresenter> presenter_;
     std::unique_ptr<LiveMaps> live_maps_;
     std::unique_ptr<SimulatedObserver> observer_;
+    std::unique_ptr<SimulatedAnswers> simulated_answers_;
     std::unique_ptr<EyeTracker> tracker_;
     FaultyTracker* faulty_tracker_ = nullptr;            ///< a part of it
     std::deque<Further> further_trackers_;               ///< trackers refer to their protocols

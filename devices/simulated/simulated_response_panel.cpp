@@ -20,19 +20,24 @@ constexpr int most_own_decisions = 5;
 } // namespace
 
 SimulatedResponsePanel::SimulatedResponsePanel(const Clock& clock, const SimulatedObserver& observer,
-                                               const std::vector<ScriptedOperatorKey>& script)
-    : clock_(&clock), observer_(&observer) {
+                                               const std::vector<ScriptedOperatorKey>& script,
+                                               const SimulatedAnswers* answers)
+    : clock_(&clock), observer_(&observer), answers_(answers) {
     for (const ScriptedOperatorKey& key : script)
         operators_.push_back({.scripted = key});
 }
 
 void SimulatedResponsePanel::await(Awaited what, SessionTime since, const Trial* trial) {
     pressed_on_.waits_for(what);
+    keys_.clear();
     awaited_ = what;
     for (Operator& one : operators_)
         one.is_answering = false; // what was left of it answered something else
     if (what == Awaited::answer) {
         next_press_.reset();
+        asked_in_ = trial;
+        offer(std::move(offers_));
+        keys_.awaited(since);
         return;
     }
     if (what == Awaited::decision) {
@@ -56,6 +61,13 @@ void SimulatedResponsePanel::await(Awaited what, SessionTime since, const Trial*
         next_press_ = since + observer_->reading_time(texts_read_++);
         answer_.clear();
     }
+}
+
+void SimulatedResponsePanel::offer(const std::vector<AnswerOffer>& answers) {
+    std::vector<AnswerOffer> offered = answers;
+    offers_ = std::move(offered);
+    if (answers_ && asked_in_)
+        keys_.plan(*answers_, offers_, *asked_in_);
 }
 
 void SimulatedResponsePanel::entered(SessionPhase phase, int trial) noexcept {
@@ -142,7 +154,7 @@ std::optional<ObserverInput> SimulatedResponsePanel::next_input() noexcept {
             (!earliest || next_at(one) < next_at(*earliest)))
             earliest = &one;
     if (!earliest)
-        return std::nullopt;
+        return keys_.next(now);
     ObserverInput input = earliest->scripted.inputs[earliest->inputs_told].input;
     input.at = next_at(*earliest);
     ++earliest->inputs_told;

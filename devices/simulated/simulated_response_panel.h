@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "devices/simulated/operator_script.h"
+#include "devices/simulated/simulated_keys.h"
 #include "devices/simulated/simulated_observer.h"
 #include "experiment/ports/clock.h"
 #include "experiment/ports/pressed_on.h"
@@ -20,13 +21,17 @@ namespace overt {
 /// seconds.
 class SimulatedResponsePanel final : public ResponsePanel {
   public:
-    /// Clock and observer must outlive this.
+    /// Clock and observer must outlive this. `answers`: what is answered by keys, which must outlive it, too;
+    /// null: nothing.
     SimulatedResponsePanel(const Clock& clock, const SimulatedObserver& observer,
-                           const std::vector<ScriptedOperatorKey>& script = {});
+                           const std::vector<ScriptedOperatorKey>& script = {},
+                           const SimulatedAnswers* answers = nullptr);
 
     void await(Awaited what, SessionTime since, const Trial* trial) override;
     std::optional<ResponsePress> poll() noexcept override;
-    /// What the script has the observer do, at its own times.
+    void offer(const std::vector<AnswerOffer>& answers) override;
+    void window_opened(SessionTime at) noexcept override { keys_.window_opened(at); }
+    /// What the script has the observer do, at its own times; else what the planted truth has it press.
     std::optional<ObserverInput> next_input() noexcept override;
     std::string answer() override { return answer_; }
     void entered(SessionPhase phase, int trial) noexcept override;
@@ -58,6 +63,10 @@ class SimulatedResponsePanel final : public ResponsePanel {
 
     const Clock* clock_;
     const SimulatedObserver* observer_;
+    const SimulatedAnswers* answers_;
+    SimulatedKeys keys_;
+    std::vector<AnswerOffer> offers_;
+    const Trial* asked_in_ = nullptr;
     std::vector<Operator> operators_;
     int texts_read_ = 0;
     std::optional<SessionTime> next_press_;

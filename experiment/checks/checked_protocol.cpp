@@ -62,6 +62,7 @@ std::optional<Protocol> read_text(std::string_view text, const std::filesystem::
         check_materials(examination);
         check_frames(examination);
         check_steps(examination);
+        check_answers(examination);
         check_slots(examination);
         if (diagnostics.error_count() == errors_before + errors_in_tables(protocol, diagnostics))
             check_trials(examination);

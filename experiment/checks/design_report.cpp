@@ -104,6 +104,7 @@ SessionLength session_length(const Protocol& protocol, const Schedule& schedule,
     TrialQueue queue(protocol, schedule);
     while (const std::optional<SessionStep> step = queue.next()) {
         switch (step->kind) {
+        case SessionStep::Kind::feedback:
         case SessionStep::Kind::instructions:
             length.instructions_s += assumptions.text_s;
             break;

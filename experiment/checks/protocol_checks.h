@@ -46,6 +46,8 @@ void check_frames(ProtocolExamination& examination);
 void check_slot_memory(ProtocolExamination& examination);
 /// What a trial of each task does.
 void check_steps(ProtocolExamination& examination);
+/// What is answered in it, and how.
+void check_answers(ProtocolExamination& examination);
 /// Places on the screen, and in which of them each task shows its stimuli.
 void check_slots(ProtocolExamination& examination);
 /// After take_characterisation().

@@ -52,11 +52,12 @@ class StepChecks {
     }
 
     void check_order() {
-        int answers = 0;
+        int answers = 0, spoken = 0;
         for (const StepSettings& step : task_.steps) {
-            if (step.kind == StepKind::answer && ++answers == 2)
-                error(step.place, fmt::format("task {} takes an answer a second time", task_.id),
-                      "a trial has one answer");
+            answers += step.kind == StepKind::answer || step.ends_by_answer ? 1 : 0;
+            if (step.kind == StepKind::answer && step.answers.empty() && ++spoken == 2)
+                error(step.place, fmt::format("task {} takes a spoken answer a second time", task_.id),
+                      "a trial has one spoken answer");
             if (step.kind == StepKind::feedback && answers == 0)
                 error(step.place, "there is no answer yet that feedback could be about",
                       "put the feedback behind the step answer");
@@ -65,9 +66,10 @@ class StepChecks {
     }
 
     void check_end(const StepSettings& step) {
-        const bool ends = step.duration || step.ends_by_key || (step.gaze && step.gaze->patience_s) ||
-                          step.kind == StepKind::text || step.kind == StepKind::show ||
-                          step.kind == StepKind::answer || step.kind == StepKind::drift_check;
+        const bool ends = step.duration || step.ends_by_key || step.ends_by_answer ||
+                          (step.gaze && step.gaze->patience_s) || step.kind == StepKind::text ||
+                          step.kind == StepKind::show || step.kind == StepKind::answer ||
+                          step.kind == StepKind::drift_check;
         if (ends)
             return;
         if (step.gaze)

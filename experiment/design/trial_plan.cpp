@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "experiment/answers/answer_kinds.h"
 #include "experiment/base/counted.h"
 #include "experiment/base/random.h"
 #include "experiment/base/text_number.h"
@@ -58,10 +59,67 @@ std::vector<int> places_shown(const Protocol& protocol, const StepSettings& step
 
 namespace {
 
-TrialPlan plan_of_one_question(const Protocol& protocol, const Trial& trial) {
+/// Indices of the answers with these ids that are given by inputs; of a step that names none, of all.
+std::vector<int> answers_called(const Task& task, const std::vector<std::string>& ids) {
+    std::vector<int> answers;
+    const auto add = [&](std::size_t i) {
+        if (row_of(task.answers[i].kind).make)
+            answers.push_back(static_cast<int>(i));
+    };
+    for (std::size_t i = 0; ids.empty() && i < task.answers.size(); ++i)
+        add(i);
+    for (const std::string& id : ids)
+        if (const auto found = std::ranges::find(task.answers, id, &TaskAnswer::id);
+            found != task.answers.end())
+            add(static_cast<std::size_t>(found - task.answers.begin()));
+    return answers;
+}
+
+/// Gives each step that asks for answers, or waits for them, its sheet.
+void plan_sheets(const Task& task, TrialPlan& plan) {
+    const auto add_sheet = [&](const std::vector<std::string>& ids) {
+        plan.sheets.push_back({.answers = answers_called(task, ids)});
+        return static_cast<int>(plan.sheets.size()) - 1;
+    };
+    std::vector<std::size_t> waiting; ///< steps whose answers the next step `answer` asks for
+    int shown_last = -1, ended_by_answer = -1;
+    const auto close = [&](int sheet) {
+        PlannedSheet& planned = plan.sheets[static_cast<std::size_t>(sheet)];
+        planned.stimulus_step = ended_by_answer >= 0 ? ended_by_answer : shown_last;
+        planned.waits_unseen = !waiting.empty();
+        for (const std::size_t step : waiting)
+            plan.steps[step].sheet = sheet;
+        waiting.clear();
+        ended_by_answer = -1;
+    };
+    for (std::size_t i = 0; i < plan.steps.size(); ++i) {
+        PlannedStep& step = plan.steps[i];
+        if (step.kind == StepKind::show)
+            shown_last = static_cast<int>(i);
+        if (step.ends_by_answer()) {
+            waiting.push_back(i);
+            if (step.kind == StepKind::show)
+                ended_by_answer = static_cast<int>(i);
+        }
+        if (step.kind != StepKind::answer || task.answers.empty())
+            continue;
+        const bool is_spoken = step.settings && step.settings->answers.empty();
+        const std::vector<std::string> ids = step.settings ? step.settings->answers : std::vector{step.id};
+        if (is_spoken || answers_called(task, ids).empty())
+            continue;
+        step.sheet = add_sheet(ids);
+        close(step.sheet);
+    }
+    if (!waiting.empty() && !answers_called(task, {}).empty())
+        close(add_sheet({}));
+}
+
+TrialPlan plan_of_one_question(const Protocol& protocol, const Task& task, const Trial& trial) {
     const Stimulus& stimulus = trial.stimulus;
     TrialPlan plan;
-    for (const StepKind kind : {StepKind::text, StepKind::drift_check, StepKind::show, StepKind::answer}) {
+    std::vector<StepKind> kinds{StepKind::text, StepKind::drift_check, StepKind::show};
+    kinds.insert(kinds.end(), std::max<std::size_t>(1, task.answers.size()), StepKind::answer);
+    for (const StepKind kind : kinds) {
         PlannedStep step;
         step.kind = kind;
         if (kind == StepKind::show) {
@@ -71,8 +129,12 @@ TrialPlan plan_of_one_question(const Protocol& protocol, const Trial& trial) {
             for (std::size_t i = 0; i < trial.shown_count(); ++i)
                 step.places.push_back(static_cast<int>(i));
         }
+        const std::size_t asked = plan.steps.size() - 3;
+        if (kind == StepKind::answer && asked < task.answers.size())
+            step.id = task.answers[asked].id;
         plan.steps.push_back(std::move(step));
     }
+    plan_sheets(task, plan);
     return plan;
 }
 
@@ -98,9 +160,10 @@ void place_masks(TrialPlan& plan) {
 } // namespace
 
 TrialPlan plan_trial(const Protocol& protocol, std::uint64_t seed, const Trial& trial, bool is_practice) {
-    const std::vector<StepSettings>& steps = protocol.tasks[static_cast<std::size_t>(trial.task)].steps;
+    const Task& task = protocol.tasks[static_cast<std::size_t>(trial.task)];
+    const std::vector<StepSettings>& steps = task.steps;
     if (steps.empty())
-        return plan_of_one_question(protocol, trial);
+        return plan_of_one_question(protocol, task, trial);
     const double refresh_hz = protocol.display.refresh_hz;
     const std::vector<bool> watched = watched_steps(steps);
     TrialPlan plan;
@@ -123,6 +186,9 @@ TrialPlan plan_trial(const Protocol& protocol, std::uint64_t seed, const Trial& 
         }
         if (const auto own_s = number_in<double>(own_level(trial, seconds_column(settings))))
             step.drawn_s = own_s;
+        // What an answer ends goes on until then, or until nobody waits any longer.
+        if (settings.ends_by_answer && !settings.duration)
+            step.drawn_s = protocol.screens.response_max_s;
         if (step.drawn_s)
             step.refreshes = refreshes_in(*step.drawn_s, refresh_hz);
         if (settings.gaze && settings.gaze->patience_s)
@@ -130,6 +196,7 @@ TrialPlan plan_trial(const Protocol& protocol, std::uint64_t seed, const Trial& 
         plan.steps.push_back(std::move(step));
     }
     place_masks(plan);
+    plan_sheets(task, plan);
     return plan;
 }
 
@@ -202,7 +269,7 @@ std::string describe_steps(const Protocol& protocol, const Task& task) {
         const StepSettings& step = task.steps[i];
         std::vector<std::string> ends;
         const StepDuration motions = durations_of_motions(protocol);
-        const bool is_motion = step.kind == StepKind::show && !step.duration;
+        const bool is_motion = step.kind == StepKind::show && !step.duration && !step.ends_by_answer;
         double shortest_s = is_motion ? motions.shortest_s() : 0.0;
         double longest_s = is_motion ? motions.longest_s() : 0.0;
         if (step.duration) {
@@ -222,9 +289,10 @@ std::string describe_steps(const Protocol& protocol, const Task& task) {
         const bool waits_for_key = step.ends_by_key || (step.kind == StepKind::text && !step.duration);
         if (waits_for_key)
             ends.push_back("until a key is pressed");
-        if (step.kind == StepKind::answer)
+        if (step.kind == StepKind::answer || step.ends_by_answer)
             ends.push_back("until the answer");
-        if (waits_for_key || step.kind == StepKind::answer || step.kind == StepKind::drift_check)
+        if (waits_for_key || step.kind == StepKind::answer || step.ends_by_answer ||
+            step.kind == StepKind::drift_check)
             shortest_s = 0.0;
         has_end = has_end && longest_s > 0.0;
         least_s += shortest_s;

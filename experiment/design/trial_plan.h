@@ -31,10 +31,20 @@ struct PlannedStep {
                                            : std::nullopt;
     }
     bool ends_by_key() const { return settings && settings->ends_by_key; }
+    bool ends_by_answer() const { return settings && settings->ends_by_answer; }
+    int sheet = -1; ///< of an answer, and of a step that one ends: index into TrialPlan::sheets; -1: none
+};
+
+/// Answers that are asked together: on the screen of one step, and in the steps before that wait for them.
+struct PlannedSheet {
+    std::vector<int> answers;  ///< indices into the task's
+    bool waits_unseen = false; ///< a step that shows the stimulus, or waits, ends by them
+    int stimulus_step = -1;    ///< the one whose stimulus their times count from; -1: none is shown before
 };
 
 struct TrialPlan {
     std::vector<PlannedStep> steps;
+    std::vector<PlannedSheet> sheets; ///< in the order in which they are asked
 };
 
 /// Refreshes in so many seconds, at least one.
@@ -42,7 +52,7 @@ int refreshes_in(double seconds, double refresh_hz);
 
 /// The steps of a trial's task. Durations are drawn from streams of their own by the session's seed, the
 /// trial and the step, or are the trial's own (seconds_column): every attempt at a trial has the same. A task
-/// without steps is a question, a drift check, the stimulus and an answer. Of a practice trial numbers are
+/// without steps is a question, a drift check, the stimulus and its answers. Of a practice trial numbers are
 /// drawn apart. The protocol must outlive the plan.
 TrialPlan plan_trial(const Protocol& protocol, std::uint64_t seed, const Trial& trial, bool is_practice);
 

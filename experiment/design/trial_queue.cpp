@@ -42,6 +42,8 @@ TrialQueue::TrialQueue(const Protocol& protocol, const Schedule& schedule)
 void TrialQueue::begin_block(int block) {
     const bool is_first = block_ < 0;
     block_ = block;
+    correct_.clear();
+    counted_ = 0;
     const BlockSettings& settings = block_at(protocol_, block);
     if (!settings.instructions.empty())
         before_.push_back({SessionStep::Kind::instructions, {}, 1, block});
@@ -66,10 +68,22 @@ bool TrialQueue::needs_pause(bool is_new_block) const {
     return breaks.every_trials > 0 && attempts_since_pause_ >= breaks.every_trials && !block_ends_next;
 }
 
-/// Finds what comes before the next trial, where that is not done already.
+void TrialQueue::add_feedback() {
+    if (block_ >= 0 && !block_at(protocol_, block_).feedback.empty())
+        before_.push_back({SessionStep::Kind::feedback, {}, 1, block_});
+}
+
+/// Finds what comes before the next trial, or at the end, where that is not done already.
 void TrialQueue::look_ahead() {
+    if (before_.empty() && waiting_.empty() && !interrupted_ && !is_last_over_) {
+        is_last_over_ = true;
+        add_feedback();
+    }
     if (before_.empty() && !waiting_.empty()) {
         const int block = waiting_.front().trial.block;
+        is_last_over_ = false;
+        if (block != block_)
+            add_feedback();
         if (needs_pause(block != block_)) {
             before_.push_back({SessionStep::Kind::pause, {}, 1, block});
             attempts_since_pause_ = 0;
@@ -126,14 +140,37 @@ AttemptVerdict TrialQueue::tell(const AttemptResult& result) {
     AttemptVerdict verdict = judge(result);
     Attempt again{running_->trial, running_->number + 1};
     running_.reset();
-    if (verdict.failure == TrialFailure::none)
+    if (verdict.failure == TrialFailure::none) {
+        count(again.trial, result.given);
         return verdict;
+    }
     if (again.number > protocol_.repeat.most_attempts && !result.is_repeated)
         verdict.comes_again = RepeatWhen::never;
     if (verdict.comes_again == RepeatWhen::never)
         verdict.counts = verdict.failure < TrialFailure::rejected;
     put_back(again, verdict.comes_again);
+    if (verdict.counts && verdict.comes_again == RepeatWhen::never)
+        count(again.trial, result.given);
     return verdict;
+}
+
+/// Of a trial that counts. Where the block's criterion is met, the rest of it is left out.
+void TrialQueue::count(const Trial& trial, const std::vector<GivenAnswer>& given) {
+    const CriterionSettings& criterion = block_at(protocol_, trial.block).criterion;
+    if (!criterion.is_written())
+        return;
+    ++counted_;
+    if (std::ranges::any_of(given, [](const GivenAnswer& answer) { return !answer.correct.empty(); }))
+        correct_.push_back(correctness_of(given).value_or(false));
+    const auto last = static_cast<std::size_t>(criterion.last());
+    if (counted_ < criterion.at_least || correct_.size() < last ||
+        std::count(correct_.end() - static_cast<std::ptrdiff_t>(last), correct_.end(), true) <
+            criterion.correct)
+        return;
+    while (!waiting_.empty() && waiting_.front().trial.block == trial.block) {
+        left_out_.push_back(waiting_.front().trial.index);
+        waiting_.pop_front();
+    }
 }
 
 void TrialQueue::put_back(const Attempt& attempt, RepeatWhen when) {
@@ -154,12 +191,13 @@ void TrialQueue::go_through(std::span<const RecordedStep> steps) {
             break;
         case RecordedStep::Kind::pause:
             look_ahead();
-            if (!before_.empty() && before_.front().kind == SessionStep::Kind::pause)
-                before_.pop_front();
+            if (const auto pause = std::ranges::find(before_, SessionStep::Kind::pause, &SessionStep::kind);
+                pause != before_.end())
+                before_.erase(before_.begin(), pause + 1);
             break;
         case RecordedStep::Kind::trial:
             go_on_to_trial(step.trial);
-            take_fate(step.fate);
+            take_fate(step.fate, step.given);
             break;
         case RecordedStep::Kind::resumed:
             resume(step.policy);
@@ -189,12 +227,14 @@ void TrialQueue::go_on_to_trial(int trial) {
                                       trial + 1));
 }
 
-void TrialQueue::take_fate(AttemptFate fate) {
+void TrialQueue::take_fate(AttemptFate fate, const std::vector<GivenAnswer>& given) {
     const Attempt attempt = *running_;
     running_.reset();
     const Attempt again{attempt.trial, attempt.number + 1};
     switch (fate) {
     case AttemptFate::counted:
+        count(attempt.trial, given);
+        break;
     case AttemptFate::skipped:
         break;
     case AttemptFate::comes_again_now:
@@ -240,6 +280,8 @@ void TrialQueue::restart_block() {
     if (const BlockSettings& settings = block_at(protocol_, block_); !settings.instructions.empty())
         before_.push_front({SessionStep::Kind::instructions, {}, 1, block_});
     attempts_since_pause_ = 0;
+    correct_.clear();
+    counted_ = 0;
 }
 
 std::optional<Trial> TrialQueue::expected() const {

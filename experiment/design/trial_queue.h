@@ -7,6 +7,8 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "experiment/ports/session_history.h"
 #include "experiment/protocol/protocol.h"
@@ -16,6 +18,7 @@ namespace overt {
 
 struct SessionStep {
     enum class Kind : std::uint8_t {
+        feedback,     ///< on a block that is over
         instructions, ///< the text of a block that begins
         practice,     ///< a trial that does not count, with feedback
         trial,
@@ -24,13 +27,14 @@ struct SessionStep {
     Kind kind = Kind::trial;
     Trial trial;     ///< of practice, its index is that of the entry in the protocol's practice
     int attempt = 1; ///< at the trial
-    int block = 0;   ///< that begins, or that the trial is of
+    int block = 0;   ///< that begins or is over, or that the trial is of
 };
 
 /// What decides whether an attempt counts.
 struct AttemptResult {
     int missed_refreshes = 0;
     double gaze_lost_share = 0.0; ///< of the samples that the presentation should have given, 0 … 1
+    std::vector<GivenAnswer> given = {};
     // By the operator.
     bool is_rejected = false;
     bool is_repeated = false;   ///< to come again at once, however often it was attempted
@@ -103,6 +107,9 @@ class TrialQueue {
     /// such a trial redo and skip do nothing.
     ResumeEffect resume(ResumePolicy policy);
 
+    /// Trials that do not come, since their block's criterion is met; each once.
+    std::vector<int> take_left_out() { return std::exchange(left_out_, {}); }
+
     /// No trial is waiting, and none was interrupted.
     bool is_done() const { return waiting_.empty() && !interrupted_; }
 
@@ -119,10 +126,12 @@ class TrialQueue {
     void look_ahead();
     void leave_out_to_practice();
     void go_on_to_trial(int trial);
-    void take_fate(AttemptFate fate);
+    void take_fate(AttemptFate fate, const std::vector<GivenAnswer>& given);
     void restart_block();
     void begin_block(int block);
+    void count(const Trial& trial, const std::vector<GivenAnswer>& given);
     bool needs_pause(bool is_new_block) const;
+    void add_feedback();
 
     const Protocol& protocol_;
     const Schedule& schedule_;
@@ -131,6 +140,10 @@ class TrialQueue {
     std::optional<Attempt> running_, interrupted_;
     int block_ = -1; ///< of the last trial
     int attempts_since_pause_ = 0;
+    std::vector<bool> correct_; ///< of the trials of the block that count so far
+    int counted_ = 0;           ///< in the block
+    std::vector<int> left_out_;
+    bool is_last_over_ = false; ///< and feedback on it was given
 };
 
 } // namespace overt

@@ -138,7 +138,8 @@ class SectionHome {
         *static_cast<std::string*>(name_->in(entry)) = std::move(name);
         return entry;
     }
-    /// The section's struct in `root`; of a list, a new entry of it.
+    /// The section's struct in `root`, or in the struct of the section around it; of a list, a new entry of
+    /// it.
     void* open(void* root) const { return is_list() ? add_(place_->in(root)) : place_->in(root); }
     /// Takes out the entries of a list.
     void clear(void* root) const { clear_(place_->in(root)); }
@@ -155,7 +156,8 @@ class SectionHome {
     void (*clear_)(void* list) = nullptr;
 };
 
-/// A [section], the entries of a [[list]], or a table within one of them (`head = { … }` of an object).
+/// A [section], the entries of a [[list]], a table within one of them (`head = { … }` of an object), or a
+/// list within one (`[[task.answer]]`).
 struct Section {
     std::string_view name;
     SectionHome home; ///< of a table within a section: of its struct, if that is not the section's

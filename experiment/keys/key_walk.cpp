@@ -168,7 +168,9 @@ void KeyWalk::read_keys(const Section& section, std::string_view heading, const 
 void KeyWalk::read_inner(const Section& section, const TomlEntry& entry, const std::string& path, void* out) {
     places_.note(path, entry.value.place);
     const SectionHome& home = section.home;
-    if (!entry.value.table()) {
+    if (home.is_list()) {
+        read_inner_list(section, entry, path, out);
+    } else if (!entry.value.table()) {
         error(entry.value.place,
               fmt::format("{}: expected a table, found {}", section.name, entry.value.kind()),
               fmt::format(fmt::runtime(home.is_by_name() ? "write {} = {{ NAME = {{ {} = … }} }}"
@@ -182,6 +184,30 @@ void KeyWalk::read_inner(const Section& section, const TomlEntry& entry, const s
                             : home.has_struct()   ? home.open(out)
                                                   : out;
         read_keys(section, section.name, *entry.value.table(), path, inner);
+    }
+}
+
+/// `[[task.answer]]`: it belongs to the [[task]] that stands last before it.
+void KeyWalk::read_inner_list(const Section& section, const TomlEntry& entry, const std::string& path,
+                              void* out) {
+    if (!entry.value.list()) {
+        error(entry.value.place,
+              fmt::format("{}: expected a list of sections, found {}", section.name, entry.value.kind()),
+              fmt::format("write [[{}.{}]], with two brackets", heading_, section.name));
+        faulty_.insert(path);
+        return;
+    }
+    const TomlList& entries = *entry.value.list();
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+        void* const inner = section.home.open(out);
+        const std::string entry_path = fmt::format("{}[{}]", path, i);
+        places_.note(entry_path, entries[i].place);
+        if (entries[i].table())
+            read_keys(section, fmt::format("{}.{}", heading_, section.name), *entries[i].table(), entry_path,
+                      inner);
+        else
+            error(entries[i].place,
+                  fmt::format("{}: expected a section, found {}", section.name, entries[i].kind()));
     }
 }
 

@@ -41,6 +41,7 @@ class KeyWalk {
     void read_keys(const Section& section, std::string_view heading, const TomlTable& table,
                    const std::string& path, void* out);
     void read_inner(const Section& section, const TomlEntry& entry, const std::string& path, void* out);
+    void read_inner_list(const Section& section, const TomlEntry& entry, const std::string& path, void* out);
     void read_named(const Section& section, const TomlEntry& entry, const std::string& path, void* out);
     void read_key(const Key& key, const TomlValue& value, const std::string& path, void* out);
     void report_missing(const Section& section, const KeyRule& rule, const std::string& path);

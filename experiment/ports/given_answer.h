@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "experiment/base/enum_names.h"
 #include "experiment/ports/observer_input.h"
@@ -27,18 +29,18 @@ struct GivenAnswer {
     std::string item; ///< of a scale with several; else empty
     std::string kind; ///< as in `answer_kinds`
     bool is_missed = true;
-    std::string value;            ///< what was meant: a choice, a step's label or number, what was typed
-    std::optional<double> number; ///< of a scale and of a number
-    std::string key, device;      ///< by which it was given, or accepted where it is accepted apart
+    std::string value = {};            ///< what was meant: a choice, a step's label or number, what was typed
+    std::optional<double> number = {}; ///< of a scale and of a number
+    std::string key = {}, device = {}; ///< by which it was given, or accepted where it is accepted apart
     /// What a trial says is right, as a value; empty: nothing is, or nobody knows it.
-    std::string correct;
-    std::optional<bool> is_correct; ///< nothing: missed, or nothing is correct
+    std::string correct = {};
+    std::optional<bool> is_correct = {}; ///< nothing: missed, or nothing is correct
 
     AnswerZero zero = AnswerZero::window;
-    std::optional<SessionTime> stimulus_onset, window_onset, window_end, screen_onset;
-    std::optional<SessionTime> first_input_at;  ///< the first that changed it, in time
-    std::optional<SessionTime> answered_at;     ///< when it was given, or accepted
-    std::optional<SessionDuration> uncertainty; ///< of answered_at; nothing: missed
+    std::optional<SessionTime> stimulus_onset = {}, window_onset = {}, window_end = {}, screen_onset = {};
+    std::optional<SessionTime> first_input_at = {};  ///< the first that changed it, in time
+    std::optional<SessionTime> answered_at = {};     ///< when it was given, or accepted
+    std::optional<SessionDuration> uncertainty = {}; ///< of answered_at; nothing: missed
     bool is_tied = false; ///< two keys that answer differently were pressed at the same time
 
     int place = 0;   ///< which of the trial's answers and items it was in turn, from 0
@@ -58,6 +60,24 @@ struct GivenAnswer {
     }
 };
 
+/// Of a trial as a whole: every answer for which something is correct was; nothing where nothing is, or where
+/// one of them is missed and does not count as wrong.
+inline std::optional<bool> correctness_of(const std::vector<GivenAnswer>& answers) {
+    std::optional<bool> all;
+    for (const GivenAnswer& answer : answers) {
+        if (answer.correct.empty())
+            continue;
+        if (!answer.is_correct)
+            return std::nullopt;
+        all = all.value_or(true) && *answer.is_correct;
+    }
+    return all;
+}
+
+/// Names and values for viewers of a tracker's file, in which a trial has variables: the answer by its id, its
+/// time "which_time_ms", and "which_correct" as 1 or 0. Names are without blanks.
+std::vector<std::pair<std::string, std::string>> answer_variables(const std::vector<GivenAnswer>& answers);
+
 /// Where an input fell.
 enum class InputState : std::uint8_t {
     before, ///< the window opened
@@ -68,7 +88,7 @@ template <> inline constexpr auto names_of<InputState> = enum_names<InputState>(
 
 /// An input of an attempt, as one answer saw it.
 struct AnswerInput {
-    std::string id; ///< of the answer
+    std::string id, item; ///< of the answer
     ObserverInput input;
     InputState state = InputState::open;
     bool has_counted = false;     ///< it changed the answer, or gave it

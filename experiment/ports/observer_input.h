@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string_view>
 
+#include "experiment/base/enum_names.h"
 #include "experiment/session_time.h"
 
 namespace overt {
@@ -57,5 +58,10 @@ struct ObserverInput {
     int button = 0; ///< 1 left, 2 middle, 3 right
     double steps = 0.0;
 };
+
+/// As the record calls them.
+template <>
+inline constexpr auto names_of<ObserverInput::Kind> = enum_names<ObserverInput::Kind>(
+    "key down", "key up", "text", "pointer moved", "pointer down", "pointer up", "wheel", "dial", "let go");
 
 } // namespace overt

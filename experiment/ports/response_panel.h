@@ -57,6 +57,7 @@ inline constexpr auto
                                                                   "repeat", "reject", "skip", "abort");
 
 class SessionLog;
+struct AnswerOffer;
 
 /// What the next press is to be.
 enum class Awaited : std::uint8_t {
@@ -82,6 +83,11 @@ class ResponsePanel {
     }
     void await_entry(SessionTime since) { await(Awaited::entry, since, nullptr); }
     void await_answer(SessionTime since, const Trial* trial) { await(Awaited::answer, since, trial); }
+    /// What can be answered from now on, in turn: for an observer who does not see the screen. Before
+    /// await_answer(), and again when a page is answered. `window_opened`: presses count from `at` on; it is
+    /// called in presentations, so it allocates and throws nothing.
+    virtual void offer(const std::vector<AnswerOffer>& /*answers*/) {}
+    virtual void window_opened(SessionTime /*at*/) noexcept {}
     void await_setup(SessionTime since) { await(Awaited::setup, since, nullptr); }
     virtual std::optional<SetupKey> next_setup_key() { return std::nullopt; }
     /// While an answer is awaited, the next of what the observer did, in the order of each device. Poll

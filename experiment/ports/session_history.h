@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "experiment/base/enum_names.h"
+#include "experiment/ports/given_answer.h"
 
 namespace overt {
 
@@ -39,6 +40,7 @@ struct RecordedStep {
     int trial = -1;                           ///< of a trial, its index
     AttemptFate fate = AttemptFate::counted;  ///< of a trial
     ResumePolicy policy = ResumePolicy::redo; ///< of being resumed
+    std::vector<GivenAnswer> given = {};      ///< of a trial
 };
 
 /// Everything that was done before a session is taken up again; empty for a new one.

@@ -42,6 +42,8 @@ struct TrialOutcome {
     /// meanwhile, in time.
     std::vector<GivenAnswer> given = {};
     std::vector<AnswerInput> inputs = {};
+    /// Further trials that do not come, since by this one the criterion of their block was met; indices.
+    std::vector<int> left_out = {};
 };
 
 } // namespace overt

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "experiment/answers/task_answer.h"
 #include "experiment/base/enum_names.h"
 #include "experiment/base/named_words.h"
 #include "experiment/protocol/step_settings.h"
@@ -41,6 +42,7 @@ struct Task {
     std::filesystem::path trials_file = {}; ///< of a table; resolved against the protocol's folder
     CatchSettings catch_trials = {};
     int repetitions = 1; ///< how often each of its trials comes
+    std::vector<TaskAnswer> answers = {}; ///< none: the answer is spoken
 };
 
 /// Where simulated observers look for a task: the shares that go to areas, each once, the head first. A task
@@ -106,6 +108,15 @@ struct ScheduleSettings {
     int rotation_seed = 1; ///< of random squares, which all observers share
 };
 
+/// `criterion` of a block: it is over once so many of its last answers were correct.
+struct CriterionSettings {
+    int correct = 0; ///< 0: there is none
+    int of_last = 0; ///< trials that count, one after the other; 0: as many as have to be correct
+    int at_least = 0;
+    bool is_written() const { return correct > 0; }
+    int last() const { return of_last > 0 ? of_last : correct; }
+};
+
 /// [[block]]
 struct BlockSettings {
     std::string id;
@@ -122,6 +133,8 @@ struct BlockSettings {
     std::string instructions; ///< shown before it; empty: nothing
     bool continues = false;   ///< limits count the trials of the block before, too
     DrawSettings draw = {};
+    CriterionSettings criterion = {};
+    std::string feedback = {}; ///< shown after it, with what was answered; empty: nothing
     bool practice = false; ///< all is recorded of its trials, and results are not of them
     NamedNumbers max_run, min_distance;
     std::optional<int> max_task_run, max_object_run, max_material_run, max_stimulus_run;

@@ -18,10 +18,12 @@ std::vector<Key> slot();
 std::vector<Key> bake(), frames();
 // What is asked, and in which order (design_keys.cpp).
 std::vector<Key> protocol(), schedule(), task();
+// How it is answered (answer_keys.cpp).
+std::vector<Key> answer(), answer_truth();
 // Where trials come from (trials_keys.cpp).
 std::vector<Key> trials(), catch_trials(), draw();
 // The order of trials and of observers (order_keys.cpp).
-std::vector<Key> block(), group();
+std::vector<Key> block(), criterion(), group();
 // How a session goes besides its trials (practice_keys.cpp).
 std::vector<Key> practice(), breaks(), repeat();
 // Where simulated observers look (simulation_keys.cpp).

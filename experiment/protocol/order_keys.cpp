@@ -20,6 +20,15 @@ void add_list_keys(std::vector<Key>& keys, ChosenEntries Struct::*chosen, std::s
 
 } // namespace
 
+std::vector<Key> criterion() {
+    using C = CriterionSettings;
+    return {
+        {"correct", &C::correct, range(1, 1000).required(), "How many have to be correct."},
+        {"of_last", &C::of_last, range(0, 1000), "Of how many that came last; 0: of as many."},
+        {"at_least", &C::at_least, range(0, 2000), "How many trials come at least."},
+    };
+}
+
 std::vector<Key> block() {
     using B = BlockSettings;
     constexpr KeyLimits limit = range(0, 1000).left_out("as in `[schedule]`");
@@ -51,6 +60,10 @@ std::vector<Key> block() {
          "One repetition is over before the next begins, or all are mixed."},
         {"instructions", &B::instructions, left_out("none"),
          "What the observer reads before the block, until a key is pressed."},
+        {"feedback", &B::feedback, left_out("none"),
+         "What the observer reads after the block, until a key is pressed: `{percent_correct}`, `{correct}`, "
+         "`{answered}`, `{missed}`, `{trials}` and `{median_s}`, the median response time, stand for "
+         "numbers."},
         {"practice", &B::practice,
          "Its trials are practice: all is recorded of them as of others, and marked, and no result is of "
          "them. Practice of which nothing is recorded is `[[practice]]`."},

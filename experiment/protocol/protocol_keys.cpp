@@ -90,7 +90,16 @@ const KeyTable& protocol_keys() {
              &Protocol::tasks,
              task(),
              "A question that observers are asked about what they see. At least one.",
-             {{"trials", &Task::trials, trials(),
+             {{"answer",
+               &Task::answers,
+               answer(),
+               "`[[task.answer]]`: something that is answered in each trial of the task that stands before "
+               "it, "
+               "one or several; see [answers.md](answers.md). Steps ask for it by its id. Without any, the "
+               "answer is spoken.",
+               {{"simulated", &TaskAnswer::truth, answer_truth(),
+                 "What simulated observers answer: effects of known size, for a study to find."}}},
+              {"trials", &Task::trials, trials(),
                "A rule that makes the task's trials of the levels of factors. `overt check` says how many it "
                "gives."},
               {"catch", &Task::catch_trials, catch_trials(),
@@ -107,7 +116,12 @@ const KeyTable& protocol_keys() {
              "limits of its own, and one blocked by a factor has none from there on this factor (by "
              "stimulus: none on stimulus, object and material).",
              {{"draw", &BlockSettings::draw, draw(),
-               "A list of entries drawn for the block, such as the objects that an observer learns."}}},
+               "A list of entries drawn for the block, such as the objects that an observer learns."},
+              {"criterion", &BlockSettings::criterion, criterion(),
+               "The block is over as soon as so many of its last trials were answered correctly; what is "
+               "left of "
+               "it does not come. Trials in which nothing is correct are not counted, and a missed answer is "
+               "not correct. For practice until it is understood."}}},
             {"group", &Protocol::groups, group(),
              "A group of observers, for what differs between observers. Observers are assigned by their "
              "number: in turn, first to the first group, a group that is full being passed over. Squares and "

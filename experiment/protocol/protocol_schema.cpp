@@ -34,6 +34,8 @@ Json section_schema(const Section& section) {
             inner = {{"type", "object"},
                      {"propertyNames", {{"pattern", "^[A-Za-z0-9_-]{1,40}$"}}},
                      {"additionalProperties", std::move(inner)}};
+        if (table.home.is_list())
+            inner = list_of(std::move(inner));
         Json& property = schema["properties"][std::string(table.name)];
         if (property.is_null()) {
             property = std::move(inner);

@@ -128,9 +128,10 @@ void add_keys(std::string& text, const Section& section, const Values& values, b
         std::string keys;
         for (const Key& key : table.keys)
             keys += fmt::format("{}{} = …", keys.empty() ? "" : ", ", key.rule.name);
-        text += fmt::format(
-            fmt::runtime(table.home.is_by_name() ? "# {} = {{ NAME = {{ {} }} }}\n" : "# {} = {{ {} }}\n"),
-            table.name, keys);
+        text += fmt::format(fmt::runtime(table.home.is_by_name() ? "# {} = {{ NAME = {{ {} }} }}\n"
+                                         : table.is_list()       ? "# {} = [{{ {} }}]\n"
+                                                                 : "# {} = {{ {} }}\n"),
+                            table.name, keys);
     }
 }
 

@@ -126,9 +126,10 @@ class StepReader {
             read_duration_or_wait(value, step);
             return;
         case StepKind::answer: {
-            static constexpr std::string_view answers[] = {"spoken"};
-            std::string answer;
-            take(value, "answer", answer, one_of(answers));
+            step.answers_place = value.place;
+            take(value, "answer", step.answers, identifier());
+            if (step.answers == std::vector<std::string>{"spoken"})
+                step.answers.clear();
             return;
         }
         case StepKind::feedback:
@@ -157,13 +158,20 @@ class StepReader {
                 take(key.value, key.key, step.answered, required());
             else if (key.key == "missed")
                 take(key.value, key.key, step.missed, required());
+            else if (key.key == "correct")
+                take(key.value, key.key, step.correct, required());
+            else if (key.key == "wrong")
+                take(key.value, key.key, step.wrong, required());
+            else if (key.key == "colour")
+                take(key.value, key.key, step.is_coloured);
             else
                 fault(key.key_place, fmt::format("feedback: unknown key \"{}\"", key.key),
-                      "keys are answered, missed");
+                      "keys are answered, correct, wrong, missed, colour");
         }
-        if (step.answered.empty() && step.missed.empty() && faults.size() == before)
+        if (step.answered.empty() && step.missed.empty() && step.correct.empty() && step.wrong.empty() &&
+            faults.size() == before)
             fault(value.place, "feedback: no words are given",
-                  "write answered = \"…\", missed = \"…\", or one of them");
+                  "write correct = \"…\", wrong = \"…\", missed = \"…\", answered = \"…\", or some of them");
     }
 
     void read_other(const StepKindRow& kind, const TomlEntry& key, StepSettings& step) {
@@ -288,14 +296,18 @@ class StepReader {
     void read_until(const TomlValue& value, StepSettings& step) {
         if (const auto* const word = std::get_if<std::string>(&value.content)) {
             step.ends_by_key = *word == "key";
-            if (!step.ends_by_key)
+            step.ends_by_answer = *word == "answer";
+            step.answers_place = value.place;
+            if (!step.ends_by_key && !step.ends_by_answer)
                 fault(value.place, fmt::format("until: unknown value \"{}\"", *word),
-                      "write \"key\", or what gaze is waited for: { gaze_within_deg = 1.5, patience_s = 5 }");
+                      "write \"key\", \"answer\", or what gaze is waited for: { gaze_within_deg = 1.5, "
+                      "patience_s = 5 }");
             return;
         }
         const TomlTable* const table = value.table();
         if (!table) {
-            fault(value.place, fmt::format("until: expected \"key\" or a table, found {}", value.kind()));
+            fault(value.place,
+                  fmt::format("until: expected \"key\", \"answer\" or a table, found {}", value.kind()));
             return;
         }
         GazeWait& wait = step.gaze.emplace();

@@ -40,10 +40,10 @@ inline constexpr auto step_kinds = std::to_array<StepKindRow>({
     {StepKind::fixation,
      "fixation",
      "a target to be looked at",
-     {"for_s", "until", "right_deg", "up_deg"},
+     {"for_s", "limit_s", "until", "right_deg", "up_deg"},
      true},
-    {StepKind::show, "show", "the trial's stimulus", {"for_s", "until", "frame"}, true},
-    {StepKind::blank, "blank", "the background", {"for_s", "until"}, true},
+    {StepKind::show, "show", "the trial's stimulus", {"for_s", "limit_s", "until", "frame"}, true},
+    {StepKind::blank, "blank", "the background", {"for_s", "limit_s", "until"}, true},
     {StepKind::mask, "mask", "noise where stimuli stand, or what they showed, scrambled", {"for_s", "cell_deg"}, true},
     {StepKind::answer, "answer", "the screen of the answer", {"limit_s"}, false},
     {StepKind::feedback, "feedback", "words by what was answered", {"for_s", "answered", "missed"}, false},
@@ -114,6 +114,9 @@ struct StepSettings {
     std::optional<StepDuration> duration; ///< nothing: something else ends it; of `show`: the motion's
     Place duration_place;
     bool ends_by_key = false;
+    bool ends_by_answer = false;      ///< of a step that shows, or waits: `until = "answer"`
+    std::vector<std::string> answers; ///< of `answer`: ids; empty: it is spoken
+    Place answers_place;
     std::optional<GazeWait> gaze;
     double right_deg = 0.0, up_deg = 0.0; ///< of a fixation target, from the middle of the screen
     std::optional<int> frame;             ///< `show` shows this one, still; from 0
@@ -121,6 +124,8 @@ struct StepSettings {
     double cell_deg = 0.25;       ///< side of a mask's squares
     bool is_scrambled = false;    ///< the mask is the stimulus in squares that change places; else noise
     std::string answered, missed; ///< words of a feedback
+    std::string correct, wrong;   ///< the same, where that is known; empty: as `answered`
+    bool is_coloured = false;     ///< they are green and red
 };
 
 /// An hour: nobody looks at a step for longer, and refreshes can be counted.

@@ -149,6 +149,27 @@ CREATE TABLE IF NOT EXISTS swap_modes (
 ) STRICT;
 )sql";
 
+const char* const answer_tables_sql = R"sql(
+CREATE TABLE IF NOT EXISTS given_answer (
+    trial_id INTEGER NOT NULL, n INTEGER NOT NULL, id TEXT NOT NULL, item TEXT NOT NULL, kind TEXT NOT NULL,
+    is_missed INTEGER NOT NULL CHECK (is_missed IN (0, 1)), value TEXT NOT NULL, number REAL, key TEXT NOT NULL,
+    device TEXT NOT NULL, correct TEXT NOT NULL, is_correct INTEGER, zero TEXT NOT NULL,
+    stimulus_onset_ns INTEGER, window_onset_ns INTEGER, window_end_ns INTEGER, screen_onset_ns INTEGER,
+    first_input_ns INTEGER, answered_ns INTEGER, uncertainty_ns INTEGER,
+    is_tied INTEGER NOT NULL CHECK (is_tied IN (0, 1)), place INTEGER NOT NULL, mapping INTEGER NOT NULL,
+    changes INTEGER NOT NULL,
+    PRIMARY KEY (trial_id, n)
+) STRICT, WITHOUT ROWID;
+CREATE TABLE IF NOT EXISTS answer_input (
+    trial_id INTEGER NOT NULL, n INTEGER NOT NULL, id TEXT NOT NULL, item TEXT NOT NULL, kind TEXT NOT NULL,
+    at_ns INTEGER NOT NULL, uncertainty_ns INTEGER NOT NULL, device TEXT NOT NULL, key TEXT NOT NULL,
+    character INTEGER, right_px REAL, down_px REAL, button INTEGER, steps REAL,
+    state TEXT NOT NULL CHECK (state IN ('before', 'open', 'late')),
+    has_counted INTEGER NOT NULL CHECK (has_counted IN (0, 1)), number REAL,
+    PRIMARY KEY (trial_id, n)
+) STRICT, WITHOUT ROWID;
+)sql";
+
 const char* const slot_tables_sql = R"sql(
 CREATE TABLE IF NOT EXISTS slot (
     slot INTEGER PRIMARY KEY, id TEXT NOT NULL, title TEXT NOT NULL, left_px INTEGER NOT NULL,
@@ -249,8 +270,9 @@ void make_session_tables(SQLite::Database& database) {
     for (const std::string& sql : {create_sql(session_table()), create_sql(characterisation_table()),
                                    create_sql(object_table()), create_sql(animation_table())})
         database.exec(sql);
-    for (const char* const sql : {session_schema_sql, box_tables_sql, observer_tables_sql, ledger_tables_sql,
-                                  slot_tables_sql, gaze_tables_sql, device_tables_sql, option_tables_sql})
+    for (const char* const sql :
+         {session_schema_sql, box_tables_sql, observer_tables_sql, ledger_tables_sql, answer_tables_sql,
+          slot_tables_sql, gaze_tables_sql, device_tables_sql, option_tables_sql})
         database.exec(with_stimulus_columns(sql));
     for (const StimulusList& list : stimulus_lists)
         if (list.name != object_table().name) // which has more columns
@@ -262,6 +284,7 @@ void make_session_tables(SQLite::Database& database) {
 void complete_session_tables(SQLite::Database& database) {
     database.exec(ledger_tables_sql);
     database.exec(with_stimulus_columns(slot_tables_sql));
+    database.exec(answer_tables_sql);
     if (!has_column(database, "flip", "step"))
         database.exec("ALTER TABLE flip ADD COLUMN step INTEGER NOT NULL DEFAULT 0");
     if (!has_column(database, "step", "places"))

@@ -36,6 +36,7 @@ extern const char* const box_tables_sql;
 extern const char* const observer_tables_sql;
 
 /// The same for the ledger's table of missed refreshes.
+extern const char* const answer_tables_sql; ///< what was answered by keys, the mouse or boxes
 extern const char* const ledger_tables_sql;
 
 /// The same for the tables of slots, and of what was shown in them.

@@ -76,6 +76,9 @@ OperatorControl::Press OperatorControl::wait(const Waiting& waiting) {
             return {How::session_over, state_.now()};
         if (waiting.meanwhile)
             waiting.meanwhile();
+        if (waiting.is_over)
+            if (const std::optional<SessionTime> since = waiting.is_over())
+                return {How::next, *since};
         rest_a_little(latest);
     }
     return {How::timed_out, latest};

@@ -32,6 +32,8 @@ struct Waiting {
     std::function<void(SessionTime)> await = {};
     /// Called a few hundred times a second; may be empty.
     std::function<void()> meanwhile = {};
+    /// Tells, as often as that, whether it is over, and since when; may be empty. As if a key had ended it.
+    std::function<std::optional<SessionTime>()> is_over = {};
     bool turns_pages = false; ///< left and back go back, right goes on
     bool takes_keys = true;   ///< of the observer; else only time or the operator ends it
     bool starts_over = false; ///< when it is shown again: max_s counts from then

@@ -36,7 +36,7 @@ bool comes_again(const AttemptResult& practice, const RepeatSettings& repeats) {
 Session::Session(const Protocol& protocol, const Schedule& schedule, const ScreenPoint& screen_centre,
                  SessionPorts ports, FieldValues fields)
     : schedule_(schedule), ports_(std::move(ports)), state_(protocol, ports_), control_(state_),
-      trials_(state_, control_, screen_centre, schedule.seed), fields_(std::move(fields)) {
+      trials_(state_, control_, screen_centre, schedule_), fields_(std::move(fields)) {
     fields_.resize(protocol.observer_fields.size());
 }
 
@@ -55,6 +55,8 @@ SessionResult Session::run(const TrialDone& trial_done, const SessionHistory& hi
         control_.calibrate();
         TrialQueue queue(state_.protocol, schedule_);
         queue.go_through(history.steps);
+        queue.take_left_out(); // which the record knows of
+        take_answers(history);
         while (!state_.is_over()) {
             const std::optional<SessionStep> step = queue.next();
             if (!step)
@@ -121,6 +123,9 @@ void Session::run_step(TrialQueue& queue, const SessionStep& step, SessionResult
     if (state_.is_over())
         return;
     switch (step.kind) {
+    case SessionStep::Kind::feedback:
+        give_feedback(step.block);
+        return;
     case SessionStep::Kind::instructions:
         run_instructions(step);
         return;
@@ -151,7 +156,11 @@ void Session::judge(TrialQueue& queue, const Trial& trial, TrialRun::Attempt& at
             attempt.outcome.failure = name_of(TrialFailure::tracker_lost);
         return;
     }
+    attempt.result.given = attempt.outcome.given;
     const AttemptVerdict verdict = queue.tell(attempt.result);
+    attempt.outcome.left_out = queue.take_left_out();
+    if (verdict.counts)
+        answered_[trial.block].push_back(attempt.outcome.given);
     attempt.outcome.status = verdict.counts ? TrialOutcome::Status::completed : TrialOutcome::Status::aborted;
     attempt.outcome.afterwards = afterwards_of(verdict);
     if (verdict.failure == TrialFailure::none)
@@ -167,6 +176,28 @@ void Session::judge(TrialQueue& queue, const Trial& trial, TrialRun::Attempt& at
                                        100.0 * attempt.result.gaze_lost_share,
                                        afterwards[static_cast<int>(verdict.comes_again)],
                                        verdict.counts ? ", and counts as it is" : "")});
+}
+
+/// What was answered in a block, to whom it was.
+void Session::give_feedback(int block) {
+    state_.enter(SessionPhase::block);
+    const BlockSettings& settings = state_.protocol.blocks[static_cast<std::size_t>(block)];
+    read_text(state_, control_, in_numbers(settings.feedback, answered_[block]),
+              "feedback on block " + settings.id);
+}
+
+/// Of the trials that count; of an interrupted session those before.
+void Session::take_answers(const SessionHistory& history) {
+    int block = 0;
+    for (const RecordedStep& step : history.steps) {
+        if (step.kind == RecordedStep::Kind::resumed && step.policy == ResumePolicy::restart_block)
+            answered_[block].clear();
+        if (step.kind != RecordedStep::Kind::trial)
+            continue;
+        block = schedule_.trials.at(static_cast<std::size_t>(step.trial)).block;
+        if (step.fate == AttemptFate::counted)
+            answered_[block].push_back(step.given);
+    }
 }
 
 void Session::run_instructions(const SessionStep& step) {

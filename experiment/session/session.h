@@ -3,9 +3,11 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
+#include "experiment/design/block_feedback.h"
 #include "experiment/design/trial_queue.h"
 #include "experiment/protocol/protocol.h"
 #include "experiment/session/operator_control.h"
@@ -44,6 +46,8 @@ class Session {
   private:
     void run_step(TrialQueue& queue, const SessionStep& step, SessionResult& result,
                   const TrialDone& trial_done);
+    void give_feedback(int block);
+    void take_answers(const SessionHistory& history);
     void run_instructions(const SessionStep& step);
     void run_practice(const SessionStep& step, const std::optional<Trial>& next);
     void run_break();
@@ -52,6 +56,7 @@ class Session {
     void ask_after_block(int block);
     void ask_at(const std::string& when);
 
+    std::map<int, AnsweredTrials> answered_; ///< by block
     const Schedule& schedule_;
     SessionPorts ports_;
     SessionState state_;

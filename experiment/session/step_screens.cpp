@@ -39,6 +39,25 @@ Screen mask(const PlannedStep& step, const StepCircumstances& of) {
     return screen;
 }
 
+Screen feedback(const StepSettings& step, const StepCircumstances& of) {
+    const std::string& known = !of.is_correct ? step.answered : *of.is_correct ? step.correct : step.wrong;
+    const std::string& words = !of.is_answered ? step.missed : known.empty() ? step.answered : known;
+    if (words.empty())
+        return {};
+    if (!step.is_coloured)
+        return {.kind = Screen::Kind::text, .text = words};
+    using Colour = AnswerItem::Colour;
+    Screen screen{.kind = Screen::Kind::answers, .text = ""};
+    AnswerItem& notice = screen.answers.items.emplace_back();
+    notice.kind = AnswerItem::Kind::notice;
+    notice.question = words;
+    notice.colour = !of.is_answered  ? Colour::bad
+                    : !of.is_correct ? Colour::plain
+                    : *of.is_correct ? Colour::good
+                                     : Colour::bad;
+    return screen;
+}
+
 } // namespace
 
 ScreenPoint target_of(const StepSettings& step, const ScreenGeometry& screen) {
@@ -67,10 +86,8 @@ Screen screen_of(const PlannedStep& step, const StepCircumstances& of) {
     }
     case StepKind::mask:
         return step.places.empty() ? Screen{} : mask(step, of);
-    case StepKind::feedback: {
-        const std::string& words = of.is_answered ? step.settings->answered : step.settings->missed;
-        return words.empty() ? Screen{} : Screen{.kind = Screen::Kind::text, .text = words};
-    }
+    case StepKind::feedback:
+        return feedback(*step.settings, of);
     case StepKind::blank:
     case StepKind::show:
     case StepKind::answer:

@@ -10,9 +10,10 @@ namespace overt {
 struct StepCircumstances {
     const Protocol& protocol;
     const Trial& trial;
-    std::uint64_t seed = 0;   ///< of the session
-    std::size_t number = 0;   ///< of the step in its plan, from 0
-    bool is_answered = false; ///< an answer was given in time
+    std::uint64_t seed = 0;              ///< of the session
+    std::size_t number = 0;              ///< of the step in its plan, from 0
+    bool is_answered = false;            ///< an answer was given in time
+    std::optional<bool> is_correct = {}; ///< nothing: missed, or nothing is correct
 };
 
 /// Of a step with settings that is neither `show`, nor `answer`, nor `drift_check`. In a text, {question},

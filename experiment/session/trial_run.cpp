@@ -27,10 +27,11 @@ constexpr double smallest_wall_step_s = 0.1;
 } // namespace
 
 TrialRun::TrialRun(SessionState& state, OperatorControl& control, const ScreenPoint& screen_centre,
-                   std::uint64_t seed)
+                   const Schedule& schedule)
     : state_(state), control_(control), drift_checks_(state, control, screen_centre),
-      answers_(state, control), seed_(seed), cycles_(page_cycles(state.protocol)), shown_(cycles_.front()),
-      ledger_(shown_, WhenLate::drop), watch_(screen_geometry_of(state.protocol), state.protocol.display) {
+      answers_(state, control), asking_(state, control, schedule), seed_(schedule.seed),
+      cycles_(page_cycles(state.protocol)), shown_(cycles_.front()), ledger_(shown_, WhenLate::drop),
+      watch_(screen_geometry_of(state.protocol), state.protocol.display) {
     for (UsedTracker& used : state.trackers())
         feeds_.push_back({used, TrackerFeed(used.tracker), {}});
 }
@@ -50,7 +51,9 @@ TrialRun::Attempt TrialRun::run(const Trial& trial, const std::optional<Trial>& 
     const Clock::Disturbance before = state_.ports.clock.disturbance();
     Running running{.trial = trial, .next = next, .is_practice = is_practice, .attempt = attempt};
     running.plan = plan_trial(state_.protocol, seed_, trial, is_practice);
+    asking_.begin_trial(trial, running.plan, is_practice);
     run_steps(running);
+    asking_.finish(attempt.outcome);
     note_disturbance(before);
     mark_result(trial, attempt);
     state_.write_down();
@@ -69,7 +72,8 @@ bool TrialRun::goes_on(const Attempt& attempt) const {
 }
 
 /// All that may allocate before the first flip of a show.
-void TrialRun::begin_show(Running& running, const PlannedStep& step) {
+void TrialRun::begin_show(Running& running, std::size_t number) {
+    const PlannedStep& step = running.plan.steps[number];
     const Trial& trial = running.trial;
     lit_ = trial.only(step.places);
     const auto cycle_of = [&](const Stimulus& stimulus) {
@@ -84,7 +88,7 @@ void TrialRun::begin_show(Running& running, const PlannedStep& step) {
     slots_.begin(trial.index, trial.shown_count(), step.places, std::move(beside));
     if (!has_shown_)
         state_.ports.presenter.take_swap_modes(); // those before are not the presentation's
-    await_gaze(running, step, state_.now());
+    await_end(running, number, state_.now());
     add_row(running, step);
     onset_text_ = shows_ == 0 ? "SYNCTIME" : step_text(step);
     ledger_ = RefreshLedger(shown_, state_.protocol.motion_of(lit_.stimulus).when_late);
@@ -119,7 +123,8 @@ void TrialRun::note_flip(const FlipRecord& flip) noexcept {
 }
 
 /// What came of a show, after its last flip.
-void TrialRun::note_show(Running& running, const PlannedStep& step) {
+void TrialRun::note_show(Running& running, std::size_t number) {
+    const PlannedStep& step = running.plan.steps[number];
     TrialOutcome& outcome = running.attempt.outcome;
     has_shown_ = true;
     if (ledger_.shown_refreshes() > 0) {
@@ -132,11 +137,12 @@ void TrialRun::note_show(Running& running, const PlannedStep& step) {
     outcome.missed_refreshes += ledger_.missed_refreshes();
     running.attempt.result.missed_refreshes = outcome.missed_refreshes;
     AttemptStep& row = outcome.steps.back();
-    row.ended_by = ledger_.is_complete() ? StepEnd::time
-                   : watch_.has_come()   ? StepEnd::gaze
-                   : was_next_pressed_   ? StepEnd::key
-                   : is_cut_short()      ? StepEnd::stopped
-                                         : StepEnd::patience;
+    row.ended_by = ledger_.is_complete()       ? StepEnd::time
+                   : watch_.has_come()         ? StepEnd::gaze
+                   : was_next_pressed_         ? StepEnd::key
+                   : is_cut_short()            ? StepEnd::stopped
+                   : asking_.has_ended(number) ? StepEnd::answer
+                                               : StepEnd::patience;
     take_gaze(row, step);
 }
 
@@ -146,12 +152,12 @@ void TrialRun::present(Running& running, std::size_t number) {
     const PlannedStep& step = running.plan.steps[number];
     Presenter& presenter = state_.ports.presenter;
     TrackerFeed& own = feeds_.front().items;
-    begin_show(running, step);
+    begin_show(running, number);
     const int patience = step.patience_refreshes.value_or(shown_.total_refreshes);
 
     // From here to the last flip nothing allocates, opens, throws or formats.
     while (!ledger_.is_complete() && ledger_.next_refresh() < patience && !is_cut_short() &&
-           !watch_.has_come() && !was_next_pressed_) {
+           !watch_.has_come() && !was_next_pressed_ && !asking_.has_ended(number)) {
         // Take what the trackers have seen so far.
         take_items(trial.index);
         if (watch_.has_come())
@@ -160,11 +166,14 @@ void TrialRun::present(Running& running, std::size_t number) {
         state_.markers.before_flip(ledger_.next_refresh(), ledger_.next().frame, presenter);
         note_flip(ledger_.enter(
             presenter.flip_slots(slots_.frames(ledger_.next().frame, ledger_.next_refresh()))));
-        // Remember what the operator pressed, here or at the tracker's host.
+        // Take what the observer answers, and remember what the operator pressed, here or at the tracker's
+        // host.
+        if (ledger_.shown_refreshes() == 1)
+            asking_.stimulus_lit(number, ledger_.onset());
         look_at_keys();
         own.look_at_state();
     }
-    note_show(running, step);
+    note_show(running, number);
 }
 
 /// Of all trackers; that of the session must begin, the others may be missing.
@@ -259,6 +268,8 @@ void TrialRun::mark_result(const Trial& trial, const Attempt& attempt) {
         variable(in + "object", state_.protocol.objects[static_cast<std::size_t>(stimulus.object)].id);
         variable(in + "material", state_.protocol.materials[static_cast<std::size_t>(stimulus.material)].id);
     }
+    for (const auto& [name, value] : answer_variables(attempt.outcome.given))
+        variable(name, value);
     variable("missed_refreshes", fmt::format("{}", attempt.outcome.missed_refreshes));
     mark(MarkedEvent::result, now, fmt::format("TRIAL_RESULT {}", goes_on(attempt) ? 0 : 1));
 }
@@ -272,6 +283,7 @@ void TrialRun::look_at_keys() noexcept {
         if (is_operators(press->key) && (!pressed_ || ends_it))
             pressed_ = press;
     }
+    asking_.look();
 }
 
 /// What was decided at the tracker's host, or became of the tracker, becomes of the attempt.

@@ -7,9 +7,11 @@
 
 #include "experiment/design/trial_plan.h"
 #include "experiment/design/trial_queue.h"
+#include "experiment/session/answer_asking.h"
 #include "experiment/session/answer_taking.h"
 #include "experiment/session/drift_checks.h"
 #include "experiment/session/gaze_watch.h"
+#include "experiment/session/step_screens.h"
 #include "experiment/session/tracker_feed.h"
 #include "experiment/timing/refresh_ledger.h"
 #include "experiment/timing/slot_cycles.h"
@@ -18,9 +20,9 @@ namespace overt {
 
 class TrialRun {
   public:
-    /// `state` and `control` must outlive this. `seed`: of the session, from which steps are drawn.
+    /// `state`, `control` and `schedule` must outlive this.
     TrialRun(SessionState& state, OperatorControl& control, const ScreenPoint& screen_centre,
-             std::uint64_t seed);
+             const Schedule& schedule);
 
     /// What an attempt was like.
     struct Attempt {
@@ -49,9 +51,11 @@ class TrialRun {
     void ask(Running& running, std::size_t number);
     void check_drift(Running& running, const PlannedStep& step);
     void take_answer(Running& running, std::size_t number);
+    void ask_answers(Running& running, std::size_t number);
+    StepCircumstances circumstances(const Running& running, std::size_t number) const;
     void stand(Running& running, std::size_t number);
     void hold(Running& running, std::size_t number);
-    void await_gaze(Running& running, const PlannedStep& step, SessionTime since);
+    void await_end(Running& running, std::size_t number, SessionTime since);
     void take_gaze(AttemptStep& row, const PlannedStep& step) const;
     bool is_gaze_missed(Running& running, std::size_t number);
     void add_row(Running& running, const PlannedStep& step);
@@ -68,9 +72,9 @@ class TrialRun {
     void act_on_tracker(Attempt& attempt);
     void note_lost_trackers();
     void present(Running& running, std::size_t number);
-    void begin_show(Running& running, const PlannedStep& step);
+    void begin_show(Running& running, std::size_t number);
     void note_flip(const FlipRecord& flip) noexcept;
-    void note_show(Running& running, const PlannedStep& step);
+    void note_show(Running& running, std::size_t number);
     void act_on_pressed_keys(Attempt& attempt);
     bool goes_on(const Attempt& attempt) const;
     void take_items(int trial) noexcept;
@@ -88,7 +92,8 @@ class TrialRun {
     OperatorControl& control_;
     DriftChecks drift_checks_;
     AnswerTaking answers_;
-    std::uint64_t seed_;
+    AnswerAsking asking_;
+    std::uint64_t seed_;            ///< of the session, from which steps are drawn
     std::vector<PageCycle> cycles_; ///< by motion
     PageCycle shown_;               ///< what the step that shows stimuli lights, of the first of them
     Trial lit_;                     ///< the trial with what that step lights

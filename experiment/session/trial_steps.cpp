@@ -127,8 +127,11 @@ void TrialRun::run_step(Running& running, std::size_t number) {
 /// Something else than what the step before shows is on the screen.
 void TrialRun::end_row(Running& running, SessionTime lit) {
     TrialOutcome& outcome = running.attempt.outcome;
-    if (!outcome.steps.empty() && !outcome.steps.back().end)
-        outcome.steps.back().end = lit;
+    if (outcome.steps.empty() || outcome.steps.back().end)
+        return;
+    outcome.steps.back().end = lit;
+    if (outcome.steps.back().kind == name_of(StepKind::show))
+        asking_.stimulus_gone(lit);
 }
 
 /// A row for a step that is come to; its times come later, so that nothing is allocated between flips.
@@ -147,8 +150,11 @@ void TrialRun::add_row(Running& running, const PlannedStep& step) {
 /// What the step added last shows is on the screen, and what the one before showed is not.
 void TrialRun::begin_row(Running& running, SessionTime lit) noexcept {
     std::vector<AttemptStep>& rows = running.attempt.outcome.steps;
-    if (rows.size() > 1 && !rows[rows.size() - 2].end)
+    if (rows.size() > 1 && !rows[rows.size() - 2].end) {
         rows[rows.size() - 2].end = lit;
+        if (rows[rows.size() - 2].kind == name_of(StepKind::show))
+            asking_.stimulus_gone(lit);
+    }
     rows.back().begin = lit;
 }
 
@@ -196,6 +202,10 @@ void TrialRun::check_drift(Running& running, const PlannedStep& step) {
 
 void TrialRun::take_answer(Running& running, std::size_t number) {
     const PlannedStep& step = running.plan.steps[number];
+    if (step.sheet >= 0) {
+        ask_answers(running, number);
+        return;
+    }
     TrialOutcome& outcome = running.attempt.outcome;
     add_row(running, step);
     const OperatorControl::How how =
@@ -207,14 +217,41 @@ void TrialRun::take_answer(Running& running, std::size_t number) {
     row.end = outcome.responded_at;
 }
 
+/// The screen of answers by keys, the mouse or boxes; none where all was answered before it.
+void TrialRun::ask_answers(Running& running, std::size_t number) {
+    if (asking_.is_needless(number))
+        return;
+    const PlannedStep& step = running.plan.steps[number];
+    TrialOutcome& outcome = running.attempt.outcome;
+    add_row(running, step);
+    SessionTime onset;
+    const OperatorControl::Press press = asking_.ask(number, running.next, onset);
+    if (outcome.response_screen_onset == SessionTime())
+        outcome.response_screen_onset = onset;
+    begin_row(running, onset);
+    mark_step(step, onset);
+    AttemptStep& row = outcome.steps.back();
+    row.ended_by = end_of(press.how, StepEnd::answer, StepEnd::time);
+    row.end = press.at;
+}
+
+/// What a step's words depend on.
+StepCircumstances TrialRun::circumstances(const Running& running, std::size_t number) const {
+    StepCircumstances of{state_.protocol, running.trial, seed_, number, running.is_answered};
+    if (asking_.asks()) {
+        of.is_answered = asking_.is_answered();
+        of.is_correct = asking_.is_correct();
+    }
+    return of;
+}
+
 /// A screen that stands for a time, outside of what is watched.
 void TrialRun::stand(Running& running, std::size_t number) {
     const PlannedStep& step = running.plan.steps[number];
     // What comes after the answer belongs to its screen.
     if (state_.phase() != SessionPhase::response_screen && state_.phase() != SessionPhase::task_screen)
         state_.enter(SessionPhase::task_screen, state_.trial());
-    const Screen screen =
-        screen_of(step, {state_.protocol, running.trial, seed_, number, running.is_answered});
+    const Screen screen = screen_of(step, circumstances(running, number));
     const SessionTime onset = state_.show(screen);
     mark_step(step, onset);
     add_row(running, step);
@@ -229,21 +266,24 @@ void TrialRun::stand(Running& running, std::size_t number) {
 /// A screen that stands while gaze is recorded, until time, a key or gaze ends it.
 void TrialRun::hold(Running& running, std::size_t number) {
     const PlannedStep& step = running.plan.steps[number];
-    const Screen screen =
-        screen_of(step, {state_.protocol, running.trial, seed_, number, running.is_answered});
+    // What only waits for an answer that came already is passed over.
+    if (step.ends_by_answer() && asking_.is_needless(number))
+        return;
+    const Screen screen = screen_of(step, circumstances(running, number));
     const double refresh_hz = state_.protocol.display.refresh_hz;
     const SessionTime onset = state_.show(screen);
     mark_step(step, onset);
     add_row(running, step);
     begin_row(running, onset);
-    await_gaze(running, step, onset);
+    await_end(running, number, onset);
     // The next screen is asked for in the middle of the last refresh.
     const auto after = [&](const std::optional<int>& refreshes) {
         return onset + from_seconds(refreshes ? (*refreshes - 0.5) / refresh_hz : without_end_s);
     };
     const SessionTime time_up = after(step.refreshes), patience_up = after(step.patience_refreshes);
     const SessionTime latest = std::min(time_up, patience_up);
-    while (state_.now() < latest && !is_cut_short() && !watch_.has_come() && !was_next_pressed_) {
+    while (state_.now() < latest && !is_cut_short() && !watch_.has_come() && !was_next_pressed_ &&
+           !asking_.has_ended(number)) {
         take_items(running.trial.index);
         look_at_keys();
         feeds_.front().items.look_at_state();
@@ -251,20 +291,23 @@ void TrialRun::hold(Running& running, std::size_t number) {
             state_.ports.clock.wait_until(std::min(latest, state_.now() + look_interval));
     }
     AttemptStep& row = running.attempt.outcome.steps.back();
-    row.ended_by = is_cut_short()           ? StepEnd::stopped
-                   : watch_.has_come()      ? StepEnd::gaze
-                   : was_next_pressed_      ? StepEnd::key
-                   : time_up <= patience_up ? StepEnd::time
-                                            : StepEnd::patience;
+    row.ended_by = is_cut_short()              ? StepEnd::stopped
+                   : watch_.has_come()         ? StepEnd::gaze
+                   : was_next_pressed_         ? StepEnd::key
+                   : asking_.has_ended(number) ? StepEnd::answer
+                   : time_up <= patience_up    ? StepEnd::time
+                                               : StepEnd::patience;
     take_gaze(row, step);
 }
 
 /// What ends the step besides time.
-void TrialRun::await_gaze(Running& running, const PlannedStep& step, SessionTime since) {
+void TrialRun::await_end(Running& running, std::size_t number, SessionTime since) {
+    const PlannedStep& step = running.plan.steps[number];
     was_next_pressed_ = false;
     awaits_key_ = step.ends_by_key();
     if (awaits_key_)
         state_.ports.panel.await_key(since);
+    asking_.begin_watched_step(number, since, awaits_key_);
     watch_.end();
     const GazeWait* const wait = step.gaze();
     if (!wait)

@@ -246,8 +246,8 @@ std::optional<SessionTime> next_begin(const SessionRecord& record, const TrialRe
 }
 
 /// How an attempt ended, and what was answered, for a reader who has a row for each attempt.
-std::vector<std::pair<std::string_view, std::string>> outcomes_of(const TrialRecord& trial) {
-    std::vector<std::pair<std::string_view, std::string>> outcomes{
+std::vector<std::pair<std::string, std::string>> outcomes_of(const TrialRecord& trial) {
+    std::vector<std::pair<std::string, std::string>> outcomes{
         {"attempt", fmt::format("{}", trial.attempt)},
         {"status", std::string(name_of(trial.status))},
         {"counts", trial.counts ? "yes" : "no"}};
@@ -258,6 +258,8 @@ std::vector<std::pair<std::string_view, std::string>> outcomes_of(const TrialRec
             fmt::format("{:.3f}", 1e3 * to_seconds(outcome.responded_at - outcome.response_screen_onset)));
     if (!outcome.answer.empty())
         outcomes.emplace_back("answer", outcome.answer);
+    for (auto& [name, value] : answer_variables(outcome.given))
+        outcomes.emplace_back(std::move(name), ascii_of(value));
     return outcomes;
 }
 
@@ -285,6 +287,8 @@ void AscTrial::write_down(const SessionRecord& record, const TrialRecord& trial,
     if (span) {
         if (const std::string answer = answer_text(trial); !answer.empty())
             add(span->second, answer);
+        for (const auto& [name, value] : answer_variables(trial.outcome.given))
+            add(span->second, fmt::format("!V TRIAL_VAR {} {}", name, ascii_of(value)));
     }
     // Of response boxes there are lines BUTTON.
     if (clock_map)

@@ -35,6 +35,7 @@ struct BidsEvent {
     std::string stimulus_file = {};
     const TrialRecord* ended = nullptr;  ///< the attempt, where the event is all of it and it has an outcome
     std::string value = {}, device = {}; ///< of a button or a marker
+    const GivenAnswer* given = nullptr;  ///< of a response by keys, the mouse or a box
     operator const TrialRecord&() const { return *attempt; }
 };
 
@@ -43,9 +44,41 @@ auto of_ended(auto of) {
     return [of](const BidsEvent& row) { return of_maybe(row.ended, of); };
 }
 
+/// Of an answer that was given by keys, the mouse or a box, or missed.
+auto of_given(auto of) {
+    return [of](const BidsEvent& row) { return of_maybe(row.given, of); };
+}
+
+/// Of sessions with such answers.
+std::vector<RowLayout<BidsEvent>::Column> answer_columns() {
+    return {
+        {{"response", "What was answered, by its meaning; n/a: missed"},
+         of_given([](const GivenAnswer& given) { return given.is_missed ? std::string() : given.value; })},
+        {{"response_id",
+          "Which answer, as the protocol calls it; of a scale with several items with the item"},
+         of_given([](const GivenAnswer& given) {
+             return given.item.empty() ? given.id : fmt::format("{}/{}", given.id, given.item);
+         })},
+        {{"response_key", "The key by which it was given, or accepted"},
+         of_given([](const GivenAnswer& given) { return given.key; })},
+        {{"response_number", "The answer of a scale, or a number that was typed"},
+         of_given([](const GivenAnswer& given) {
+             return Fixed{given.number, 6};
+         })},
+        {{"correct",
+          "Whether it was correct",
+          "",
+          {{"1", "yes"}, {"0", "no"}, {"n/a", "missed, or nothing is correct"}}},
+         [](const BidsEvent& row) {
+             return row.given && row.given->is_correct ? std::optional(*row.given->is_correct ? 1 : 0)
+                                                       : std::nullopt;
+         }},
+    };
+}
+
 /// `header` must outlive it.
 RowLayout<BidsEvent> events_layout(const SessionHeader& header, SessionTime zero,
-                                   const std::optional<ClockMap>& clock_map) {
+                                   const std::optional<ClockMap>& clock_map, bool has_given_answers) {
     Levels tasks, blocks;
     for (const RecordedTask& task : header.tasks)
         tasks.emplace_back(task.id, task.question.empty() ? task.id : plain_line_of(task.question));
@@ -66,7 +99,8 @@ RowLayout<BidsEvent> events_layout(const SessionHeader& header, SessionTime zero
               {{"trial", "an attempt at a trial, from its begin to the answer"},
                {"question", "the screen with the question"},
                {"presentation", "the stimulus"},
-               {"response", "the screen during the answer"},
+               {"response", "the answer: of a spoken one the screen during it, of others the instant"},
+               {"answer", "the screen on which it is answered by keys, the mouse or a box"},
                {"text", "words that are no question"},
                {"fixation", "a target to be looked at"},
                {"blank", "the background alone"},
@@ -77,7 +111,11 @@ RowLayout<BidsEvent> events_layout(const SessionHeader& header, SessionTime zero
                {"key", "a key of a keyboard was pressed"},
                {"marker", "another device was told of an event"}}},
              &BidsEvent::what},
-            {{"response_time", "From the onset of the response screen to the end of the answer", "s"},
+            {{"response_time",
+              "Of a spoken answer, from the onset of its screen to its end; of others, from what the "
+              "protocol "
+              "lets it count from; negative: before that; n/a: missed",
+              "s"},
              &BidsEvent::response_time},
             {{"stim_file", "First frame of the stimulus, in the folder stimuli"}, &BidsEvent::stimulus_file},
             {{"tracker_onset",
@@ -138,6 +176,8 @@ RowLayout<BidsEvent> events_layout(const SessionHeader& header, SessionTime zero
         {{"answer", "The answer, where it was taken down"},
          of_ended([](auto& attempt) { return attempt.outcome.answer; })},
     });
+    if (has_given_answers)
+        layout.add<BidsEvent>(answer_columns());
     if (const SharedColumns shared(header); shared.has_slots)
         layout.add<BidsEvent>({{shared.slot, [&header](auto& row) {
                                     return when(row.what == presentation_event,
@@ -185,7 +225,29 @@ void add_events(std::vector<BidsEvent>& to, const TrialRecord& trial, SessionTim
             to.push_back(
                 {&shown, presentation_event, onset, dark, {}, stimulus_file(shown.trial.stimulus)});
     }
-    if (was(outcome.response_screen_onset)) {
+    for (const GivenAnswer& given : outcome.given) {
+        // What was missed stands where it could last have been given.
+        const std::optional<SessionTime> at = given.answered_at  ? given.answered_at
+                                              : given.window_end ? given.window_end
+                                                                 : given.window_onset;
+        if (at)
+            to.push_back({.attempt = &trial,
+                          .what = "response",
+                          .from = *at,
+                          .to = *at,
+                          .response_time = given.response_time(),
+                          .device = given.device,
+                          .given = &given});
+    }
+    if (!outcome.given.empty()) {
+        for (const AttemptStep& step : outcome.steps)
+            if (step.kind == "answer" && step.begin)
+                to.push_back({.attempt = &trial,
+                              .what = "answer",
+                              .from = *step.begin,
+                              .to = step.end.value_or(*step.begin),
+                              .value = step.id});
+    } else if (was(outcome.response_screen_onset)) {
         std::optional<SessionDuration> response_time;
         if (was(outcome.responded_at))
             response_time = outcome.responded_at - outcome.response_screen_onset;
@@ -263,7 +325,10 @@ void write_bids_events(const SessionRecord& record, int run, std::optional<Sessi
     const SessionHeader& header = record.header();
     const Json screen = screen_of(record);
     const std::optional<ClockMap> clock_map = record.clock_map(run);
-    const RowLayout<BidsEvent> layout = events_layout(header, zero.value_or(SessionTime()), clock_map);
+    const bool has_given_answers = std::ranges::any_of(
+        record.trials(), [](const TrialRecord& trial) { return !trial.outcome.given.empty(); });
+    const RowLayout<BidsEvent> layout =
+        events_layout(header, zero.value_or(SessionTime()), clock_map, has_given_answers);
     TableWriter writer(stem.string() + ".tsv", layout.table(), TableFormat::tsv, Packing::none,
                        TableWriter::Header::names);
     std::vector<BidsEvent> events;

@@ -47,16 +47,17 @@ SessionHistory SessionRecord::history() const {
     std::vector<DatedStep> dated;
     for (const auto& [sitting, policy] : resumptions())
         dated.push_back(
-            {sitting, SessionTime::min(), {RecordedStep::Kind::resumed, -1, {}, policy_called(policy)}});
+            {sitting, SessionTime::min(), {RecordedStep::Kind::resumed, -1, {}, policy_called(policy), {}}});
     for (const TrialRecord& trial : trials_)
-        dated.push_back({trial.sitting,
-                         trial.started,
-                         {RecordedStep::Kind::trial, trial.trial.index, fate_of(trial), {}}});
+        dated.push_back(
+            {trial.sitting,
+             trial.started,
+             {RecordedStep::Kind::trial, trial.trial.index, fate_of(trial), {}, trial.outcome.given}});
     for (const RecordedEvent& event : events()) {
         if (event.kind == practice_answered_event || event.kind == practice_skipped_event)
-            dated.push_back({event.sitting, event.at, {RecordedStep::Kind::practice, -1, {}, {}}});
+            dated.push_back({event.sitting, event.at, {RecordedStep::Kind::practice, -1, {}, {}, {}}});
         if (event.kind == break_begins_event)
-            dated.push_back({event.sitting, event.at, {RecordedStep::Kind::pause, -1, {}, {}}});
+            dated.push_back({event.sitting, event.at, {RecordedStep::Kind::pause, -1, {}, {}, {}}});
     }
     std::stable_sort(dated.begin(), dated.end(), [](const DatedStep& a, const DatedStep& b) {
         // In virtual time a trial begins at the very instant at which what was before it ended.

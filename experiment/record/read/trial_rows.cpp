@@ -175,6 +175,63 @@ void add_steps(const SQLite::Database& database, std::vector<TrialRecord>& trial
     }
 }
 
+template <class Enum> Enum read_name(const std::string& word, Enum otherwise) {
+    const auto found = std::ranges::find(names_of<Enum>, word);
+    return found == names_of<Enum>.end() ? otherwise : static_cast<Enum>(found - names_of<Enum>.begin());
+}
+
+void add_given_answers(const SQLite::Database& database, std::vector<TrialRecord>& trials) {
+    if (!has_table(database, "given_answer"))
+        return;
+    for (Query row(database,
+                   "SELECT trial_id, id, item, kind, is_missed, value, number, key, device, correct, "
+                   "is_correct, zero, stimulus_onset_ns, window_onset_ns, window_end_ns, screen_onset_ns, "
+                   "first_input_ns, answered_ns, uncertainty_ns, is_tied, place, mapping, changes "
+                   "FROM given_answer ORDER BY trial_id, n");
+         row.step();) {
+        const auto trial = std::ranges::find(trials, row.integer(), &TrialRecord::id);
+        GivenAnswer given;
+        std::string zero;
+        row.read(given.id, given.item, given.kind, given.is_missed, given.value, given.number, given.key,
+                 given.device, given.correct, given.is_correct, zero, given.stimulus_onset,
+                 given.window_onset, given.window_end, given.screen_onset, given.first_input_at,
+                 given.answered_at, given.uncertainty, given.is_tied, given.place, given.mapping,
+                 given.changes);
+        given.zero = read_name(zero, AnswerZero::window);
+        if (trial != trials.end())
+            trial->outcome.given.push_back(std::move(given));
+    }
+}
+
+void add_answer_inputs(const SQLite::Database& database, std::vector<TrialRecord>& trials) {
+    if (!has_table(database, "answer_input"))
+        return;
+    for (Query row(database,
+                   "SELECT trial_id, id, item, kind, at_ns, uncertainty_ns, device, key, character, "
+                   "right_px, down_px, button, steps, state, has_counted, number "
+                   "FROM answer_input ORDER BY trial_id, n");
+         row.step();) {
+        const auto trial = std::ranges::find(trials, row.integer(), &TrialRecord::id);
+        AnswerInput taken;
+        std::string kind, device, key, state;
+        std::optional<int> character, button;
+        std::optional<double> right_px, down_px, steps;
+        row.read(taken.id, taken.item, kind, taken.input.at, taken.input.uncertainty, device, key, character,
+                 right_px, down_px, button, steps, state, taken.has_counted, taken.number);
+        taken.input.kind = read_name(kind, ObserverInput::Kind::key_down);
+        taken.input.device = ShortName(device);
+        taken.input.key = ShortName(key);
+        taken.input.character = static_cast<char32_t>(character.value_or(0));
+        taken.input.right_px = right_px.value_or(0.0);
+        taken.input.down_px = down_px.value_or(0.0);
+        taken.input.button = button.value_or(0);
+        taken.input.steps = steps.value_or(0.0);
+        taken.state = read_name(state, InputState::open);
+        if (trial != trials.end())
+            trial->outcome.inputs.push_back(std::move(taken));
+    }
+}
+
 } // namespace
 
 std::vector<const AttemptStep*> further_steps(const TrialRecord& trial) {
@@ -221,6 +278,8 @@ std::vector<TrialRecord> read_trials(const SQLite::Database& database) {
     add_response_keys(database, trials);
     add_gaze(database, trials);
     add_steps(database, trials);
+    add_given_answers(database, trials);
+    add_answer_inputs(database, trials);
     add_slots(database, trials);
     return trials;
 }

@@ -31,22 +31,23 @@ ExportTables::ExportTables(const SessionHeader& header, const SharedColumns& sha
       gaze_events(gaze_events_layout(header, event_origins, pupil)), events(events_layout()),
       responses(responses_layout(shared, header)), stimuli(stimuli_layout(shared, header)),
       display_box(display_box_layout()), buttons(buttons_layout()), key_presses(key_presses_layout()),
-      markers(markers_layout()), steps(steps_layout()), participants(participants_layout(participant)),
+      markers(markers_layout()), steps(steps_layout()), given_answers(given_answers_layout(shared, header)),
+      answer_inputs(answer_inputs_layout()), participants(participants_layout(participant)),
       has_slots_(shared.has_slots) {
     const std::vector<LeadingColumn> leading{
         {{"observer", "Label of the observer"}, header.schedule.observer.label},
         {{"session", "Which session of this observer, from 1"}, std::to_string(header.session_number), true}};
     const auto lead = [&](auto&... layouts) { (layouts.lead_with(leading), ...); };
     lead(trials, presentations, flips, samples, gaze_events, events, responses, stimuli, display_box, buttons,
-         key_presses, markers, steps);
+         key_presses, markers, steps, given_answers, answer_inputs);
 }
 
 std::vector<const Table*> ExportTables::all() const {
-    std::vector<const Table*> tables{&trials.table(),      &flips.table(),       &samples.table(),
-                                     &gaze_events.table(), &events.table(),      &responses.table(),
-                                     &stimuli.table(),     &display_box.table(), &buttons.table(),
-                                     &key_presses.table(), &markers.table(),     &steps.table(),
-                                     &participants.table()};
+    std::vector<const Table*> tables{&trials.table(),        &flips.table(),         &samples.table(),
+                                     &gaze_events.table(),   &events.table(),        &responses.table(),
+                                     &stimuli.table(),       &display_box.table(),   &buttons.table(),
+                                     &key_presses.table(),   &markers.table(),       &steps.table(),
+                                     &given_answers.table(), &answer_inputs.table(), &participants.table()};
     if (has_slots_)
         tables.push_back(&presentations.table());
     return tables;

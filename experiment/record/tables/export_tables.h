@@ -44,6 +44,8 @@ class ExportTables {
     RowLayout<RecordedKeyPress> key_presses;
     RowLayout<RecordedMarker> markers;
     RowLayout<StepRow> steps;
+    RowLayout<GivenAnswerRow> given_answers;
+    RowLayout<AnswerInputRow> answer_inputs;
     RowLayout<ParticipantRow> participants;
 
     std::vector<const Table*> all() const;

@@ -26,6 +26,24 @@ struct StepRow {
 };
 RowLayout<StepRow> steps_layout(const SessionHeader& header);
 
+/// An answer of an attempt that ended, given or missed.
+struct GivenAnswerRow {
+    const TrialRecord& attempt;
+    const GivenAnswer& given;
+    operator const TrialRecord&() const { return attempt; }
+};
+/// `header` must outlive it.
+RowLayout<GivenAnswerRow> given_answers_layout(const SharedColumns& shared, const SessionHeader& header);
+
+/// What the observer did while answers were asked, or before.
+struct AnswerInputRow {
+    const TrialRecord& attempt;
+    int number; ///< from 1
+    const AnswerInput& taken;
+    operator const TrialRecord&() const { return attempt; }
+};
+RowLayout<AnswerInputRow> answer_inputs_layout();
+
 struct DisplayBoxRow {
     int sitting;
     const RecordedBox& box;

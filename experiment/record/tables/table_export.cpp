@@ -290,6 +290,11 @@ void TableExport::write_what_belongs_to_no_trial() {
         int number = 0;
         for (const AttemptStep& step : trial.outcome.steps)
             write(tables_.steps, StepRow{trial, ++number, step});
+        for (const GivenAnswer& given : trial.outcome.given)
+            write(tables_.given_answers, GivenAnswerRow{trial, given});
+        number = 0;
+        for (const AnswerInput& input : trial.outcome.inputs)
+            write(tables_.answer_inputs, AnswerInputRow{trial, ++number, input});
     }
     for (const auto& [sitting, box] : record_.display_boxes()) {
         const auto readings = record_.box_clock_readings(sitting);

@@ -417,9 +417,49 @@ void RowWriter::write(const TrialFinish& finish) {
                       step.drawn_s, step.still_frame, step.begin, step.end,
                       step.ended_by ? std::optional(name_of(*step.ended_by)) : std::nullopt,
                       step.gaze_onset, step.gaze_detected, text_of_places(step.places));
+    write_answers(outcome);
+    for (const int trial : outcome.left_out)
+        insert_values(database_, "OR REPLACE INTO given_up", trial, sitting_, "the criterion was met");
     seals_.seal_trial(sitting_, trial_counts_.trial_id);
+    if (!outcome.left_out.empty())
+        seals_.seal_rest(SealKind::other, sitting_);
     forget_file_hash(database_);
     commit_to_disk();
+}
+
+void RowWriter::write_answers(const TrialOutcome& outcome) {
+    int number = 0;
+    for (const GivenAnswer& given : outcome.given)
+        insert_values(
+            database_,
+            "INTO given_answer (trial_id, n, id, item, kind, is_missed, value, number, key, device, "
+            "correct, is_correct, zero, stimulus_onset_ns, window_onset_ns, window_end_ns, "
+            "screen_onset_ns, first_input_ns, answered_ns, uncertainty_ns, is_tied, place, mapping, "
+            "changes)",
+            trial_counts_.trial_id, ++number, given.id, given.item, given.kind, given.is_missed, given.value,
+            given.number, given.key, given.device, given.correct, given.is_correct, name_of(given.zero),
+            given.stimulus_onset, given.window_onset, given.window_end, given.screen_onset,
+            given.first_input_at, given.answered_at, given.uncertainty, given.is_tied, given.place,
+            given.mapping, given.changes);
+    number = 0;
+    for (const AnswerInput& taken : outcome.inputs) {
+        const ObserverInput& input = taken.input;
+        using Kind = ObserverInput::Kind;
+        const bool points = input.kind == Kind::pointer_moved || input.kind == Kind::pointer_down ||
+                            input.kind == Kind::pointer_up;
+        const bool turns = input.kind == Kind::wheel || input.kind == Kind::dial;
+        const auto of = [](bool is_there, auto value) {
+            return is_there ? std::optional(value) : std::nullopt;
+        };
+        insert_values(database_,
+                      "INTO answer_input (trial_id, n, id, item, kind, at_ns, uncertainty_ns, device, key, "
+                      "character, right_px, down_px, button, steps, state, has_counted, number)",
+                      trial_counts_.trial_id, ++number, taken.id, taken.item, name_of(input.kind), input.at,
+                      input.uncertainty, input.device.view(), input.key.view(),
+                      of(input.kind == Kind::text, static_cast<int>(input.character)),
+                      of(points, input.right_px), of(points, input.down_px), of(points, input.button),
+                      of(turns, input.steps), name_of(taken.state), taken.has_counted, taken.number);
+    }
 }
 
 void RowWriter::checkpoint() noexcept {

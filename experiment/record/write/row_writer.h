@@ -63,6 +63,7 @@ class RowWriter {
 
   private:
     void note_refreshes_of_presentations();
+    void write_answers(const TrialOutcome& outcome);
     /// Of what happened in a trial: the attempt that is running or ended last; nothing outside of trials.
     std::optional<std::int64_t> attempt_of(int trial) const;
     /// The attempt at a trial that was under way at that time. What became of a marker is known a while

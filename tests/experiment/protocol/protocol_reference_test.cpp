@@ -71,12 +71,12 @@ std::string value_of(const Key& key) {
 
 void add_section(std::string& text, const Section& section, std::string_view parent) {
     const std::string heading =
-        parent.empty() ? section.is_never_empty()
-                             ? fmt::format("{}` or `{}", section.heading(), section.list_heading())
-                             : section.heading()
-        : section.home.is_by_name()
-            ? fmt::format("{} = {{ NAME = {{ … }} }} in [[{}]]", section.name, parent)
-            : fmt::format("{} = {{ … }} in [[{}]]", section.name, parent);
+        parent.empty()              ? section.is_never_empty()
+                                          ? fmt::format("{}` or `{}", section.heading(), section.list_heading())
+                                          : section.heading()
+                     : section.home.is_by_name() ? fmt::format("{} = {{ NAME = {{ … }} }} in [[{}]]", section.name, parent)
+        : section.is_list()         ? fmt::format("[[{}.{}]]", parent, section.name)
+                                    : fmt::format("{} = {{ … }} in [[{}]]", section.name, parent);
     text += fmt::format("\n## `{}`\n\n{}\n\n| key | value | default | meaning |\n| --- | --- | --- | --- |\n",
                         heading, section.explanation);
     for (const Key& key : section.keys)

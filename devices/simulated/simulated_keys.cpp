@@ -1,0 +1,233 @@
+#include "devices/simulated/simulated_keys.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "experiment/base/text_number.h"
+#include "experiment/base/utf8_text.h"
+#include "experiment/ports/recorded_key_press.h"
+
+namespace overt {
+
+namespace {
+
+constexpr SessionDuration key_held = std::chrono::milliseconds(70);
+constexpr SessionDuration between_keys = std::chrono::milliseconds(120);
+constexpr SessionDuration before_accepting = std::chrono::milliseconds(300);
+/// A press that comes too early comes so soon after the step before began.
+constexpr SessionDuration early_after = std::chrono::milliseconds(20);
+/// A press that comes too late comes so long after the window closed.
+constexpr double late_by_s = 0.15;
+
+} // namespace
+
+SimulatedAnswers::SimulatedAnswers(const Protocol& protocol, std::uint64_t seed)
+    : protocol_(protocol), factors_(factors_of(protocol)), seed_(seed) {}
+
+std::optional<double> SimulatedAnswers::level(const Trial& trial, const Stimulus& stimulus,
+                                              std::string_view factor) const {
+    if (const std::string_view own = own_level(trial, factor); !own.empty())
+        return number_in<double>(own);
+    const Factor* const found = factors_.find(factor);
+    if (!found || found->source == Factor::Source::own || found->source == Factor::Source::stimulus)
+        return std::nullopt;
+    return found->levels[static_cast<std::size_t>(factors_.level_of(*found, trial, stimulus))].number;
+}
+
+int SimulatedAnswers::choose(const AnswerOffer& offer, const Trial& trial, const AnswerTruth& truth,
+                             RandomStream& random) const {
+    const int count = static_cast<int>(offer.values.size());
+    const int by_chance = static_cast<int>(random.below(static_cast<std::uint32_t>(std::max(1, count))));
+    if (random.uniform() < truth.lapses)
+        return by_chance;
+    // Among slots: the first as written in the protocol has the bias, wherever its key is.
+    std::vector<std::optional<double>> of_slot(offer.values.size());
+    for (std::size_t i = 0; i < trial.shown_count() && !truth.by.empty(); ++i) {
+        const auto [stimulus, slot] = trial.shown(i);
+        const auto at = std::ranges::find(offer.values, protocol_.slots[static_cast<std::size_t>(slot)].id);
+        if (at != offer.values.end())
+            of_slot[static_cast<std::size_t>(at - offer.values.begin())] = level(trial, stimulus, truth.by);
+    }
+    if (std::ranges::any_of(of_slot, [](const auto& one) { return one.has_value(); })) {
+        int best = 0;
+        double most = -1e300;
+        for (int i = 0; i < count; ++i) {
+            const double judged = truth.slope * of_slot[static_cast<std::size_t>(i)].value_or(0.0) +
+                                  (i == 0 ? truth.bias : 0.0) + random.normal() / std::numbers::sqrt2;
+            if (judged > most) {
+                most = judged;
+                best = i;
+            }
+        }
+        return best;
+    }
+    if (const auto here = truth.by.empty() ? std::nullopt : level(trial, trial.stimulus, truth.by)) {
+        const double judged =
+            truth.slope * (*here - truth.offset.value_or(0.0)) + truth.bias + random.normal();
+        return std::clamp(static_cast<int>(std::lround(0.5 * (count - 1) + judged)), 0, count - 1);
+    }
+    const auto correct = std::ranges::find(offer.values, offer.correct);
+    if (correct == offer.values.end())
+        return by_chance;
+    const int right = static_cast<int>(correct - offer.values.begin());
+    if (count < 2 || random.uniform() < truth.share_correct)
+        return right;
+    return (right + 1 + static_cast<int>(random.below(static_cast<std::uint32_t>(count - 1)))) % count;
+}
+
+std::optional<double> SimulatedAnswers::judge(const AnswerOffer& offer, const Trial& trial,
+                                              const AnswerTruth& truth, RandomStream& random) const {
+    if (!offer.low && !offer.high && truth.by.empty() && !truth.offset)
+        return std::nullopt;
+    const std::optional<double> here =
+        truth.by.empty() ? std::nullopt : level(trial, trial.stimulus, truth.by);
+    const double middle = here ? 0.0 : 0.5 * (offer.low.value_or(0.0) + offer.high.value_or(0.0));
+    const double judged =
+        truth.offset.value_or(middle) + truth.gain * here.value_or(0.0) + truth.noise * random.normal();
+    if (!truth.cuts.empty() && !offer.numbers.empty()) {
+        const auto below = static_cast<std::size_t>(
+            std::ranges::count_if(truth.cuts, [&](double cut) { return cut < judged; }));
+        return offer.numbers[std::min(below, offer.numbers.size() - 1)];
+    }
+    double number = judged;
+    if (offer.step > 0.0) {
+        const double from = offer.low.value_or(0.0);
+        number = from + std::round((judged - from) / offer.step) * offer.step;
+    }
+    if (offer.low)
+        number = std::max(number, *offer.low);
+    if (offer.high)
+        number = std::min(number, *offer.high);
+    return number;
+}
+
+SimulatedAnswers::Given SimulatedAnswers::answer(const AnswerOffer& offer, const Trial& trial) const {
+    const Task& task = protocol_.tasks[static_cast<std::size_t>(trial.task)];
+    const auto found = std::ranges::find(task.answers, offer.id, &TaskAnswer::id);
+    const AnswerTruth truth = found == task.answers.end() ? AnswerTruth{} : found->truth;
+    const auto index = static_cast<std::uint64_t>(trial.index);
+    // Streams of their own, so that what is answered does not move when.
+    RandomStream when(seed_, fmt::format("answer time {} {}", offer.id, offer.item), index);
+    RandomStream what(seed_, fmt::format("answer {} {}", offer.id, offer.item), index);
+    Given given;
+    given.after = from_seconds(truth.shift_s + truth.median_s * std::exp(truth.log_sd * when.normal()));
+    given.is_early = when.uniform() < truth.early;
+    given.is_missing = when.uniform() < truth.missing;
+    given.is_late = when.uniform() < truth.late && offer.limit_s.has_value();
+    if (given.is_late)
+        given.after = from_seconds(*offer.limit_s + late_by_s);
+    if (!offer.values.empty() && offer.numbers.empty())
+        given.choice = choose(offer, trial, truth, what);
+    else
+        given.number = judge(offer, trial, truth, what);
+    return given;
+}
+
+void SimulatedKeys::clear() noexcept {
+    early_.clear();
+    planned_.clear();
+    next_early_ = next_ = 0;
+    awaited_.reset();
+    opened_.reset();
+}
+
+void SimulatedKeys::press(std::vector<PlannedInput>& to, std::string_view key, SessionDuration after) {
+    ObserverInput input;
+    input.kind = ObserverInput::Kind::key_down;
+    input.device = ShortName(simulated_observer_device);
+    input.key = ShortName(key);
+    to.push_back({input, after});
+    input.kind = ObserverInput::Kind::key_up;
+    to.push_back({input, after + key_held});
+}
+
+void SimulatedKeys::type(const std::string& text, SessionDuration& after) {
+    for (const char letter : text) {
+        ObserverInput input;
+        input.kind = ObserverInput::Kind::text;
+        input.device = ShortName(simulated_observer_device);
+        input.character = static_cast<char32_t>(static_cast<unsigned char>(letter));
+        planned_.push_back({input, after});
+        after += between_keys;
+    }
+}
+
+/// From the middle, where the first press has the marker come up.
+void SimulatedKeys::move_to(const AnswerOffer& offer, double number, SessionDuration& after) {
+    const int moves = std::max(1, static_cast<int>(std::lround((*offer.high - *offer.low) / offer.step)));
+    const int target = static_cast<int>(std::lround((number - *offer.low) / offer.step));
+    const std::string_view up = offer.is_turned ? "left" : "right", down = offer.is_turned ? "right" : "left";
+    int at = moves / 2;
+    const auto go = [&](std::string_view key) {
+        press(planned_, key, after);
+        after += between_keys;
+    };
+    go(up);
+    // Who means the middle goes away from it and comes back.
+    if (at == target) {
+        go(at < moves ? up : down);
+        go(at < moves ? down : up);
+    }
+    constexpr int coarse = 10;
+    const bool rises = target > at;
+    for (; std::abs(target - at) >= coarse; at += rises ? coarse : -coarse)
+        go(rises != offer.is_turned ? "page up" : "page down");
+    for (; at != target; at += at < target ? 1 : -1)
+        go(at < target ? up : down);
+}
+
+void SimulatedKeys::plan(const SimulatedAnswers& answers, const std::vector<AnswerOffer>& offers,
+                         const Trial& trial) {
+    early_.clear();
+    planned_.clear();
+    next_early_ = next_ = 0;
+    opened_.reset();
+    SessionDuration begin{};
+    for (const AnswerOffer& offer : offers) {
+        const SimulatedAnswers::Given given = answers.answer(offer, trial);
+        SessionDuration after = begin + given.after;
+        if (given.is_early && !offer.keys.empty())
+            press(early_, offer.keys.front(), early_after);
+        if (given.is_missing)
+            continue;
+        if (!offer.values.empty() && offer.numbers.empty()) {
+            if (static_cast<std::size_t>(given.choice) >= offer.keys.size())
+                continue; // by the mouse alone
+            press(planned_, offer.keys[static_cast<std::size_t>(given.choice)], after);
+        } else if (!offer.numbers.empty() && offer.keys.size() == offer.numbers.size() && given.number) {
+            const auto step = std::ranges::min_element(
+                offer.numbers, {}, [&](double number) { return std::abs(number - *given.number); });
+            press(planned_, offer.keys[static_cast<std::size_t>(step - offer.numbers.begin())], after);
+        } else if (offer.kind == "scale" && given.number) {
+            move_to(offer, *given.number, after);
+        } else if (offer.kind == "number") {
+            type(fmt::format("{:.10g}", given.number.value_or(0.0)), after);
+        } else {
+            type("seen", after);
+        }
+        if (!offer.accept_key.empty()) {
+            after += before_accepting;
+            press(planned_, offer.accept_key, after);
+        }
+        begin = after;
+    }
+}
+
+std::optional<ObserverInput> SimulatedKeys::next(SessionTime now) noexcept {
+    const auto take = [&](std::vector<PlannedInput>& from, std::size_t& next,
+                          const std::optional<SessionTime>& since) -> std::optional<ObserverInput> {
+        if (!since || next >= from.size() || *since + from[next].after > now)
+            return std::nullopt;
+        ObserverInput input = from[next].input;
+        input.at = *since + from[next++].after;
+        return input;
+    };
+    if (const std::optional<ObserverInput> early = take(early_, next_early_, awaited_))
+        return early;
+    return take(planned_, next_, opened_);
+}
+
+} // namespace overt

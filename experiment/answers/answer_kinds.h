@@ -1,0 +1,63 @@
+/// The kinds of answers, as a table: to add one is a file here and a row below.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <string_view>
+
+#include "experiment/answers/answering.h"
+#include "experiment/base/kind_table.h"
+
+namespace overt {
+
+using MakeAnswering = std::unique_ptr<Answering>(const AnswerForm& form);
+
+// A file each, or two that are alike.
+MakeAnswering key_answering, choice_answering, scale_answering, number_answering, text_answering;
+
+struct AnswerKindRow {
+    std::string_view name;
+    std::string_view explanation; ///< for the reference of protocols; follows the name and a colon
+    MakeAnswering* make;          ///< null: it is not given by inputs
+    /// The keys of [[task.answer]] that it has besides those of all kinds; empty behind the last.
+    std::array<std::string_view, 18> keys;
+    bool accepts_by_key;  ///< unless the protocol says otherwise
+    bool is_given_unseen; ///< also while the stimulus is on the screen and nothing else
+
+    constexpr bool has_key(std::string_view key) const { return std::ranges::find(keys, key) != keys.end(); }
+};
+
+template <>
+inline constexpr auto kinds_of<AnswerKind> = std::to_array<AnswerKindRow>({
+    {"choice",
+     "one of `choices`, each with a key, or chosen with the mouse",
+     choice_answering,
+     {"choices", "labels", "keys", "with", "accept", "accept_key", "mapping"},
+     false,
+     true},
+    {"key",
+     "one of `keys`, of which the screen says nothing but the question",
+     key_answering,
+     {"choices", "keys", "mapping"},
+     false,
+     true},
+    {"scale",
+     "a place on a scale: of `steps`, or a line from `min` to `max`; the marker is not there until the first "
+     "press",
+     scale_answering,
+     {"steps", "min", "max", "step", "labels", "keys", "ends", "of", "order", "per_screen", "ticks", "with",
+      "accept", "accept_key", "direction", "shows_value", "mapping"},
+     true,
+     false},
+    {"number",
+     "a number that is typed",
+     number_answering,
+     {"min", "max", "step", "unit", "accept_key"},
+     true,
+     false},
+    {"text", "words that are typed", text_answering, {"longest", "accept_key"}, true, false},
+    {"spoken", "spoken, and recorded as `[answers]` says; a key goes on", nullptr, {}, false, false},
+});
+
+} // namespace overt

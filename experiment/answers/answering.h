@@ -1,0 +1,59 @@
+/// One thing that is answered, while it is: inputs go in, what it looks like and what it means come out.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiment/answers/task_answer.h"
+#include "experiment/ports/answer_offer.h"
+#include "experiment/ports/answer_view.h"
+#include "experiment/ports/observer_input.h"
+
+namespace overt {
+
+/// An answer as it is asked in one trial.
+struct AnswerForm {
+    const TaskAnswer* settings = nullptr; ///< of the protocol, which outlives it
+    std::string item;                     ///< of a scale with several
+    std::vector<std::string> labels;      ///< of its choices as the observer reads them, as they are written
+    int mapping = 0;                      ///< choices begin with this one; of a scale, 1 turns it round
+    std::string correct;                  ///< a value; empty: none
+    int place = 0;                        ///< which of the trial's it is in turn
+};
+
+class Answering {
+  public:
+    explicit Answering(const AnswerForm& form) : form_(form) {}
+    virtual ~Answering() = default;
+
+    enum class Effect : std::uint8_t {
+        none,
+        touched, ///< what it looks like changed, and it says nothing yet
+        changed, ///< it says something else
+        chosen   ///< likewise, and that is an answer where none has to be accepted
+    };
+    /// What the observer did, in its window and with it: a press that was not held before, and of the mouse
+    /// what began at a place in this step; `place` is where the pointer is. Allocates and throws nothing.
+    virtual Effect take(const ObserverInput& input, const AnswerPlace& place) noexcept = 0;
+    /// It says something.
+    virtual bool has_value() const noexcept = 0;
+    /// What it says can stand.
+    virtual bool is_sound() const noexcept { return true; }
+    /// As it is recorded; of has_value() alone.
+    virtual std::string value() const = 0;
+    /// Of a scale where its marker stands, of a number what was typed; allocates nothing.
+    virtual std::optional<double> number() const noexcept { return std::nullopt; }
+    /// All but the question.
+    virtual void draw(AnswerItem& item) const = 0;
+    /// How it can be given; all but id, item, kind, correct, and the key that accepts.
+    virtual void offer(AnswerOffer& offer) const = 0;
+
+    const AnswerForm& form() const { return form_; }
+    const TaskAnswer& settings() const { return *form_.settings; }
+
+  protected:
+    AnswerForm form_;
+};
+
+} // namespace overt

@@ -1,0 +1,378 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "experiment/answers/answer_kinds.h"
+#include "experiment/base/text_number.h"
+#include "experiment/checks/protocol_checks.h"
+#include "experiment/design/answer_forms.h"
+#include "experiment/design/trial_plan.h"
+
+namespace overt {
+
+namespace {
+
+/// Of a keyboard, besides letters and digits.
+constexpr auto named_keys = std::to_array<std::string_view>(
+    {"space", "enter",   "tab",       "backspace", "left",   "right", "up",  "down", "home",
+     "end",   "page up", "page down", "insert",    "delete", "f1",    "f2",  "f3",   "f4",
+     "f5",    "f6",      "f7",        "f8",        "f9",     "f10",   "f11", "f12",  "pause"});
+
+/// Of one answer of a task.
+class AnswerChecks {
+  public:
+    AnswerChecks(ProtocolExamination& examination, std::size_t task, std::size_t answer)
+        : examination_(examination), task_(examination.protocol.tasks[task]), answer_(task_.answers[answer]),
+          path_(fmt::format("task[{}].answer[{}]", task, answer)) {}
+
+    void run() {
+        if (examination_.faulty.contains(path_ + ".kind"))
+            return;
+        check_foreign_keys();
+        check_choices();
+        check_keys();
+        check_scale();
+        check_numbers();
+        check_correct();
+        check_window();
+        check_truth();
+    }
+
+  private:
+    std::string at(std::string_view key) const { return fmt::format("{}.{}", path_, key); }
+    void error(const std::vector<std::string_view>& keys, std::string message, std::string hint = {}) {
+        std::vector<std::string> paths;
+        for (const std::string_view key : keys)
+            paths.push_back(at(key));
+        paths.push_back(at("kind"));
+        examination_.error(paths, std::move(message), std::move(hint));
+    }
+    const AnswerKindRow& kind() const { return row_of(answer_.kind); }
+    bool has(std::string_view key) const { return kind().has_key(key); }
+    bool by_keys() const { return answer_.with != AnsweredWith::mouse; }
+
+    void check_foreign_keys() {
+        for (const AnswerKindRow& row : kinds_of<AnswerKind>)
+            for (const std::string_view key : row.keys)
+                if (!key.empty() && !has(key) && examination_.is_written(at(key)) &&
+                    told_.insert(std::string(key)).second)
+                    error({key}, fmt::format("an answer of kind \"{}\" has no \"{}\"", kind().name, key));
+    }
+
+    void check_choices() {
+        const std::size_t count = answer_.choices.size();
+        if (kind().name == "choice" && count < 2)
+            error({"choices"}, "a choice needs two \"choices\" at least",
+                  "write choices = [\"left\", \"right\"]");
+        for (std::size_t i = 0; i < count; ++i)
+            if (std::ranges::find(
+                    answer_.choices.begin(), answer_.choices.begin() + static_cast<std::ptrdiff_t>(i),
+                    answer_.choices[i]) != answer_.choices.begin() + static_cast<std::ptrdiff_t>(i))
+                error({"choices"}, fmt::format("the choice \"{}\" is there twice", answer_.choices[i]));
+        if (has("choices") && by_keys() && answer_.keys.empty())
+            error({"keys", "choices"},
+                  kind().name == "choice" ? "the choices have no keys, and cannot be given"
+                                          : "no keys are named that answer",
+                  count > 0 ? "write keys, one for each choice, or with = \"mouse\""
+                            : "write keys = [\"f\", \"j\"]");
+        else if (count > 0 && by_keys() && answer_.keys.size() != count)
+            error({"keys"}, fmt::format("there are {} choices and {} keys", count, answer_.keys.size()),
+                  "write one key for each, in the same order");
+        if (has("choices") && !answer_.labels.empty() && answer_.labels.size() != count)
+            error({"labels"},
+                  fmt::format("there are {} choices and {} labels", count, answer_.labels.size()));
+        if (answer_.mapping != AnswerMapping::fixed &&
+            std::ranges::any_of(answer_.choices, [&](auto& choice) { return is_slot(choice); }))
+            error({"mapping"},
+                  "choices that are slots stand where their stimuli do: keys cannot go round over them",
+                  "sides of stimuli are crossed or drawn by the rule of the trials: side = \"crossed\"");
+    }
+    bool is_slot(const std::string& id) const {
+        return std::ranges::find(examination_.protocol.slots, id, &Slot::id) !=
+               examination_.protocol.slots.end();
+    }
+
+    void check_keys() {
+        std::vector<std::pair<std::string_view, std::string>> keys;
+        for (const std::string& key : answer_.keys)
+            keys.emplace_back("keys", key);
+        if (answer_.accepts_by_key())
+            keys.emplace_back("accept_key", answer_.accept_key);
+        for (std::size_t i = 0; i < keys.size(); ++i) {
+            const auto& [path, key] = keys[i];
+            const auto earlier = std::find_if(keys.begin(), keys.begin() + static_cast<std::ptrdiff_t>(i),
+                                              [&](const auto& before) { return before.second == key; });
+            if (earlier != keys.begin() + static_cast<std::ptrdiff_t>(i))
+                error({path}, fmt::format("the key \"{}\" answers two things", key));
+            check_key(path, key);
+        }
+    }
+
+    void check_key(std::string_view path, const std::string& key) {
+        const Protocol& protocol = examination_.protocol;
+        const OperatorSettings& operators = protocol.operators;
+        const std::pair<std::string_view, const std::string*> taken[] = {
+            {"pause", &operators.pause},   {"recalibrate", &operators.recalibrate},
+            {"repeat", &operators.repeat}, {"reject", &operators.reject},
+            {"skip", &operators.skip},     {"abort", &operators.abort}};
+        for (const auto& [name, of] : taken)
+            if (*of == key)
+                error({path},
+                      fmt::format("the key \"{}\" is the operator's: \"{}\" of [operator]", key, name),
+                      "take another one");
+        const bool is_letter =
+            key.size() == 1 && ((key[0] >= 'a' && key[0] <= 'z') || (key[0] >= '0' && key[0] <= '9'));
+        // Buttons are called as their box calls them, which is known once it is there.
+        if (!is_letter && protocol.button_boxes.empty() &&
+            std::ranges::find(named_keys, key) == named_keys.end())
+            error({path}, fmt::format("there is no key \"{}\"", key),
+                  fmt::format("letters, digits, {}", fmt::join(named_keys, ", ")));
+    }
+
+    void check_scale() {
+        if (!has("steps"))
+            return;
+        if (answer_.steps) {
+            const auto count = static_cast<std::size_t>(*answer_.steps);
+            if (!answer_.labels.empty() && answer_.labels.size() != count)
+                error({"labels"},
+                      fmt::format("there are {} steps and {} labels", count, answer_.labels.size()));
+            if (!answer_.keys.empty() && answer_.keys.size() != count)
+                error({"keys"}, fmt::format("there are {} steps and {} keys", count, answer_.keys.size()));
+            if (examination_.is_written(at("step")))
+                error({"step"}, "a scale with \"steps\" goes from step to step", "leave out step, or steps");
+            if (answer_.ticks > 0)
+                error({"ticks"}, "ticks are for a line: a scale with steps has its steps");
+        } else if (!answer_.labels.empty() || !answer_.keys.empty()) {
+            error({"labels", "keys"}, "a line has neither labels nor keys of its own",
+                  "write steps for a scale of steps, and ends for words at a line's ends");
+        }
+        if (!answer_.ends.empty() && answer_.ends.size() < 2)
+            error({"ends"}, "a scale has two ends", "write ends = [\"not at all\", \"very\"]");
+        if (!(answer_.low() < answer_.high()))
+            error({"max", "min"},
+                  fmt::format("the scale goes from {:g} to {:g}", answer_.low(), answer_.high()),
+                  "min is the value of the low end, and smaller than max");
+        if (answer_.order == ItemOrder::drawn && answer_.items.empty())
+            error({"order"}, "there is one item only, and no order to draw", "name the items in `of`");
+        if (!answer_.accepts_by_key() && !answer_.steps && by_keys())
+            error({"accept"}, "on a line every move by a key would be an answer",
+                  "leave out accept, or write with = \"mouse\"");
+    }
+
+    void check_numbers() {
+        if (has("unit") && answer_.min && answer_.max && !(*answer_.min < *answer_.max))
+            error({"max", "min"},
+                  fmt::format("no number lies between {:g} and {:g}", *answer_.min, *answer_.max));
+    }
+
+    void check_correct() {
+        const std::string& correct = answer_.correct;
+        constexpr std::string_view of_column = "column:";
+        if (correct.empty() || correct == "none")
+            return;
+        if (correct.starts_with(of_column)) {
+            const std::string_view column = std::string_view(correct).substr(of_column.size());
+            const Factors factors = factors_of(examination_.protocol);
+            const std::vector<NamedWord> own = own_levels_of(examination_.protocol);
+            if (!factors.find(column) && std::ranges::find(own, column, &NamedWord::name) == own.end())
+                error({"correct"}, fmt::format("there is no column \"{}\"", column),
+                      suggest_name(column, factors.names()));
+            return;
+        }
+        const std::vector<std::string>& values = answer_.is_choice() ? answer_.choices : answer_.keys;
+        if (has("choices") && std::ranges::find(values, correct) == values.end())
+            error({"correct"}, fmt::format("no choice is \"{}\"", correct),
+                  fmt::format("choices are {}; column:NAME stands for a column", fmt::join(values, ", ")));
+        if ((has("steps") || has("unit")) && answer_.labels.empty() && !number_in<double>(correct))
+            error({"correct"}, fmt::format("\"{}\" is no number", correct));
+    }
+
+    void check_window() {
+        using From = AnswerOpening::From;
+        const bool is_by_stimulus = answer_.opens.from == From::onset || answer_.opens.from == From::offset;
+        const bool is_shown =
+            task_.steps.empty() ||
+            std::ranges::find(task_.steps, StepKind::show, &StepSettings::kind) != task_.steps.end();
+        if (is_by_stimulus && !is_shown)
+            error({"opens"}, "no step of the task shows a stimulus by which the window could open");
+        if (answer_.counts == AnswerCounts::last && !answer_.accepts_by_key() && answer_.ends_step &&
+            !answer_.limit_s)
+            error({"counts"}, "the last of several presses is not known before the time is up",
+                  "write limit_s, and ends_step = false");
+        if (!answer_.ends_step && !answer_.limit_s && !has_limited_step())
+            error({"ends_step"}, "nothing ends the step in which it is answered",
+                  "write limit_s here, or at the step answer");
+    }
+    bool has_limited_step() const {
+        return std::ranges::any_of(task_.steps, [&](const StepSettings& step) {
+            return step.kind == StepKind::answer && step.duration &&
+                   std::ranges::find(step.answers, answer_.id) != step.answers.end();
+        });
+    }
+
+    void check_truth() {
+        const AnswerTruth& truth = answer_.truth;
+        const std::string path = at("simulated");
+        if (!truth.by.empty()) {
+            const Factors factors = factors_of(examination_.protocol);
+            const Factor* const factor = factors.find(truth.by);
+            const auto is_number = [](const auto& level) { return level.number.has_value(); };
+            if (!factor)
+                examination_.error({path + ".by"}, fmt::format("there is no factor \"{}\"", truth.by),
+                                   suggest_name(truth.by, factors.names()));
+            else if (std::ranges::none_of(factor->levels, is_number))
+                examination_.error({path + ".by"},
+                                   fmt::format("the levels of \"{}\" are no numbers", truth.by),
+                                   "a series makes numbers, and a column may have them");
+        }
+        if (!truth.cuts.empty() &&
+            (!answer_.steps || truth.cuts.size() + 1 != static_cast<std::size_t>(*answer_.steps) ||
+             !std::ranges::is_sorted(truth.cuts)))
+            examination_.error({path + ".cuts"}, "cuts lie between the steps of a scale, in rising order",
+                               "write one fewer than steps");
+    }
+
+    ProtocolExamination& examination_;
+    const Task& task_;
+    const TaskAnswer& answer_;
+    std::string path_;
+    std::set<std::string> told_;
+};
+
+/// Ids of a task's answers, and which steps ask for them.
+class AskingChecks {
+  public:
+    AskingChecks(ProtocolExamination& examination, std::size_t task)
+        : examination_(examination), task_(examination.protocol.tasks[task]), number_(task) {}
+
+    void run() {
+        for (std::size_t i = 0; i < task_.answers.size(); ++i) {
+            const std::string& id = task_.answers[i].id;
+            const std::string path = fmt::format("task[{}].answer[{}].id", number_, i);
+            const auto same = std::ranges::find(task_.answers, id, &TaskAnswer::id);
+            if (!id.empty() && same != task_.answers.begin() + static_cast<std::ptrdiff_t>(i))
+                examination_.error({path}, fmt::format("answer \"{}\" is there twice", id));
+            if (id == "spoken")
+                examination_.error({path}, "\"spoken\" stands for the answer of a task without any",
+                                   "give it another id; kind = \"spoken\" makes it a spoken one");
+            if (!id.empty() && !task_.steps.empty() && !is_asked(id))
+                examination_.error({path}, fmt::format("no step asks for the answer \"{}\"", id),
+                                   fmt::format("add the step {{ answer = \"{}\" }}", id));
+        }
+        for (const StepSettings& step : task_.steps)
+            check_step(step);
+    }
+
+  private:
+    void error(Place place, std::string message, std::string hint = {}) {
+        examination_.diagnostics().error(examination_.protocol.file.string(), place, std::move(message),
+                                         std::move(hint));
+    }
+
+    bool is_asked(const std::string& id) const {
+        const bool is_named = std::ranges::any_of(task_.steps, [&](const StepSettings& step) {
+            return std::ranges::find(step.answers, id) != step.answers.end();
+        });
+        // Steps that wait for answers without a screen of their own wait for all.
+        const auto last_waits =
+            std::ranges::find_if(task_.steps.rbegin(), task_.steps.rend(), [](const StepSettings& step) {
+                return step.ends_by_answer || (step.kind == StepKind::answer && !step.answers.empty());
+            });
+        return is_named || (last_waits != task_.steps.rend() && last_waits->ends_by_answer);
+    }
+
+    void check_step(const StepSettings& step) {
+        std::vector<std::string_view> ids;
+        for (const TaskAnswer& answer : task_.answers)
+            ids.push_back(answer.id);
+        int spoken = 0;
+        for (const std::string& id : step.answers) {
+            const auto found = std::ranges::find(task_.answers, id, &TaskAnswer::id);
+            if (found == task_.answers.end())
+                error(step.answers_place, fmt::format("task {} has no answer \"{}\"", task_.id, id),
+                      task_.answers.empty() ? "add a [[task.answer]] below the task, or write \"spoken\""
+                                            : suggest_name(id, ids));
+            else if (!row_of(found->kind).make)
+                ++spoken;
+        }
+        if (spoken > 0 && step.answers.size() > 1)
+            error(step.answers_place, "a spoken answer has a screen of its own", "give it a step of its own");
+        if (!step.ends_by_answer)
+            return;
+        const bool has_any = std::ranges::any_of(
+            task_.answers, [](const TaskAnswer& answer) { return row_of(answer.kind).make != nullptr; });
+        if (!has_any)
+            error(step.answers_place, fmt::format("task {} has no answer that could end this step", task_.id),
+                  "add a [[task.answer]] below the task");
+        for (const TaskAnswer& answer : answers_waited_for(step))
+            if (!row_of(answer.kind).is_given_unseen && !(answer.steps && !answer.accepts_by_key()))
+                error(step.answers_place,
+                      fmt::format("\"{}\" is a {}, and cannot be given while it is not on the screen",
+                                  answer.id, name_of(answer.kind)),
+                      "ask for it in a step { answer = … }; keys, choices, and scales of steps with accept = "
+                      "\"at-once\" can end a stimulus");
+    }
+
+    /// Of the next step that asks, or all.
+    std::vector<TaskAnswer> answers_waited_for(const StepSettings& step) const {
+        std::vector<TaskAnswer> answers;
+        const StepSettings* asks = nullptr;
+        for (const StepSettings* next = &step; next != task_.steps.data() + task_.steps.size() && !asks;
+             ++next)
+            if (next->kind == StepKind::answer && !next->answers.empty())
+                asks = next;
+        for (const TaskAnswer& answer : task_.answers)
+            if (row_of(answer.kind).make &&
+                (!asks || std::ranges::find(asks->answers, answer.id) != asks->answers.end()))
+                answers.push_back(answer);
+        return answers;
+    }
+
+    ProtocolExamination& examination_;
+    const Task& task_;
+    std::size_t number_;
+};
+
+/// Blocks that end by what was answered.
+void check_criteria(ProtocolExamination& examination) {
+    const Protocol& protocol = examination.protocol;
+    for (std::size_t i = 0; i < protocol.blocks.size(); ++i) {
+        const BlockSettings& block = protocol.blocks[i];
+        const std::string path = fmt::format("block[{}].criterion", i);
+        if (!block.criterion.is_written())
+            continue;
+        if (block.criterion.of_last > 0 && block.criterion.of_last < block.criterion.correct)
+            examination.error({path + ".of_last"},
+                              fmt::format("of the last {} never {} are correct", block.criterion.of_last,
+                                          block.criterion.correct));
+        const bool is_answered = std::ranges::any_of(protocol.tasks, [&](const Task& task) {
+            const bool is_asked =
+                block.tasks.empty() || std::ranges::find(block.tasks, task.id) != block.tasks.end();
+            return is_asked && !task.answers.empty();
+        });
+        if (!is_answered)
+            examination.error(
+                {path}, fmt::format("nothing that is correct or wrong is answered in block \"{}\"", block.id),
+                "add a [[task.answer]] to a task of the block");
+    }
+}
+
+} // namespace
+
+void check_answers(ProtocolExamination& examination) {
+    const std::vector<Task>& tasks = examination.protocol.tasks;
+    for (std::size_t i = 0; i < tasks.size(); ++i) {
+        for (std::size_t k = 0; k < tasks[i].answers.size(); ++k)
+            AnswerChecks(examination, i, k).run();
+        if (!examination.faulty.contains(fmt::format("task[{}].steps", i)))
+            AskingChecks(examination, i).run();
+    }
+    check_criteria(examination);
+}
+
+} // namespace overt

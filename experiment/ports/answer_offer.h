@@ -1,0 +1,25 @@
+/// What an observer who does not see the screen is told of an answer: how each meaning is given.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace overt {
+
+struct AnswerOffer {
+    std::string id, item, kind; ///< as in GivenAnswer
+    /// Of a choice, or of the steps of a scale: what each means, in the order of `keys`.
+    std::vector<std::string> values;
+    std::vector<double> numbers;   ///< of a scale: of each step
+    std::vector<std::string> keys; ///< that give them; empty: by the mouse alone
+    /// Of a line and of a number.
+    std::optional<double> low, high;
+    double step = 0.0; ///< of a line: how far a press of "left" or "right" moves it; of a number its grid
+    bool is_turned = false;        ///< "right" goes to the low end
+    std::string accept_key;        ///< that makes it stand; empty: it stands at once
+    std::optional<double> limit_s; ///< for how long presses count
+    std::string correct;           ///< a value; empty: nobody knows
+};
+
+} // namespace overt

@@ -1,0 +1,23 @@
+#include "experiment/ports/given_answer.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace overt {
+
+std::vector<std::pair<std::string, std::string>> answer_variables(const std::vector<GivenAnswer>& answers) {
+    std::vector<std::pair<std::string, std::string>> variables;
+    for (const GivenAnswer& given : answers) {
+        std::string name = given.item.empty() ? given.id : fmt::format("{}_{}", given.id, given.item);
+        std::ranges::replace(name, ' ', '_');
+        variables.emplace_back(name, given.is_missed ? "n/a" : given.value);
+        if (const std::optional<SessionDuration> time = given.response_time())
+            variables.emplace_back(name + "_time_ms", fmt::format("{:.3f}", 1e3 * to_seconds(*time)));
+        if (given.is_correct)
+            variables.emplace_back(name + "_correct", *given.is_correct ? "1" : "0");
+    }
+    return variables;
+}
+
+} // namespace overt

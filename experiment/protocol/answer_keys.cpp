@@ -1,0 +1,143 @@
+#include <nlohmann/json.hpp>
+
+#include "experiment/answers/answer_kinds.h"
+#include "experiment/protocol/key_rows.h"
+#include "experiment/protocol/step_settings.h"
+
+namespace overt {
+
+namespace {
+
+ValueResult read_opening(const TomlValue& value, const KeyRule& rule, void* out) {
+    auto& opening = *static_cast<AnswerOpening*>(out);
+    using From = AnswerOpening::From;
+    double seconds = 0.0;
+    if (const auto* const word = std::get_if<std::string>(&value.content)) {
+        if (*word == "onset" || *word == "offset" || *word == "screen") {
+            opening.from = *word == "onset" ? From::onset : *word == "offset" ? From::offset : From::screen;
+            return std::nullopt;
+        }
+        return ValueFault{value.place, fmt::format("{}: unknown value \"{}\"", rule.name, *word),
+                          "write \"onset\", \"offset\", \"screen\", or seconds after the stimulus's onset"};
+    }
+    if (ValueResult fault = value_type(TypeTag<double>()).read(value, KeyRule{{}, rule.name, {}}, &seconds))
+        return fault;
+    if (seconds < 0.0 || seconds > longest_step_s)
+        return ValueFault{
+            value.place,
+            fmt::format("{}: {:g} s after the stimulus's onset is no time of a trial", rule.name, seconds)};
+    opening = {From::onset, seconds};
+    return std::nullopt;
+}
+
+nlohmann::ordered_json opening_schema(const KeyRule&) {
+    return {{"anyOf", {{{"enum", {"onset", "offset", "screen"}}}, {{"type", "number"}, {"minimum", 0}}}}};
+}
+
+constexpr ValueType opening_type{"a time", read_opening, opening_schema, nullptr};
+
+} // namespace
+
+const ValueType& value_type(TypeTag<AnswerOpening>);
+const ValueType& value_type(TypeTag<AnswerOpening>) { return opening_type; }
+
+namespace key_rows {
+
+std::vector<Key> answer() {
+    using A = TaskAnswer;
+    return {
+        {"id", &A::id, identifier().required(), "Short name, by which steps and tables call it."},
+        {"kind", &A::kind, required(), explanation_of_kinds<AnswerKind>()},
+        {"question", &A::question, left_out("none"),
+         "What stands above it; the task's own `question` is shown before the stimulus."},
+        {"required", &A::is_required,
+         "Whether it can be passed over by the key that accepts. Time can be up all the same."},
+        {"choices", &A::choices, left_out("of a key: the keys themselves"),
+         "What can be chosen: words, as tables have them, or ids of slots. In the order of the keys."},
+        {"labels", &A::labels, left_out("the choices; slots by their titles"),
+         "The choices, or the steps of a scale, as the observer reads them; one for each."},
+        {"keys", &A::keys, left_out("of a scale of up to 9 steps: the digits"),
+         "A key for each choice or step, in the same order: a letter or a digit, `space`, `left`, or a "
+         "button "
+         "as its box calls it."},
+        {"with", &A::with, "Whether it is given with keys, with the mouse, or with either."},
+        {"accept", &A::accept, left_out("by-key for lines, scales, numbers and texts; else at-once"),
+         "Whether what was chosen stands at once, or until `accept_key` is pressed."},
+        {"accept_key", &A::accept_key, "The key that accepts."},
+        {"steps", &A::steps, range(2, 101).left_out("a line"),
+         "Of a scale: how many steps it has. Without, it is a line with a marker."},
+        {"min", &A::min, left_out("1 with steps, 0 of a line; of a number: none"),
+         "Value of the low end, or the least number."},
+        {"max", &A::max, left_out("`steps`, or 100 of a line; of a number: none"),
+         "Value of the high end, or the largest number."},
+        {"step", &A::step, range(1e-9, 1e9).left_out("a line: 1/100 by keys, any place by the mouse"),
+         "To multiples of it from `min` a line or a number is kept."},
+        {"ends", &A::ends, left_out("none"),
+         "Words at the low and the high end of a scale; more are spread evenly over it."},
+        {"of", &A::items, left_out("one"),
+         "Items that are answered on this scale, each an answer of its own in the record."},
+        {"order", &A::order, "Whether they come as written, or in an order drawn for each trial."},
+        {"per_screen", &A::per_screen, range(0, 50), "How many of them stand on a screen; 0: all."},
+        {"ticks", &A::ticks, range(0, 101), "Ticks on a line. Answers are drawn to them."},
+        {"direction", &A::direction, "At which side the high end stands."},
+        {"shows_value", &A::shows_value, "Whether the marker's value stands beside it."},
+        {"unit", &A::unit, left_out("none"), "What stands behind a number."},
+        {"longest", &A::longest, range(1, 4000), "Characters of a text."},
+        {"opens", &A::opens,
+         left_out("onset where a step with `until = \"answer\"` shows the stimulus, else screen"),
+         "When presses begin to count: with the onset of the stimulus, with its offset, with the answer's "
+         "own "
+         "screen, or so many seconds after the onset. Earlier ones are recorded and do not answer, nor does "
+         "a "
+         "key that was held since."},
+        {"limit_s", &A::limit_s, range(0.01, 3600, "s").left_out("as long as the trial's steps say"),
+         "How long presses count, from then on."},
+        {"zero", &A::zero, left_out("stimulus where the window opens by its onset, else window"),
+         "What the response time counts from. The record has all three."},
+        {"counts", &A::counts, "Which of several presses in the window is the answer."},
+        {"ends_stimulus", &A::ends_stimulus,
+         "Whether a step with `until = \"answer\"` ends with the answer, or goes on for its time."},
+        {"ends_step", &A::ends_step,
+         "Whether the step `answer` ends with the answer, or when its time is up."},
+        {"mapping", &A::mapping,
+         "Whether keys mean the same in all trials. Else choices go round over the keys, and the ends of a "
+         "scale change sides: over trials, each equally often, or from observer to observer. The record has "
+         "the meaning and the key."},
+        {"correct", &A::correct, left_out("what the trial says: its rule, its table, or the list drawn"),
+         "The correct answer: a choice or a number, `column:NAME` for a column of the table of trials or of "
+         "the stimulus's entries, or `none`."},
+        {"missed", &A::missed, "Whether a missing answer is neither right nor wrong, or wrong."},
+    };
+}
+
+std::vector<Key> answer_truth() {
+    using T = AnswerTruth;
+    return {
+        {"by", &T::by, left_out("none"),
+         "A factor whose levels are numbers: of choices among slots, their levels are compared."},
+        {"slope", &T::slope, range(-1e6, 1e6),
+         "Of choices: how many standard deviations of the judgement a unit of the factor is; among two slots "
+         "that differ by d, the larger is chosen with the probability of a normal number below slope * d."},
+        {"bias", &T::bias, range(-100, 100),
+         "Of choices: on top of the first slot's, or of the judgement, in standard deviations."},
+        {"lapses", &T::lapses, range(0, 1), "Of choices: share that is chosen by chance."},
+        {"share_correct", &T::share_correct, range(0, 1),
+         "Of choices without `by`, where something is correct: how often that is chosen."},
+        {"offset", &T::offset, left_out("the scale's middle; 0 with `by`"),
+         "Of scales and numbers: the judgement at level 0; of words, the level of indifference."},
+        {"gain", &T::gain, range(-1e6, 1e6), "How much the judgement grows with a unit of the factor."},
+        {"noise", &T::noise, range(0, 1e6), "Standard deviation of the judgement."},
+        {"cuts", &T::cuts, left_out("the nearest step"),
+         "Of a scale with steps: judgements between steps, in rising order, one fewer than steps."},
+        {"shift_s", &T::shift_s, range(0, 60, "s"), "Shortest response time, from the window's begin."},
+        {"median_s", &T::median_s, range(0.001, 600, "s"), "Median of what is added to it, log-normal."},
+        {"log_sd", &T::log_sd, range(0, 3), "Standard deviation of its logarithm."},
+        {"early", &T::early, range(0, 1), "Share of trials with a press before the window, too."},
+        {"late", &T::late, range(0, 1), "Share that is answered after the window has closed."},
+        {"missing", &T::missing, range(0, 1), "Share that is not answered."},
+    };
+}
+
+} // namespace key_rows
+
+} // namespace overt

@@ -1,0 +1,256 @@
+#include "experiment/session/answer_asking.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "experiment/ports/answer_offer.h"
+#include "experiment/ports/event_kinds.h"
+
+namespace overt {
+
+AnswerAsking::AnswerAsking(SessionState& state, OperatorControl& control, const Schedule& schedule)
+    : state_(state), control_(control), schedule_(schedule), ranks_(ranks_in_tasks(schedule.trials)) {}
+
+void AnswerAsking::begin_trial(const Trial& trial, const TrialPlan& plan, bool is_practice) {
+    trial_ = &trial;
+    plan_ = &plan;
+    sheets_.clear();
+    current_ = nullptr;
+    is_awaiting_ = has_screen_ = is_drawing_due_ = false;
+    opening_told_.reset();
+    answers_marked_ = 0;
+    const auto index = static_cast<std::size_t>(trial.index);
+    const AskedTrial asked{.protocol = state_.protocol,
+                           .trial = trial,
+                           .seed = schedule_.seed,
+                           .observer = schedule_.observer.number,
+                           .rank = !is_practice && index < ranks_.size() ? ranks_[index] : trial.index,
+                           .is_practice = is_practice};
+    int place = 0;
+    for (const PlannedSheet& sheet : plan.sheets) {
+        const std::vector<AnswerForm> forms = answer_forms(asked, sheet.answers, place);
+        place += static_cast<int>(forms.size());
+        sheets_.push_back(std::make_unique<AnswerSheet>(forms, sheet.waits_unseen));
+    }
+}
+
+const AnswerSheet* AnswerAsking::sheet_at(std::size_t number) const noexcept {
+    const int sheet = plan_->steps[number].sheet;
+    return sheet < 0 ? nullptr : sheets_[static_cast<std::size_t>(sheet)].get();
+}
+
+/// Of a step without one, the one that is asked next: what is pressed now comes too early for it.
+AnswerSheet& AnswerAsking::sheet_of(std::size_t number) noexcept {
+    for (std::size_t i = number; i < plan_->steps.size(); ++i)
+        if (plan_->steps[i].sheet >= 0)
+            return *sheets_[static_cast<std::size_t>(plan_->steps[i].sheet)];
+    return *sheets_.back();
+}
+
+void AnswerAsking::go_to(AnswerSheet& sheet) {
+    if (current_ != &sheet) {
+        current_ = &sheet;
+        opening_told_.reset();
+        is_awaiting_ = false;
+    }
+    sheet.begin_step();
+}
+
+void AnswerAsking::begin_watched_step(std::size_t number, SessionTime since, bool goes_elsewhere) {
+    step_since_ = since;
+    has_screen_ = false;
+    if (!asks())
+        return;
+    go_to(sheet_of(number));
+    if (goes_elsewhere) {
+        is_awaiting_ = false;
+        return;
+    }
+    if (is_awaiting_)
+        return;
+    state_.ports.panel.offer(current_->offers());
+    state_.ports.panel.await_answer(since, trial_);
+    is_awaiting_ = true;
+    tell_opening();
+}
+
+void AnswerAsking::tell_opening() noexcept {
+    if (!current_ || !is_awaiting_)
+        return;
+    const std::optional<SessionTime> opened = current_->opened_at();
+    if (!opened || opened == opening_told_)
+        return;
+    opening_told_ = opened;
+    state_.ports.panel.window_opened(*opened);
+}
+
+void AnswerAsking::stimulus_lit(std::size_t number, SessionTime onset) noexcept {
+    for (std::size_t i = 0; i < sheets_.size(); ++i)
+        if (plan_->sheets[i].stimulus_step == static_cast<int>(number))
+            sheets_[i]->stimulus_lit(onset);
+    tell_opening();
+}
+
+void AnswerAsking::stimulus_gone(SessionTime offset) noexcept {
+    for (const std::unique_ptr<AnswerSheet>& sheet : sheets_)
+        sheet->stimulus_gone(offset);
+    tell_opening();
+}
+
+/// In the order of time, whatever device they come from.
+void AnswerAsking::look() noexcept {
+    if (!is_awaiting_ || !current_)
+        return;
+    std::size_t count = 0;
+    while (count < batch_.size()) {
+        const std::optional<ObserverInput> input = state_.ports.panel.next_input();
+        if (!input)
+            break;
+        std::size_t at = count++;
+        for (; at > 0 && batch_[at - 1].at > input->at; --at)
+            batch_[at] = batch_[at - 1];
+        batch_[at] = *input;
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        const ObserverInput& input = batch_[i];
+        const bool points = input.kind == ObserverInput::Kind::pointer_down ||
+                            input.kind == ObserverInput::Kind::pointer_moved ||
+                            input.kind == ObserverInput::Kind::pointer_up;
+        const AnswerPlace place = points && has_screen_
+                                      ? state_.ports.presenter.place_in_answers(input.right_px, input.down_px)
+                                      : AnswerPlace{};
+        is_drawing_due_ = current_->take(input, place) || is_drawing_due_;
+        note_answer();
+    }
+    tell_opening();
+}
+
+/// Other devices are told of an answer when it is given.
+void AnswerAsking::note_answer() noexcept {
+    const int given = current_->given_count();
+    if (given > answers_marked_)
+        state_.markers.mark(MarkedEvent::response, current_->given_last_at(), "RESPONSE");
+    answers_marked_ = given;
+}
+
+bool AnswerAsking::has_ended(std::size_t number) const noexcept {
+    const AnswerSheet* const sheet = sheet_at(number);
+    if (!sheet || !plan_->steps[number].ends_by_answer())
+        return false;
+    const std::optional<SessionTime> at = sheet->ends_stimulus_at();
+    return at && (!step_since_ || *at >= *step_since_);
+}
+
+bool AnswerAsking::is_needless(std::size_t number) const noexcept {
+    const AnswerSheet* const sheet = sheet_at(number);
+    return sheet && sheet->is_over_at(state_.now()).has_value();
+}
+
+Screen AnswerAsking::screen() const {
+    const Task& task = state_.protocol.tasks[static_cast<std::size_t>(trial_->task)];
+    Screen screen{.kind = Screen::Kind::answers, .text = ""};
+    screen.answers = current_->view(state_.protocol.words.go_on);
+    const bool is_asked = std::ranges::any_of(screen.answers.items,
+                                              [](const AnswerItem& item) { return !item.question.empty(); });
+    if (!is_asked || state_.protocol.screens.repeat_question)
+        screen.text = task.question;
+    return screen;
+}
+
+OperatorControl::Press AnswerAsking::ask(std::size_t number, const std::optional<Trial>& next,
+                                         SessionTime& onset) {
+    const PlannedStep& step = plan_->steps[number];
+    SessionPorts& ports = state_.ports;
+    state_.enter(SessionPhase::response_screen, state_.trial());
+    go_to(sheet_of(number));
+    int page = current_->page();
+    onset = state_.show(screen());
+    has_screen_ = true;
+    is_drawing_due_ = false;
+    current_->screen_lit(onset);
+    if (next)
+        ports.presenter.expect_slots(next->all_shown());
+    SessionTime looked = onset;
+    Waiting waiting{.screen = screen(),
+                    .onset = onset,
+                    .max_s = step.drawn_s.value_or(state_.protocol.screens.response_max_s),
+                    .takes_keys = false};
+    waiting.await = [&](SessionTime since) {
+        // After a pause of the operator's: the window was closed for as long.
+        current_->pause(since - std::max(looked, onset));
+        current_->begin_step();
+        if (!is_awaiting_ || since != onset) {
+            ports.panel.offer(current_->offers());
+            ports.panel.await_answer(since, trial_);
+            is_awaiting_ = true;
+            opening_told_.reset();
+        }
+        is_drawing_due_ = since != onset;
+        tell_opening();
+    };
+    waiting.meanwhile = [&] {
+        looked = state_.now();
+        look();
+        if (!is_drawing_due_ || current_->is_complete())
+            return;
+        is_drawing_due_ = false;
+        const SessionTime lit = state_.show(screen());
+        current_->screen_lit(lit);
+        if (current_->page() != page) {
+            page = current_->page();
+            current_->begin_step();
+            ports.panel.offer(current_->offers());
+            opening_told_.reset();
+        }
+        tell_opening();
+    };
+    waiting.is_over = [&] { return current_->is_over_at(state_.now()); };
+    const OperatorControl::Press press = control_.wait(waiting);
+    look();
+    current_->close(state_.now());
+    has_screen_ = false;
+    is_awaiting_ = false;
+    if (press.how == OperatorControl::How::timed_out ||
+        (press.how == OperatorControl::How::next && !current_->is_complete())) {
+        state_.log().event({press.at, state_.trial(), response_timed_out_event, ""});
+        return {OperatorControl::How::timed_out, press.at};
+    }
+    return press;
+}
+
+bool AnswerAsking::is_answered() const noexcept {
+    return asks() && std::ranges::all_of(sheets_, [](const auto& sheet) { return sheet->is_given(); });
+}
+
+std::optional<bool> AnswerAsking::is_correct() const {
+    TrialOutcome so_far;
+    for (const std::unique_ptr<AnswerSheet>& sheet : sheets_)
+        sheet->add_to(so_far.given, so_far.inputs);
+    return correctness_of(so_far.given);
+}
+
+void AnswerAsking::finish(TrialOutcome& outcome) {
+    std::optional<SessionTime> last;
+    for (const std::unique_ptr<AnswerSheet>& sheet : sheets_) {
+        sheet->close(state_.now());
+        sheet->add_to(outcome.given, outcome.inputs);
+        if (sheet->lost_inputs() > 0)
+            state_.note(answer_recording_event,
+                        fmt::format("{} inputs in one trial found no room", sheet->lost_inputs()));
+    }
+    for (const GivenAnswer& given : outcome.given) {
+        if (given.is_missed)
+            continue;
+        outcome.answer += (outcome.answer.empty() ? "" : "; ") + given.value;
+        if (!last || *given.answered_at > *last) {
+            last = given.answered_at;
+            outcome.responded_uncertainty = given.uncertainty;
+        }
+    }
+    if (last)
+        outcome.responded_at = *last;
+    is_awaiting_ = false;
+}
+
+} // namespace overt
