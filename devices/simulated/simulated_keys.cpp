@@ -104,7 +104,7 @@ std::optional<double> SimulatedAnswers::judge(const AnswerOffer& offer, const Tr
     return number;
 }
 
-SimulatedAnswers::Given SimulatedAnswers::answer(const AnswerOffer& offer, const Trial& trial) const {
+SimulatedAnswers::Intended SimulatedAnswers::answer(const AnswerOffer& offer, const Trial& trial) const {
     const Task& task = protocol_.tasks[static_cast<std::size_t>(trial.task)];
     const auto found = std::ranges::find(task.answers, offer.id, &TaskAnswer::id);
     const AnswerTruth truth = found == task.answers.end() ? AnswerTruth{} : found->truth;
@@ -112,7 +112,7 @@ SimulatedAnswers::Given SimulatedAnswers::answer(const AnswerOffer& offer, const
     // Streams of their own, so that what is answered does not move when.
     RandomStream when(seed_, fmt::format("answer time {} {}", offer.id, offer.item), index);
     RandomStream what(seed_, fmt::format("answer {} {}", offer.id, offer.item), index);
-    Given given;
+    Intended given;
     given.after = from_seconds(truth.shift_s + truth.median_s * std::exp(truth.log_sd * when.normal()));
     given.is_early = when.uniform() < truth.early;
     given.is_missing = when.uniform() < truth.missing;
@@ -187,7 +187,7 @@ void SimulatedKeys::plan(const SimulatedAnswers& answers, const std::vector<Answ
     opened_.reset();
     SessionDuration begin{};
     for (const AnswerOffer& offer : offers) {
-        const SimulatedAnswers::Given given = answers.answer(offer, trial);
+        const SimulatedAnswers::Intended given = answers.answer(offer, trial);
         SessionDuration after = begin + given.after;
         if (given.is_early && !offer.keys.empty())
             press(early_, offer.keys.front(), early_after);

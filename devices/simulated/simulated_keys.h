@@ -20,13 +20,13 @@ class SimulatedAnswers {
     /// The protocol must outlive this.
     SimulatedAnswers(const Protocol& protocol, std::uint64_t seed);
 
-    struct Given {
+    struct Intended {
         bool is_missing = false, is_early = false, is_late = false;
         SessionDuration after{};           ///< the window opened
         int choice = 0;                    ///< index into the offer's values
         std::optional<double> number = {}; ///< of scales and numbers
     };
-    Given answer(const AnswerOffer& offer, const Trial& trial) const;
+    Intended answer(const AnswerOffer& offer, const Trial& trial) const;
 
   private:
     std::optional<double> level(const Trial& trial, const Stimulus& stimulus, std::string_view factor) const;
