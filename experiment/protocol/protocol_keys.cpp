@@ -67,7 +67,9 @@ const KeyTable& protocol_keys() {
              "any other key that writes, enter or the right arrow go on."},
             {"observer_field", &Protocol::observer_fields, observer_fields(),
              "Something to be known of the observer. The form is filled in with `--observer-field ID=VALUE`, "
-             "or before the session in its window or in the terminal. Standard fields have all but their id "
+             "or before the session in its window or in the terminal; what is asked after a block or at the "
+             "end "
+             "of the session, a questionnaire say, in its window then. Standard fields have all but their id "
              "by default: `age` (in years), `sex` (female, male, other), `vision` (normal, corrected to "
              "normal, impaired), `handedness` (left, right, ambidextrous)."},
             {"operator", &Protocol::operators, operators(),

@@ -78,7 +78,7 @@ std::vector<Key> observer_fields() {
          "Of a choice: what there is to choose from."},
         {"min", &F::min, left_out("the standard field's, or no limit"), "Of a number: the smallest."},
         {"max", &F::max, left_out("the standard field's, or no limit"), "Of a number: the largest."},
-        {"required", &F::required, "Whether a session begins only when the field is filled in."},
+        {"required", &F::required, "Whether the field must be filled in before the session goes on."},
         {"note", &F::note, left_out("none"), "Shown while the field is filled in."},
         {"steps", &F::steps, range(2, 11), "Of a scale: how many numbers it has, from 1."},
         {"ends", &F::ends, left_out("none"), "Of a scale: what its first and its last step mean."},

@@ -65,14 +65,34 @@ TEST_CASE("the terminal asks for what is missing, again until it may stand", "[u
 
 TEST_CASE("a session records the form: what was given, and the rest from the simulated observer's seed",
           "[session]") {
-    const SmallExperiment experiment(std::string(small_protocol) + form);
-    const ProgramRun run = experiment.run({"--trials", "1", "--observer-field", "age=31"});
+    const SmallExperiment experiment(
+        std::string(small_protocol) + form +
+        "[[block]]\nid = \"only\"\n"
+        "[[observer_field]]\nid = \"effort\"\nkind = \"scale\"\nsteps = 5\n"
+        "ends = [\"none\", \"much\"]\nwhen = \"block:only\"\n"
+        "[[observer_field]]\nid = \"guess\"\nrequired = false\nwhen = \"end\"\n");
+    const ProgramRun run =
+        experiment.run({"--trials", "1", "--observer-field", "age=31", "--observer-field", "guess=gloss"});
     INFO(run.err);
     REQUIRE(run.exit_code == 0);
-    const auto fields = SessionRecord(experiment.session()).observer_fields();
-    REQUIRE(fields.size() == 3);
-    CHECK(fields[0] == RecordedObserverField{"age", "Age in years", "31"});
+    const SessionRecord record(experiment.session());
+    const auto fields = record.observer_fields();
+    REQUIRE(fields.size() == 5);
+    CHECK(fields[0].id == "age");
+    CHECK(fields[0].title == "Age in years");
+    CHECK(fields[0].value == "31");
     CHECK(fields[1].value == simulated_value(three_observer_fields("remark")[1], 5));
+    // Later parts come later: after the block's only trial, and at the end.
+    CHECK(fields[0].asked == "begin");
+    CHECK(fields[3].asked == "block:only");
+    CHECK(fields[3].value.size() == 1);
+    CHECK(fields[4].asked == "end");
+    CHECK(fields[4].value == "gloss");
+    const std::vector<TrialRecord> trials = record.trials();
+    REQUIRE(trials.size() == 1);
+    CHECK(fields[0].at < trials[0].started);
+    CHECK(fields[3].at > trials[0].started);
+    CHECK(fields[4].at >= fields[3].at);
 }
 
 TEST_CASE("without the required fields and somebody to ask, a session is refused and leaves nothing",

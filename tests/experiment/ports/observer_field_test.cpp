@@ -53,6 +53,34 @@ TEST_CASE("standard fields know their kind, title, limits and choices; others ar
     CHECK(own[1].kind == FieldKind::text);
 }
 
+TEST_CASE("a scale has the numbers from 1 to its steps, and fields are sorted by when they are asked",
+          "[unit]") {
+    const auto fields =
+        fields_of("[[observer_field]]\nid = \"tired\"\nkind = \"scale\"\nsteps = 5\nwhen = \"end\"\n"
+                  "[[observer_field]]\nid = \"age\"\n"
+                  "[[observer_field]]\nid = \"bored\"\nkind = \"scale\"\nwhen = \"end\"\n");
+    REQUIRE(fields.size() == 3);
+    CHECK(fields[0].choices == std::vector<std::string>{"1", "2", "3", "4", "5"});
+    CHECK(fields[2].choices.size() == 7);
+    CHECK_FALSE(fault_of(fields[0], "5"));
+    for (const char* wrong : {"0", "6", "2.5", "five"})
+        CHECK(fault_of(fields[0], wrong));
+    CHECK(moments_asked(fields) == std::vector<std::string>{"end", "begin"});
+    const auto at_end = fields_asked(fields, "end");
+    REQUIRE(at_end.size() == 2);
+    CHECK(at_end[1].id == "bored");
+}
+
+TEST_CASE("when a field is asked is checked, and what only scales have", "[unit]") {
+    const ReadText read(minimal_protocol,
+                        "[[observer_field]]\nid = \"a\"\nwhen = \"later\"\n"
+                        "[[observer_field]]\nid = \"b\"\nwhen = \"block:none\"\n"
+                        "[[observer_field]]\nid = \"c\"\nends = [\"x\", \"y\"]\n"
+                        "[[observer_field]]\nid = \"d\"\nkind = \"scale\"\nends = [\"x\"]\n");
+    CHECK_FALSE(read.protocol);
+    CHECK(read.diagnostics.error_count() == 4);
+}
+
 TEST_CASE("a value stands in a field if it is of its kind, within its limits, or one of its choices",
           "[unit]") {
     const auto fields = fields_of(field_kinds);
@@ -119,4 +147,16 @@ TEST_CASE("what an observer filled in is read back in its order, and can be repl
     }
     CHECK(SessionRecord(session).observer_fields() == fields);
     CHECK(SessionRecord(session).damages().empty());
+    // What is filled in later replaces nothing but itself.
+    const RecordedObserverField guess{"guess", "Guess", "none", "end", SessionTime(std::chrono::seconds(9))},
+        better{"guess", "Guess", "gloss", "end", SessionTime(std::chrono::seconds(10))};
+    {
+        SessionStore store(session / "session.sqlite", testing::patient());
+        store.observer_fields({guess});
+        store.observer_fields({better});
+        store.close();
+    }
+    std::vector<RecordedObserverField> all = fields;
+    all.push_back(better);
+    CHECK(SessionRecord(session).observer_fields() == all);
 }
