@@ -15,7 +15,7 @@ using test::CastScene;
 namespace {
 
 /// A wall that is turned so far away from the camera, about the vertical and then tipped.
-Mesh wall(double turned_deg, double tipped_deg) {
+Mesh turned_wall(double turned_deg, double tipped_deg) {
     const double turn = turned_deg * std::numbers::pi / 180.0, tip = tipped_deg * std::numbers::pi / 180.0;
     const glm::dvec3 along(std::cos(turn), std::sin(turn), 0.0),
         up(-std::sin(tip) * std::sin(turn), std::sin(tip) * std::cos(turn), std::cos(tip));
@@ -52,7 +52,7 @@ glm::dmat3 covariance_by_rays(const CastScene& scene, PoseIndex pose, glm::dvec2
     return squares / static_cast<double>(draws) - glm::outerProduct(mean, mean);
 }
 
-double difference(const glm::dmat3& a, const glm::dmat3& b) {
+double share_that_differs(const glm::dmat3& a, const glm::dmat3& b) {
     double most = 0.0, largest = 0.0;
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) {
@@ -70,7 +70,7 @@ TEST_CASE("the footprint of an error on the surface is what rays through the pic
     const glm::dmat2 covariance(0.30, 0.12, 0.12, 0.10);
     for (const glm::dvec2 turned : {glm::dvec2(0.0, 0.0), glm::dvec2(50.0, 0.0), glm::dvec2(-30.0, 40.0)}) {
         CAPTURE(turned.x, turned.y);
-        const CastScene scene(wall(turned.x, turned.y), {{0.0}, {20.0}});
+        const CastScene scene(turned_wall(turned.x, turned.y), {{0.0}, {20.0}});
         for (const PoseIndex pose : {PoseIndex{0}, PoseIndex{1}}) {
             const SightLines lines(scene.scene, scene.angles[static_cast<std::size_t>(pose.value)]);
             const glm::dvec2 place(83.3, 71.9);
@@ -81,8 +81,8 @@ TEST_CASE("the footprint of an error on the surface is what rays through the pic
             REQUIRE(footprint);
             // 40,000 draws give a variance to within 0.7 % (sqrt(2 / n)); four times that, and what the
             // perspective within the footprint adds.
-            CHECK(difference(footprint->covariance, covariance_by_rays(scene, pose, place, covariance)) <
-                  0.035);
+            CHECK(share_that_differs(footprint->covariance,
+                                     covariance_by_rays(scene, pose, place, covariance)) < 0.035);
             // The axes are those of the covariance: their squares add up to its trace, and there is nothing
             // along the normal.
             const glm::dmat3& c = footprint->covariance;
@@ -97,7 +97,7 @@ TEST_CASE("the footprint of an error on the surface is what rays through the pic
 }
 
 TEST_CASE("a wall that is seen obliquely has a footprint as much longer as it is oblique", "[unit]") {
-    const CastScene scene(wall(60.0, 0.0), {{0.0}});
+    const CastScene scene(turned_wall(60.0, 0.0), {{0.0}});
     const SightLines lines(scene.scene, {0.0});
     const glm::dvec2 middle = 0.5 * glm::dvec2(scene.scene.view.image_px);
     const auto hit = scene.hit({0}, middle);

@@ -17,7 +17,7 @@ using namespace overt::test;
 
 namespace {
 
-ScreenGeometry screen_of(glm::ivec2 screen_px) {
+ScreenGeometry answer_screen_of(glm::ivec2 screen_px) {
     ScreenGeometry geometry;
     geometry.screen_px = screen_px;
     geometry.screen_mm = 0.36 * glm::dvec2(screen_px);
@@ -25,10 +25,10 @@ ScreenGeometry screen_of(glm::ivec2 screen_px) {
 }
 
 PlacedPicture answers_drawn(const Screen& screen, glm::ivec2 screen_px = {1920, 1080}) {
-    return draw_screen(screen, screen_of(screen_px), {}, 0.2);
+    return draw_screen(screen, answer_screen_of(screen_px), {}, 0.2);
 }
 
-Screen with(std::vector<AnswerItem> items) {
+Screen answering(std::vector<AnswerItem> items) {
     Screen screen{.kind = Screen::Kind::answers, .text = ""};
     screen.answers.items = std::move(items);
     return screen;
@@ -90,7 +90,7 @@ TEST_CASE("each option is found where it was drawn, and nothing beside it", "[un
 TEST_CASE("a line tells how far along it was touched, also a little beyond its ends", "[unit]") {
     AnswerItem line{.kind = AnswerItem::Kind::line, .question = "How glossy?"};
     line.ends = {"matte", "glossy"};
-    const std::vector<AnswerTarget> targets = answers_drawn(with({line})).targets;
+    const std::vector<AnswerTarget> targets = answers_drawn(answering({line})).targets;
     REQUIRE(targets.size() == 1);
     REQUIRE(targets[0].from);
     const double left = *targets[0].from, length = *targets[0].over, y = middle_of(targets[0].box).y;
@@ -101,7 +101,7 @@ TEST_CASE("a line tells how far along it was touched, also a little beyond its e
     CHECK_FALSE(place_among(targets, {left + 0.5 * length, y - targets[0].box.height}).along);
     // Its ink is where it says: in the column of the marker there is more of it than beside it.
     line.marker = 0.25;
-    const PlacedPicture drawn = answers_drawn(with({line}));
+    const PlacedPicture drawn = answers_drawn(answering({line}));
     const auto ink_in = [&](double column) {
         double sum = 0.0;
         const int x = static_cast<int>(column) - drawn.origin_px.x;
@@ -118,13 +118,13 @@ TEST_CASE("words too wide for their steps stand below each other", "[unit]") {
     for (const char* const word :
          {"Donaudampfschifffahrtsgesellschaft", "Rindfleischetikettierung", "so", "ja"})
         steps.options.push_back({word, "", "", false});
-    const std::vector<AnswerTarget> wide = answers_drawn(with({steps}), {800, 600}).targets;
+    const std::vector<AnswerTarget> wide = answers_drawn(answering({steps}), {800, 600}).targets;
     REQUIRE(wide.size() == 4);
     CHECK(wide[0].box.x == wide[3].box.x);
     CHECK(wide[0].box.y < wide[1].box.y);
     for (AnswerOption& option : steps.options)
         option.label = "1";
-    const std::vector<AnswerTarget> narrow = answers_drawn(with({steps}), {800, 600}).targets;
+    const std::vector<AnswerTarget> narrow = answers_drawn(answering({steps}), {800, 600}).targets;
     CHECK(narrow[0].box.x < narrow[3].box.x);
     CHECK(narrow[0].box.y == narrow[3].box.y);
 }
@@ -139,7 +139,7 @@ TEST_CASE("a choice shows its pictures, in their colours", "[unit]") {
         write_srgb_png(file, picture);
         options.push_back({"one", "", file, false});
     }
-    const PlacedPicture drawn = answers_drawn(with({choice_of("Which?", options)}));
+    const PlacedPicture drawn = answers_drawn(answering({choice_of("Which?", options)}));
     REQUIRE(drawn.targets.size() == 2);
     const auto in_the_middle = [&](int option) {
         const InkBox& box = drawn.targets[static_cast<std::size_t>(option)].box;
@@ -152,7 +152,7 @@ TEST_CASE("a choice shows its pictures, in their colours", "[unit]") {
     CHECK(in_the_middle(0).b < 0.1f);
     CHECK(in_the_middle(1).b > 0.9f);
     options[0].picture = (folder.path() / "none.png").string();
-    CHECK_THROWS_AS(answers_drawn(with({choice_of("Which?", options)})), InputError);
+    CHECK_THROWS_AS(answers_drawn(answering({choice_of("Which?", options)})), InputError);
 }
 
 TEST_CASE("what is right is green and what is wrong is red, both as bright as any text", "[unit]") {
@@ -197,7 +197,7 @@ TEST_CASE("the presenter says what of the answers on its screen lies at a place,
     PagePresenter presenter(*bench.context, bench.display, bench.pages, bench.geometry, bench.settings,
                             bench.screens);
     const Screen screen =
-        with({choice_of("Which?", {{"first", "f", "", false}, {"second", "j", "", false}})});
+        answering({choice_of("Which?", {{"first", "f", "", false}, {"second", "j", "", false}})});
     presenter.show(screen);
     const std::vector<AnswerTarget> targets =
         draw_screen(screen, bench.geometry, bench.screens, bench.settings.background).targets;
