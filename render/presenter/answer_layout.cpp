@@ -14,7 +14,7 @@ bool is_answered_with_keys(const AnswerItem& item) {
     return item.kind != AnswerItem::Kind::keys && item.kind != AnswerItem::Kind::notice;
 }
 
-AnswerSheet means_of(const AnswerItem& item, int index, const AnswerLetters& letters) {
+AnswerDrawing means_of(const AnswerItem& item, int index, const AnswerLetters& letters) {
     switch (item.kind) {
     case AnswerItem::Kind::keys:
     case AnswerItem::Kind::choice:
@@ -37,7 +37,7 @@ class Column {
   public:
     explicit Column(int width_px) { sheet_.size_px.x = width_px; }
 
-    void put(AnswerSheet part, int gap_px) {
+    void put(AnswerDrawing part, int gap_px) {
         if (part.size_px.y == 0)
             return;
         if (sheet_.size_px.y > 0)
@@ -47,14 +47,14 @@ class Column {
         sheet_.size_px.y += size.y;
     }
     void leave(int gap_px) { sheet_.size_px.y += gap_px; }
-    AnswerSheet& sheet() { return sheet_; }
+    AnswerDrawing& sheet() { return sheet_; }
 
   private:
-    AnswerSheet sheet_;
+    AnswerDrawing sheet_;
 };
 
 /// The question, how it is answered, and what is missing.
-AnswerSheet lay_out_item(const AnswerItem& item, int index, const AnswerLetters& letters) {
+AnswerDrawing lay_out_item(const AnswerItem& item, int index, const AnswerLetters& letters) {
     Column column(letters.width_px);
     column.put(lay_out_words(item.question, letters, item.colour), 0);
     column.put(means_of(item, index, letters), letters.ems(below_question));
@@ -64,7 +64,7 @@ AnswerSheet lay_out_item(const AnswerItem& item, int index, const AnswerLetters&
         const int high = measure_text("Xg", style).size_px.y;
         while (size_of(item.message, style).y > high && style.line_height_px > 8)
             style.line_height_px = style.line_height_px * 9 / 10;
-        AnswerSheet message;
+        AnswerDrawing message;
         message.size_px = {size_of(item.message, style).x, high};
         if (!item.message.empty())
             message.write(item.message, style, {0, 0});
@@ -74,14 +74,14 @@ AnswerSheet lay_out_item(const AnswerItem& item, int index, const AnswerLetters&
 }
 
 /// Which of several items is answered now: a band behind it, and a bar where its words begin.
-void mark_item(AnswerSheet& sheet, const AnswerItem& item, int left, int width, int top, int height,
+void mark_item(AnswerDrawing& sheet, const AnswerItem& item, int left, int width, int top, int height,
                const AnswerLetters& letters) {
     const double em = letters.body.line_height_px, bar = 0.14 * em;
     const InkBox band{static_cast<double>(left), static_cast<double>(top), static_cast<double>(width),
                       static_cast<double>(height)};
     const bool is_mirrored = !item.question.empty() && begins_at_the_right(item.question);
-    sheet.shapes.push_back({AnswerSheet::Shape::Kind::fill, band, 0.06, 1.0, 0.25 * em});
-    sheet.shapes.push_back({AnswerSheet::Shape::Kind::fill,
+    sheet.shapes.push_back({AnswerDrawing::Shape::Kind::fill, band, 0.06, 1.0, 0.25 * em});
+    sheet.shapes.push_back({AnswerDrawing::Shape::Kind::fill,
                             {is_mirrored ? band.x + band.width - bar : band.x, band.y, bar, band.height},
                             0.9,
                             1.0,
@@ -90,7 +90,7 @@ void mark_item(AnswerSheet& sheet, const AnswerItem& item, int left, int width, 
 
 } // namespace
 
-AnswerSheet lay_out_answers(const AnswerView& view, const AnswerLetters& letters) {
+AnswerDrawing lay_out_answers(const AnswerView& view, const AnswerLetters& letters) {
     const auto answered = std::ranges::count_if(view.items, is_answered_with_keys);
     const bool marks_items = answered > 1;
     Column column(letters.width_px);
@@ -99,7 +99,7 @@ AnswerSheet lay_out_answers(const AnswerView& view, const AnswerLetters& letters
     inner.width_px -= 2 * padding;
     for (std::size_t i = 0; i < view.items.size(); ++i) {
         const AnswerItem& item = view.items[i];
-        AnswerSheet part = lay_out_item(item, static_cast<int>(i), inner);
+        AnswerDrawing part = lay_out_item(item, static_cast<int>(i), inner);
         if (i > 0)
             column.leave(letters.ems(between_items));
         const int top = column.sheet().size_px.y;

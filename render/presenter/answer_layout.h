@@ -8,6 +8,6 @@ namespace overt {
 
 /// All of it, at most `letters.width_px` wide unless a single word is wider; as high as it becomes. It has
 /// the same size whatever is typed, chosen and said to be missing.
-AnswerSheet lay_out_answers(const AnswerView& view, const AnswerLetters& letters);
+AnswerDrawing lay_out_answers(const AnswerView& view, const AnswerLetters& letters);
 
 } // namespace overt

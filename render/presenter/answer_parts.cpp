@@ -27,14 +27,14 @@ std::string written_on(const std::string& key) {
 
 /// What stands in an option's box: its picture above its key and its label.
 struct OptionContent {
-    AnswerSheet sheet;
+    AnswerDrawing sheet;
     bool fits = true; ///< no word of its label is wider than the box
     int lines = 0;    ///< of its label
 };
 
 OptionContent content_of(const AnswerOption& option, const AnswerLetters& letters, int inner_px) {
     OptionContent content;
-    AnswerSheet& sheet = content.sheet;
+    AnswerDrawing& sheet = content.sheet;
     const double strength = option.is_chosen ? 1.0 : 0.8;
     int top = 0;
     if (!option.picture.empty()) {
@@ -43,7 +43,7 @@ OptionContent content_of(const AnswerOption& option, const AnswerLetters& letter
             std::min(inner_px, letters.ems(widest_picture)) / static_cast<double>(std::max(has.x, has.y));
         const glm::ivec2 size = glm::max(glm::ivec2(scale * glm::dvec2(has)), glm::ivec2(1));
         sheet.pictures.push_back({option.picture, {0, 0}, size});
-        sheet.shapes.push_back({AnswerSheet::Shape::Kind::outline,
+        sheet.shapes.push_back({AnswerDrawing::Shape::Kind::outline,
                                 {0.0, 0.0, static_cast<double>(size.x), static_cast<double>(size.y)},
                                 0.2,
                                 1.0,
@@ -51,7 +51,7 @@ OptionContent content_of(const AnswerOption& option, const AnswerLetters& letter
         sheet.size_px = size;
         top = size.y + letters.ems(option.label.empty() && option.key.empty() ? 0.0 : 0.3);
     }
-    AnswerSheet cap = lay_out_key_cap(option.key, letters, strength);
+    AnswerDrawing cap = lay_out_key_cap(option.key, letters, strength);
     const int beside = cap.size_px.x > 0 ? cap.size_px.x + letters.ems(option.label.empty() ? 0.0 : 0.4) : 0;
     const TextStyle style = letters.plain(option_size, std::max(8, inner_px - beside));
     const glm::ivec2 words = size_of(option.label, style);
@@ -60,7 +60,7 @@ OptionContent content_of(const AnswerOption& option, const AnswerLetters& letter
                    (option.picture.empty() || inner_px >= letters.ems(least_picture));
     const glm::ivec2 row(beside + words.x, std::max(cap.size_px.y, words.y));
     const int wide = std::max(sheet.size_px.x, row.x);
-    for (AnswerSheet::Picture& picture : sheet.pictures)
+    for (AnswerDrawing::Picture& picture : sheet.pictures)
         sheet.shapes.front().box.x = picture.origin_px.x = (wide - picture.size_px.x) / 2;
     const bool is_mirrored = !option.label.empty() && begins_at_the_right(option.label);
     const int left = (wide - row.x) / 2;
@@ -99,8 +99,8 @@ int widest_word_px(const std::string& words, const TextStyle& style) {
     return widest;
 }
 
-AnswerSheet lay_out_key_cap(const std::string& key, const AnswerLetters& letters, double strength) {
-    AnswerSheet sheet;
+AnswerDrawing lay_out_key_cap(const std::string& key, const AnswerLetters& letters, double strength) {
+    AnswerDrawing sheet;
     if (key.empty())
         return sheet;
     const TextStyle style = letters.plain(cap_size, letters.ems(20.0));
@@ -109,7 +109,7 @@ AnswerSheet lay_out_key_cap(const std::string& key, const AnswerLetters& letters
     const int width = std::max(words.x + 2 * padding, words.y);
     sheet.texts.back().origin_px.x = (width - words.x) / 2;
     const double line = std::max(1.0, letters.body.line_height_px / 24.0);
-    sheet.shapes.push_back({AnswerSheet::Shape::Kind::outline,
+    sheet.shapes.push_back({AnswerDrawing::Shape::Kind::outline,
                             {0.5 * line, 0.5 * line, width - line, words.y - line},
                             0.6 * strength,
                             line,
@@ -118,8 +118,9 @@ AnswerSheet lay_out_key_cap(const std::string& key, const AnswerLetters& letters
     return sheet;
 }
 
-AnswerSheet lay_out_words(const std::string& words, const AnswerLetters& letters, AnswerItem::Colour colour) {
-    AnswerSheet sheet;
+AnswerDrawing lay_out_words(const std::string& words, const AnswerLetters& letters,
+                            AnswerItem::Colour colour) {
+    AnswerDrawing sheet;
     if (words.empty())
         return sheet;
     TextStyle style = letters.body;
@@ -131,7 +132,7 @@ AnswerSheet lay_out_words(const std::string& words, const AnswerLetters& letters
     return sheet;
 }
 
-AnswerSheet lay_out_choice(const AnswerItem& item, int index, const AnswerLetters& letters) {
+AnswerDrawing lay_out_choice(const AnswerItem& item, int index, const AnswerLetters& letters) {
     const int count = static_cast<int>(item.options.size());
     const int padding = letters.ems(box_padding), gap = letters.ems(box_gap);
     const bool has_boxes = item.kind != AnswerItem::Kind::keys;
@@ -152,7 +153,7 @@ AnswerSheet lay_out_choice(const AnswerItem& item, int index, const AnswerLetter
         if ((all_fit && is_even) || columns == 1)
             break;
     }
-    AnswerSheet sheet;
+    AnswerDrawing sheet;
     if (count == 0)
         return sheet;
     glm::ivec2 inside(0);
@@ -178,9 +179,9 @@ AnswerSheet lay_out_choice(const AnswerItem& item, int index, const AnswerLetter
         const InkBox box{left + line, top + line, wide - 2 * line, high - 2 * line};
         const double round = 0.3 * letters.body.line_height_px;
         if (has_boxes && option.is_chosen)
-            sheet.shapes.push_back({AnswerSheet::Shape::Kind::fill, box, 0.16, 1.0, round});
+            sheet.shapes.push_back({AnswerDrawing::Shape::Kind::fill, box, 0.16, 1.0, round});
         if (has_boxes)
-            sheet.shapes.push_back({AnswerSheet::Shape::Kind::outline, box, option.is_chosen ? 1.0 : 0.35,
+            sheet.shapes.push_back({AnswerDrawing::Shape::Kind::outline, box, option.is_chosen ? 1.0 : 0.35,
                                     option.is_chosen ? 2.0 * line : line, round});
         sheet.targets.push_back({box, {.item = index, .option = i}, {}, {}});
         const glm::ivec2 size = content.sheet.size_px;
@@ -191,7 +192,7 @@ AnswerSheet lay_out_choice(const AnswerItem& item, int index, const AnswerLetter
     return sheet;
 }
 
-AnswerSheet lay_out_entry(const AnswerItem& item, int index, const AnswerLetters& letters) {
+AnswerDrawing lay_out_entry(const AnswerItem& item, int index, const AnswerLetters& letters) {
     const bool is_number = item.kind == AnswerItem::Kind::number;
     const int padding = letters.ems(0.4);
     TextStyle unit_style = letters.plain(option_size, letters.ems(20.0));
@@ -206,13 +207,13 @@ AnswerSheet lay_out_entry(const AnswerItem& item, int index, const AnswerLetters
     for (int i = 1; i < lines; ++i)
         most += "\nXg";
     const int high = std::max(line_px, measure_text(most, style).size_px.y) + letters.ems(0.4);
-    AnswerSheet sheet;
+    AnswerDrawing sheet;
     const double line = std::max(1.0, letters.body.line_height_px / 24.0);
     const InkBox box{line, line, wide - 2 * line, high - 2 * line};
     const double round = 0.25 * letters.body.line_height_px;
     if (item.is_here)
-        sheet.shapes.push_back({AnswerSheet::Shape::Kind::fill, box, 0.1, 1.0, round});
-    sheet.shapes.push_back({AnswerSheet::Shape::Kind::outline, box, item.is_here ? 0.8 : 0.4, line, round});
+        sheet.shapes.push_back({AnswerDrawing::Shape::Kind::fill, box, 0.1, 1.0, round});
+    sheet.shapes.push_back({AnswerDrawing::Shape::Kind::outline, box, item.is_here ? 0.8 : 0.4, line, round});
     sheet.targets.push_back({box, {.item = index}, {}, {}});
     const TextPart seen = lines_around(item.typed, style, item.caret, lines);
     const std::string shown = item.typed.substr(seen.begin, seen.end - seen.begin);
@@ -231,8 +232,8 @@ AnswerSheet lay_out_entry(const AnswerItem& item, int index, const AnswerLetters
     return sheet;
 }
 
-AnswerSheet lay_out_accept(const std::string& words, bool can_accept, const AnswerLetters& letters) {
-    AnswerSheet sheet;
+AnswerDrawing lay_out_accept(const std::string& words, bool can_accept, const AnswerLetters& letters) {
+    AnswerDrawing sheet;
     const TextStyle style = letters.plain(option_size, letters.width_px - letters.ems(2.0));
     const glm::ivec2 inside = size_of(words, style);
     sheet.size_px = inside + glm::ivec2(letters.ems(1.8), letters.ems(0.5));
@@ -240,8 +241,8 @@ AnswerSheet lay_out_accept(const std::string& words, bool can_accept, const Answ
     const InkBox box{line, line, sheet.size_px.x - 2 * line, sheet.size_px.y - 2 * line};
     const double round = 0.35 * letters.body.line_height_px;
     if (can_accept)
-        sheet.shapes.push_back({AnswerSheet::Shape::Kind::fill, box, 0.16, 1.0, round});
-    sheet.shapes.push_back({AnswerSheet::Shape::Kind::outline, box, can_accept ? 1.0 : 0.3,
+        sheet.shapes.push_back({AnswerDrawing::Shape::Kind::fill, box, 0.16, 1.0, round});
+    sheet.shapes.push_back({AnswerDrawing::Shape::Kind::outline, box, can_accept ? 1.0 : 0.3,
                             can_accept ? 2.0 * line : line, round});
     sheet.write(words, style, (sheet.size_px - inside) / 2, can_accept ? 1.0 : 0.45);
     sheet.targets.push_back({box, {.is_accept = true}, {}, {}});

@@ -8,7 +8,7 @@ namespace overt {
 
 namespace {
 
-using ScaleShape = AnswerSheet::Shape;
+using ScaleShape = AnswerDrawing::Shape;
 
 // Shares of a letter's height.
 constexpr double label_size = 0.75, point_radius = 0.36, least_step = 1.8, widest_step = 6.0;
@@ -16,7 +16,7 @@ constexpr double longest_scale = 26.0, end_gap = 1.0, least_end = 4.0;
 
 double stroke_of(const AnswerLetters& letters) { return std::max(1.0, letters.body.line_height_px / 20.0); }
 
-void put_point(AnswerSheet& sheet, glm::dvec2 middle, bool is_chosen, const AnswerLetters& letters) {
+void put_point(AnswerDrawing& sheet, glm::dvec2 middle, bool is_chosen, const AnswerLetters& letters) {
     const double radius = point_radius * letters.body.line_height_px, line = stroke_of(letters);
     const auto around = [&](double r) { return InkBox{middle.x - r, middle.y - r, 2.0 * r, 2.0 * r}; };
     sheet.shapes.push_back(
@@ -26,16 +26,16 @@ void put_point(AnswerSheet& sheet, glm::dvec2 middle, bool is_chosen, const Answ
 }
 
 /// The words below a point: its label, and its key unless that is what the label says.
-AnswerSheet words_below(const AnswerOption& option, int wrap_px, const AnswerLetters& letters) {
-    AnswerSheet sheet;
+AnswerDrawing words_below(const AnswerOption& option, int wrap_px, const AnswerLetters& letters) {
+    AnswerDrawing sheet;
     if (!option.label.empty())
         sheet.size_px = sheet.write(option.label, letters.plain(label_size, wrap_px), {0, 0},
                                     option.is_chosen ? 1.0 : 0.8);
     if (option.key.empty() || option.key == option.label)
         return sheet;
-    AnswerSheet cap = lay_out_key_cap(option.key, letters, 0.7);
+    AnswerDrawing cap = lay_out_key_cap(option.key, letters, 0.7);
     const int wide = std::max(sheet.size_px.x, cap.size_px.x), top = sheet.size_px.y + letters.ems(0.15);
-    for (AnswerSheet::Text& text : sheet.texts)
+    for (AnswerDrawing::Text& text : sheet.texts)
         text.origin_px.x = (wide - text.size_px.x) / 2;
     const glm::ivec2 size = cap.size_px;
     sheet.add(std::move(cap), {(wide - size.x) / 2, top});
@@ -44,19 +44,19 @@ AnswerSheet words_below(const AnswerOption& option, int wrap_px, const AnswerLet
 }
 
 /// Below each other, each point before its label.
-AnswerSheet lay_out_list(const AnswerItem& item, int index, const AnswerLetters& letters) {
-    AnswerSheet sheet;
+AnswerDrawing lay_out_list(const AnswerItem& item, int index, const AnswerLetters& letters) {
+    AnswerDrawing sheet;
     const int beside = letters.ems(1.3);
     const TextStyle style = letters.plain(0.85, letters.width_px - 2 * beside);
     struct Row {
-        AnswerSheet cap;
+        AnswerDrawing cap;
         glm::ivec2 words{0};
         int top = 0, high = 0;
     };
     std::vector<Row> rows;
     int top = 0, wide = 0;
     for (const AnswerOption& option : item.options) {
-        Row row{option.key == option.label ? AnswerSheet() : lay_out_key_cap(option.key, letters, 0.7),
+        Row row{option.key == option.label ? AnswerDrawing() : lay_out_key_cap(option.key, letters, 0.7),
                 size_of(option.label, style), top, 0};
         row.high = std::max({row.words.y, row.cap.size_px.y, letters.ems(1.3)});
         wide = std::max(wide, beside + row.words.x +
@@ -106,8 +106,8 @@ int length_for_ends(const std::vector<std::string>& ends, int wanted_px, const A
     return std::clamp(std::max(wanted_px, apart), 1, std::max(1, most));
 }
 
-int put_ends(AnswerSheet& sheet, const std::vector<std::string>& ends, int left_px, int length_px, int top_px,
-             const AnswerLetters& letters) {
+int put_ends(AnswerDrawing& sheet, const std::vector<std::string>& ends, int left_px, int length_px,
+             int top_px, const AnswerLetters& letters) {
     if (ends.empty())
         return 0;
     const int gaps = std::max(1, static_cast<int>(ends.size()) - 1);
@@ -128,9 +128,9 @@ int put_ends(AnswerSheet& sheet, const std::vector<std::string>& ends, int left_
     return high;
 }
 
-AnswerSheet lay_out_steps(const AnswerItem& item, int index, const AnswerLetters& letters) {
+AnswerDrawing lay_out_steps(const AnswerItem& item, int index, const AnswerLetters& letters) {
     const int count = static_cast<int>(item.options.size());
-    AnswerSheet sheet;
+    AnswerDrawing sheet;
     if (count == 0)
         return sheet;
     const TextStyle style = letters.plain(label_size, letters.width_px);
@@ -161,7 +161,7 @@ AnswerSheet lay_out_steps(const AnswerItem& item, int index, const AnswerLetters
     for (int i = 0; i < count; ++i) {
         const AnswerOption& option = item.options[static_cast<std::size_t>(i)];
         put_point(sheet, {static_cast<double>(i * step), middle}, option.is_chosen, letters);
-        AnswerSheet words = words_below(option, std::max(8, step - gap / 2), letters);
+        AnswerDrawing words = words_below(option, std::max(8, step - gap / 2), letters);
         const glm::ivec2 size = words.size_px;
         words_high = std::max(words_high, size.y);
         sheet.add(std::move(words), {i * step - size.x / 2, row});
@@ -177,24 +177,24 @@ AnswerSheet lay_out_steps(const AnswerItem& item, int index, const AnswerLetters
              {}});
     // All of it to the right of its left edge: half of the outer words stand beyond the points.
     int left = -step / 2, right = length + step / 2;
-    for (const AnswerSheet::Text& text : sheet.texts) {
+    for (const AnswerDrawing::Text& text : sheet.texts) {
         left = std::min(left, text.origin_px.x);
         right = std::max(right, text.origin_px.x + text.size_px.x);
     }
     // The middle of the scale is the middle of the sheet.
     const int half = std::max(length / 2 - left, right - length / 2);
-    AnswerSheet whole;
+    AnswerDrawing whole;
     whole.add(std::move(sheet), {half - length / 2, 0});
     whole.size_px = {2 * half, high};
     return whole;
 }
 
-AnswerSheet lay_out_line(const AnswerItem& item, int index, const AnswerLetters& letters) {
+AnswerDrawing lay_out_line(const AnswerItem& item, int index, const AnswerLetters& letters) {
     const int length =
         length_for_ends(item.ends, std::min(letters.width_px * 3 / 4, letters.ems(longest_scale)), letters);
     const double em = letters.body.line_height_px, line = stroke_of(letters);
     const TextStyle style = letters.plain(label_size, letters.ems(12.0));
-    AnswerSheet sheet;
+    AnswerDrawing sheet;
     // Room above the line for the marker's value, also before it was touched.
     const int label_px = item.marker_label ? measure_text("Xg", style).size_px.y : 0,
               reach = letters.ems(0.9);
@@ -217,7 +217,7 @@ AnswerSheet lay_out_line(const AnswerItem& item, int index, const AnswerLetters&
                              0.0,
                              static_cast<double>(length)});
     int left = -letters.ems(1.0), right = length + letters.ems(1.0);
-    for (const AnswerSheet::Text& text : sheet.texts) {
+    for (const AnswerDrawing::Text& text : sheet.texts) {
         left = std::min(left, text.origin_px.x);
         right = std::max(right, text.origin_px.x + text.size_px.x);
     }
@@ -238,7 +238,7 @@ AnswerSheet lay_out_line(const AnswerItem& item, int index, const AnswerLetters&
         }
     }
     const int half = std::max(length / 2 - left, right - length / 2);
-    AnswerSheet whole;
+    AnswerDrawing whole;
     whole.add(std::move(sheet), {half - length / 2, 0});
     whole.size_px = {2 * half, high};
     return whole;

@@ -10,7 +10,7 @@
 #include "experiment/stimulus/gaze_tags.h"
 #include "experiment/stimulus/photodiode_patch.h"
 #include "render/image/linear_image.h"
-#include "render/presenter/answer_sheet.h"
+#include "render/presenter/answer_drawing.h"
 #include "render/presenter/frame_store.h"
 #include "render/signal/display_encoder.h"
 #include "render/signal/signal_pass.h"

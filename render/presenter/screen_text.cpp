@@ -128,7 +128,7 @@ class Middle {
         if (!answers_)
             return;
         answers_->colour(placed.picture, placed.origin_px, answers_corner_px_, grey, background, pictures);
-        AnswerSheet on_screen;
+        AnswerDrawing on_screen;
         on_screen.add(*answers_, answers_corner_px_);
         placed.targets = std::move(on_screen.targets);
     }
@@ -153,7 +153,7 @@ class Middle {
     TitledText words_;
     TextStyle body_, title_, below_;
     std::optional<FormLayout> form_;
-    std::optional<AnswerSheet> answers_;
+    std::optional<AnswerDrawing> answers_;
     glm::ivec2 answers_corner_px_{0};
     std::optional<double> up_px_; ///< of the middle of all of it, from the middle of the screen
     TextMeasure measure_;

@@ -11,7 +11,7 @@
 #include "render/image/ink_canvas.h"
 #include "render/image/linear_image.h"
 #include "render/image/text_layout.h"
-#include "render/presenter/answer_sheet.h"
+#include "render/presenter/answer_drawing.h"
 
 namespace overt {
 

@@ -1,4 +1,4 @@
-#include "render/presenter/answer_sheet.h"
+#include "render/presenter/answer_drawing.h"
 
 #include <algorithm>
 #include <cmath>
@@ -62,7 +62,7 @@ AnswerPlace place_among(std::span<const AnswerTarget> targets, glm::dvec2 at_px)
     return {};
 }
 
-void AnswerSheet::add(AnswerSheet part, glm::ivec2 at_px) {
+void AnswerDrawing::add(AnswerDrawing part, glm::ivec2 at_px) {
     const glm::dvec2 by(at_px);
     const auto move = [&](InkBox& box) {
         box.x += by.x;
@@ -89,15 +89,15 @@ void AnswerSheet::add(AnswerSheet part, glm::ivec2 at_px) {
     unknown_glyphs += part.unknown_glyphs;
 }
 
-glm::ivec2 AnswerSheet::write(const std::string& text, const TextStyle& style, glm::ivec2 at_px,
-                              double strength) {
+glm::ivec2 AnswerDrawing::write(const std::string& text, const TextStyle& style, glm::ivec2 at_px,
+                                double strength) {
     const TextMeasure measure = measure_text(text, style);
     texts.push_back({text, style, at_px, measure.size_px, strength});
     unknown_glyphs += measure.unknown_glyphs;
     return measure.size_px;
 }
 
-void AnswerSheet::put_on(InkCanvas& canvas, glm::ivec2 corner_px) const {
+void AnswerDrawing::put_on(InkCanvas& canvas, glm::ivec2 corner_px) const {
     const glm::dvec2 by(corner_px);
     for (const Shape& shape : shapes) {
         const InkBox box{shape.box.x + by.x, shape.box.y + by.y, shape.box.width, shape.box.height};
@@ -130,8 +130,8 @@ void AnswerSheet::put_on(InkCanvas& canvas, glm::ivec2 corner_px) const {
     }
 }
 
-void AnswerSheet::colour(LinearImage& drawn, glm::ivec2 origin_px, glm::ivec2 corner_px, float grey,
-                         float background, AnswerPictures& read) const {
+void AnswerDrawing::colour(LinearImage& drawn, glm::ivec2 origin_px, glm::ivec2 corner_px, float grey,
+                           float background, AnswerPictures& read) const {
     const auto in_drawn = [&](glm::ivec2 at) {
         return at.x >= 0 && at.y >= 0 && at.x < drawn.size_px.x && at.y < drawn.size_px.y;
     };

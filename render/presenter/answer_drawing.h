@@ -36,7 +36,7 @@ AnswerPlace place_among(std::span<const AnswerTarget> targets, glm::dvec2 at_px)
 
 /// Things at their places, in pixels from the top left corner. Its size has room for whatever may be
 /// answered, so that nothing moves while it is.
-struct AnswerSheet {
+struct AnswerDrawing {
     struct Shape {
         enum class Kind : std::uint8_t { fill, outline, line, ring, disc };
         Kind kind = Kind::fill;
@@ -63,8 +63,8 @@ struct AnswerSheet {
     std::vector<AnswerTarget> targets;
     int unknown_glyphs = 0;
 
-    /// Puts another sheet on this one. Its size stays.
-    void add(AnswerSheet part, glm::ivec2 at_px);
+    /// Puts another one on this. Its size stays.
+    void add(AnswerDrawing part, glm::ivec2 at_px);
     /// Puts a text there, and gives its size. Its unknown glyphs are counted.
     glm::ivec2 write(const std::string& text, const TextStyle& style, glm::ivec2 at_px,
                      double strength = 1.0);
