@@ -97,7 +97,7 @@ std::optional<std::string> text_of(const std::filesystem::path& file, std::strin
 }
 
 /// The names of the files that a pattern stands for, one a line, in their order; or nothing with the reason.
-std::optional<std::string> names_of(const std::filesystem::path& pattern, std::string& why_not) {
+std::optional<std::string> names_that_fit(const std::filesystem::path& pattern, std::string& why_not) {
     std::vector<std::string> names;
     std::error_code error;
     const std::filesystem::path folder = pattern.parent_path().empty() ? "." : pattern.parent_path();
@@ -123,7 +123,7 @@ std::optional<std::string> names_of(const std::filesystem::path& pattern, std::s
 
 /// What is read beside a protocol: a text, or the names that a pattern stands for.
 std::optional<std::string> text_or_names(const std::filesystem::path& file, std::string& why_not) {
-    return is_pattern(file) ? names_of(file, why_not) : text_of(file, why_not);
+    return is_pattern(file) ? names_that_fit(file, why_not) : text_of(file, why_not);
 }
 
 } // namespace

@@ -31,8 +31,9 @@ ExportTables::ExportTables(const SessionHeader& header, const SharedColumns& sha
       gaze_events(gaze_events_layout(header, event_origins, pupil)), events(events_layout()),
       responses(responses_layout(shared, header)), stimuli(stimuli_layout(shared, header)),
       display_box(display_box_layout()), buttons(buttons_layout()), key_presses(key_presses_layout()),
-      markers(markers_layout()), steps(steps_layout()), given_answers(given_answers_layout(shared, header)),
-      answer_inputs(answer_inputs_layout()), participants(participants_layout(participant)),
+      markers(markers_layout()), steps(steps_layout(header)),
+      given_answers(given_answers_layout(shared, header)), answer_inputs(answer_inputs_layout()),
+      participants(participants_layout(participant)),
       has_slots_(shared.has_slots) {
     const std::vector<LeadingColumn> leading{
         {{"observer", "Label of the observer"}, header.schedule.observer.label},
