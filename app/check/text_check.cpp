@@ -7,6 +7,7 @@
 #include "experiment/base/error.h"
 #include "experiment/protocol/protocol_keys.h"
 #include "experiment/session/observer_form.h"
+#include "experiment/session/session_screens.h"
 #include "render/presenter/screen_text.h"
 
 namespace overt {
@@ -87,6 +88,39 @@ void check_form(const Protocol& protocol, const std::string& when, const ScreenG
                             remedy);
 }
 
+/// Screens on which trials are answered, as a whole. Throws InputError for a text or picture that cannot be
+/// shown.
+void check_answers(const Protocol& protocol, const ScreenGeometry& geometry, Diagnostics& diagnostics) {
+    constexpr const char* remedy =
+        "shorten labels, ask for less on one screen (per_screen, or further steps), "
+        "or set [screens] text_height_deg";
+    for (const auto& [task, name, screen] : screens::answers_of_tasks(protocol)) {
+        const Place place = protocol.places.of(fmt::format("task[{}].answer[0]", task));
+        const ScreenTextFit fit = fit_screen(screen, geometry, protocol.screens.text_height_deg);
+        if (fit.measure.unknown_glyphs > 0)
+            diagnostics.warning(
+                protocol.file.string(), place,
+                fmt::format("the screen of answers \"{}\": no font of this machine has {} of its "
+                            "characters: boxes will stand for them",
+                            name, fit.measure.unknown_glyphs),
+                "install a font for this script, say fonts-noto");
+        if (!fit.fits)
+            diagnostics.error(protocol.file.string(), place,
+                              fmt::format("the screen of answers \"{}\" is too large even in letters of {} "
+                                          "pixels: its end would be cut off",
+                                          name, fit.line_height_px),
+                              remedy);
+        else if (fit.line_height_px <
+                 0.5 * protocol.screens.text_height_deg * geometry.px_per_deg_at_centre())
+            diagnostics.warning(
+                protocol.file.string(), place,
+                fmt::format(
+                    "the screen of answers \"{}\" is too large: it will be set in letters of {} pixels", name,
+                    fit.line_height_px),
+                remedy);
+    }
+}
+
 /// Letters that are hard to read. WCAG 2.1 (success criterion 1.4.3) asks for large letters that (brighter +
 /// 0.05) / (darker + 0.05) of the two is 3 or more, 0.05 being what the room adds to a display's black.
 void check_contrast(const Protocol& protocol, Diagnostics& diagnostics) {
@@ -140,6 +174,8 @@ void check_texts(const Protocol& protocol, Diagnostics& diagnostics) {
     if (diagnostics.error_count() == 0)
         for (const std::string& when : moments_asked(protocol.observer_fields))
             check_form(protocol, when, geometry, diagnostics);
+    if (diagnostics.error_count() == 0)
+        check_answers(protocol, geometry, diagnostics);
 }
 
 } // namespace overt

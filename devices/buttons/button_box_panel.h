@@ -35,6 +35,14 @@ class ButtonBoxPanel final : public ResponsePanel {
                    std::function<void(const std::string&)> tell);
 
     void await(Awaited what, SessionTime since, const Trial* trial) override;
+    void offer(const std::vector<AnswerOffer>& answers) override {
+        if (answering_)
+            answering_->offer(answers);
+    }
+    void window_opened(SessionTime at) noexcept override {
+        if (answering_)
+            answering_->window_opened(at);
+    }
     std::optional<SetupKey> next_setup_key() override {
         return answering_ ? answering_->next_setup_key() : std::nullopt;
     }

@@ -23,6 +23,8 @@ class OperatorPanel final : public ResponsePanel {
         : server_(&server), clock_(&clock), answering_(&answering) {}
 
     void await(Awaited what, SessionTime since, const Trial* trial) override;
+    void offer(const std::vector<AnswerOffer>& answers) override { answering_->offer(answers); }
+    void window_opened(SessionTime at) noexcept override { answering_->window_opened(at); }
     std::optional<SetupKey> next_setup_key() override { return answering_->next_setup_key(); }
     std::optional<ObserverInput> next_input() noexcept override { return answering_->next_input(); }
     std::optional<ResponsePress> poll() noexcept override;

@@ -6,6 +6,7 @@
 
 #include "experiment/ports/answer_offer.h"
 #include "experiment/ports/event_kinds.h"
+#include "experiment/session/session_screens.h"
 
 namespace overt {
 
@@ -148,14 +149,7 @@ bool AnswerAsking::is_needless(std::size_t number) const noexcept {
 }
 
 Screen AnswerAsking::screen() const {
-    const Task& task = state_.protocol.tasks[static_cast<std::size_t>(trial_->task)];
-    Screen screen{.kind = Screen::Kind::answers, .text = ""};
-    screen.answers = current_->view(state_.protocol.words.go_on);
-    const bool is_asked = std::ranges::any_of(screen.answers.items,
-                                              [](const AnswerItem& item) { return !item.question.empty(); });
-    if (!is_asked || state_.protocol.screens.repeat_question)
-        screen.text = task.question;
-    return screen;
+    return screens::answers(state_.protocol, trial_->task, current_->view(state_.protocol.words.go_on));
 }
 
 OperatorControl::Press AnswerAsking::ask(std::size_t number, const std::optional<Trial>& next,

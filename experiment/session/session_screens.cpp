@@ -5,7 +5,11 @@
 
 #include <fmt/format.h>
 
+#include "experiment/answers/answer_kinds.h"
+#include "experiment/answers/answer_sheet.h"
 #include "experiment/calibration/own_calibration.h"
+#include "experiment/design/answer_forms.h"
+#include "experiment/design/trial_plan.h"
 #include "experiment/session/observer_form.h"
 
 namespace overt::screens {
@@ -69,6 +73,37 @@ Screen response(const Protocol& protocol, int task) {
                         screens.repeat_question ? question_of(protocol, task) + "\n\n" + screens.response_text
                                                 : screens.response_text,
                         protocol.words.answered);
+}
+
+Screen answers(const Protocol& protocol, int task, AnswerView view) {
+    Screen screen{.kind = Screen::Kind::answers, .text = ""};
+    screen.answers = std::move(view);
+    const bool is_asked = std::ranges::any_of(screen.answers.items,
+                                              [](const AnswerItem& item) { return !item.question.empty(); });
+    if (!is_asked || protocol.screens.repeat_question)
+        screen.text = question_of(protocol, task);
+    return screen;
+}
+
+std::vector<TaskScreen> answers_of_tasks(const Protocol& protocol) {
+    std::vector<TaskScreen> all;
+    for (int task = 0; task < static_cast<int>(protocol.tasks.size()); ++task) {
+        Trial trial;
+        trial.task = task;
+        const TrialPlan plan = plan_trial(protocol, 0, trial, false);
+        int place = 0;
+        for (const PlannedSheet& planned : plan.sheets) {
+            const std::vector<AnswerForm> forms =
+                answer_forms({.protocol = protocol, .trial = trial}, planned.answers, place);
+            place += static_cast<int>(forms.size());
+            std::string name = protocol.tasks[static_cast<std::size_t>(task)].id;
+            if (plan.sheets.size() > 1)
+                name += fmt::format("_{}", &planned - plan.sheets.data() + 1);
+            AnswerView view = AnswerSheet(forms, planned.waits_unseen).view(protocol.words.go_on);
+            all.push_back({task, std::move(name), answers(protocol, task, std::move(view))});
+        }
+    }
+    return all;
 }
 
 double break_asleep_s(const BreakSettings& breaks) {
@@ -151,12 +186,20 @@ ValidationResult example_of_validation(const Protocol& protocol, double error_de
     return found;
 }
 
+/// Its answers, or one of them, are spoken: then a key ends the screen.
+bool is_spoken(const Task& task) {
+    return task.answers.empty() || std::ranges::any_of(task.answers, [](const TaskAnswer& answer) {
+               return row_of(answer.kind).make == nullptr;
+           });
+}
+
 } // namespace
 
 std::vector<std::pair<std::string, Screen>> all_of(const Protocol& protocol) {
     std::vector<std::pair<std::string, Screen>> all;
     const auto add = [&](std::string name, Screen screen) {
-        if (screen.kind == Screen::Kind::form || screen.kind == Screen::Kind::target || !screen.text.empty())
+        if (screen.kind == Screen::Kind::form || screen.kind == Screen::Kind::target ||
+            screen.kind == Screen::Kind::answers || !screen.text.empty())
             all.emplace_back(std::move(name), std::move(screen));
     };
     add("consent", consent(protocol));
@@ -190,9 +233,16 @@ std::vector<std::pair<std::string, Screen>> all_of(const Protocol& protocol) {
         add("block_" + block.id, text(protocol, block.instructions));
     for (std::size_t task = 0; task < protocol.tasks.size(); ++task)
         add("question_" + protocol.tasks[task].id, question(protocol, static_cast<int>(task)));
-    for (std::size_t task = 0; task < (protocol.screens.repeat_question ? protocol.tasks.size() : 1); ++task)
+    bool has_response = false;
+    for (std::size_t task = 0; task < protocol.tasks.size(); ++task) {
+        if (!is_spoken(protocol.tasks[task]) || (has_response && !protocol.screens.repeat_question))
+            continue;
+        has_response = true;
         add(protocol.screens.repeat_question ? "response_" + protocol.tasks[task].id : "response",
             response(protocol, static_cast<int>(task)));
+    }
+    for (TaskScreen& one : answers_of_tasks(protocol))
+        add("answers_" + one.name, std::move(one.screen));
     for (std::size_t i = 0; i < protocol.practice.size(); ++i)
         add(fmt::format("feedback_{}", i + 1), text(protocol, protocol.practice[i].feedback));
     if (protocol.breaks.every_trials > 0 || protocol.breaks.between_blocks) {

@@ -21,6 +21,18 @@ Screen farewell(const Protocol& protocol);
 Screen question(const Protocol& protocol, int task);
 Screen response(const Protocol& protocol, int task);
 
+/// What is answered in a trial of a task, as it looks now. The task's question stands above it where no
+/// answer has one of its own, and always with [screens] repeat_question.
+Screen answers(const Protocol& protocol, int task, AnswerView view);
+/// Of each task the screens of its answers before anything is answered, of several pages the first, as a
+/// trial that asks in the order of the protocol has them.
+struct TaskScreen {
+    int task = 0;
+    std::string name; ///< the task's id, with a number where it asks on several
+    Screen screen;
+};
+std::vector<TaskScreen> answers_of_tasks(const Protocol& protocol);
+
 /// How long keys do nothing in a break, or how long it lasts, if only time ends it; s.
 double break_asleep_s(const BreakSettings& breaks);
 /// While keys do nothing, and after that.

@@ -32,6 +32,14 @@ class WindowResponsePanel final : public ResponsePanel {
                         const ConsentSettings& consent, ResponsePanel* answering = nullptr);
 
     void await(Awaited what, SessionTime since, const Trial* trial) override;
+    void offer(const std::vector<AnswerOffer>& answers) override {
+        if (answering_)
+            answering_->offer(answers);
+    }
+    void window_opened(SessionTime at) noexcept override {
+        if (answering_)
+            answering_->window_opened(at);
+    }
     std::optional<SetupKey> next_setup_key() override;
     std::optional<ObserverInput> next_input() noexcept override;
     std::optional<ResponsePress> poll() noexcept override;
