@@ -42,6 +42,9 @@ constexpr Benchmark benchmarks[] = {
      bench_tracker},
     {"gaze-step", "steps that gaze on a moving area ends, and whether they end by the planted sample",
      bench_gaze_step},
+    {"procedures",
+     "procedures that choose levels, and fits of answers, against known answers and simulated observers",
+     bench_procedures},
     {"watch", "the operator's view, from a sample to its surface point and to its mark in the window",
      bench_watch}};
 

@@ -43,6 +43,8 @@ BenchFigures bench_power(const BenchOptions& options);
 BenchFigures bench_tracker(const BenchOptions& options);
 /// A thousand trials whose gaze is planted: whether the step that waits for it ends by the very sample.
 BenchFigures bench_gaze_step(const BenchOptions& options);
+/// Procedures that choose levels, and fits of answers, against known answers and simulated observers.
+BenchFigures bench_procedures(const BenchOptions& options);
 /// The operator's view: from a sample to its surface point, and to its mark in the window.
 BenchFigures bench_watch(const BenchOptions& options);
 

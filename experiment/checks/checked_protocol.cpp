@@ -66,6 +66,7 @@ std::optional<Protocol> read_text(std::string_view text, const std::filesystem::
         check_slots(examination);
         if (diagnostics.error_count() == errors_before + errors_in_tables(protocol, diagnostics))
             check_trials(examination);
+        check_procedures(examination);
         check_bake(examination);
         if (look_at_files)
             check_files(examination);

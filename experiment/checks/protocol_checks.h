@@ -25,6 +25,8 @@ void check_blocks(ProtocolExamination& examination);
 void check_groups(ProtocolExamination& examination);
 /// Rules and tables of trials: after check_slots().
 void check_trials(ProtocolExamination& examination);
+/// What chooses levels: after check_trials().
+void check_procedures(ProtocolExamination& examination);
 void check_practice(ProtocolExamination& examination);
 void check_simulated_effects(ProtocolExamination& examination);
 void check_breaks(ProtocolExamination& examination);

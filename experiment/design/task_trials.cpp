@@ -210,6 +210,9 @@ RuleTask rule_task(const Protocol& protocol, int task, const std::vector<Stimulu
     request.back = settings.back;
     request.repeats = settings.repeats;
     request.lures = settings.lures;
+    for (const ProcedureSettings& procedure : protocol.procedures)
+        if (is_among(settings.procedures, procedure.id))
+            request.procedure_trials += procedure.trials;
     return by;
 }
 

@@ -32,7 +32,7 @@ Stimulus practised(const Protocol& protocol, const PracticeSettings& practice) {
 } // namespace
 
 TrialQueue::TrialQueue(const Protocol& protocol, const Schedule& schedule)
-    : protocol_(protocol), schedule_(schedule) {
+    : protocol_(protocol), schedule_(schedule), procedures_(protocol, schedule) {
     for (const Trial& trial : schedule.trials)
         waiting_.push_back({trial});
     if (!waiting_.empty())
@@ -106,7 +106,9 @@ std::optional<SessionStep> TrialQueue::next() {
     running_ = waiting_.front();
     waiting_.pop_front();
     ++attempts_since_pause_;
-    return SessionStep{SessionStep::Kind::trial, running_->trial, running_->number, running_->trial.block};
+    std::optional<ProcedureChoice> choice = procedures_.decide(running_->trial);
+    return SessionStep{SessionStep::Kind::trial, running_->trial, running_->number, running_->trial.block,
+                       std::move(choice)};
 }
 
 AttemptVerdict TrialQueue::judge(const AttemptResult& result) const {
@@ -154,8 +156,17 @@ AttemptVerdict TrialQueue::tell(const AttemptResult& result) {
     return verdict;
 }
 
-/// Of a trial that counts. Where the block's criterion is met, the rest of it is left out.
+/// Of a trial that counts. Where a procedure has ended, the rest of its trials are left out; where the block's
+/// criterion is met, the rest of the block.
 void TrialQueue::count(const Trial& trial, const std::vector<GivenAnswer>& given) {
+    procedures_.tell(trial, given);
+    if (procedures_.has_ended(trial))
+        std::erase_if(waiting_, [&](const Attempt& other) {
+            const bool is_left_out = procedures_.is_same_condition(trial, other.trial);
+            if (is_left_out)
+                left_out_.push_back(other.trial.index);
+            return is_left_out;
+        });
     const CriterionSettings& criterion = block_at(protocol_, trial.block).criterion;
     if (!criterion.is_written())
         return;
@@ -275,6 +286,7 @@ void TrialQueue::restart_block() {
         if (trial.block == block_)
             waiting_.push_front({trial});
     });
+    procedures_.restart(block_);
     // Practice that is not done yet still comes.
     std::erase_if(before_, [](const SessionStep& step) { return step.kind != SessionStep::Kind::practice; });
     if (const BlockSettings& settings = block_at(protocol_, block_); !settings.instructions.empty())
@@ -289,7 +301,11 @@ std::optional<Trial> TrialQueue::expected() const {
         if (step.kind == SessionStep::Kind::practice)
             return step.trial;
     }
-    return waiting_.empty() ? std::nullopt : std::optional(waiting_.front().trial);
+    if (waiting_.empty())
+        return std::nullopt;
+    Trial trial = waiting_.front().trial;
+    (void)procedures_.decide(trial);
+    return trial;
 }
 
 } // namespace overt

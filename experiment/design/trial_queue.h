@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "experiment/design/procedure_trials.h"
 #include "experiment/ports/session_history.h"
 #include "experiment/protocol/protocol.h"
 #include "experiment/trial.h"
@@ -28,6 +29,7 @@ struct SessionStep {
     Trial trial;     ///< of practice, its index is that of the entry in the protocol's practice
     int attempt = 1; ///< at the trial
     int block = 0;   ///< that begins or is over, or that the trial is of
+    std::optional<ProcedureChoice> choice = {}; ///< by which the trial has its stimulus
 };
 
 /// What decides whether an attempt counts.
@@ -94,7 +96,7 @@ class TrialQueue {
     /// Nothing when the session is over. After a trial, tell() must come first; practice needs no telling.
     std::optional<SessionStep> next();
 
-    /// How the trial went that next() gave last.
+    /// How the trial went that next() gave last, and what was answered in it.
     AttemptVerdict tell(const AttemptResult& result);
 
     /// Goes through what an interrupted session had done; what is next then is what would have been next, but
@@ -135,6 +137,7 @@ class TrialQueue {
 
     const Protocol& protocol_;
     const Schedule& schedule_;
+    ProcedureTrials procedures_;
     std::deque<Attempt> waiting_;
     std::deque<SessionStep> before_; ///< what comes before the next trial
     std::optional<Attempt> running_, interrupted_;

@@ -21,6 +21,8 @@ inline constexpr std::string_view session_aborted_event = "session aborted"; ///
 
 // What happened in a trial, or to it.
 inline constexpr std::string_view trial_failed_event = "trial failed"; ///< and what becomes of it
+inline constexpr std::string_view level_chosen_event =
+    "level chosen"; ///< by a procedure, and where it stands
 inline constexpr std::string_view drift_check_failed_event = "drift check failed";
 inline constexpr std::string_view drift_checked_event = "drift checked"; ///< for the operator: what was found
 inline constexpr std::string_view presentation_broken_off_event = "presentation broken off";

@@ -22,6 +22,8 @@ std::vector<Key> protocol(), schedule(), task();
 std::vector<Key> answer(), answer_truth();
 // Where trials come from (trials_keys.cpp).
 std::vector<Key> trials(), catch_trials(), draw();
+// What chooses their levels (procedure_keys.cpp).
+std::vector<Key> procedure();
 // The order of trials and of observers (order_keys.cpp).
 std::vector<Key> block(), criterion(), group();
 // How a session goes besides its trials (practice_keys.cpp).

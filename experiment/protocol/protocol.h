@@ -30,6 +30,7 @@
 #include "experiment/protocol/device_settings.h"
 #include "experiment/protocol/material_kind.h"
 #include "experiment/protocol/output_mode.h"
+#include "experiment/protocol/procedure_settings.h"
 #include "experiment/protocol/protocol_sources.h"
 #include "experiment/protocol/sitting_settings.h"
 #include "experiment/protocol/slot.h"
@@ -361,8 +362,9 @@ struct Protocol {
     DatasetSettings dataset;
     std::vector<ObserverFieldSettings> observer_fields; ///< what the observer is asked before the session
     std::vector<Task> tasks;
-    std::vector<BlockSettings> blocks; ///< none: all trials are one block in random order
-    std::vector<GroupSettings> groups; ///< none: all observers see the same
+    std::vector<ProcedureSettings> procedures; ///< that tasks name in their trials
+    std::vector<BlockSettings> blocks;         ///< none: all trials are one block in random order
+    std::vector<GroupSettings> groups;         ///< none: all observers see the same
     std::vector<PracticeSettings> practice;
     SimulatedObserverSettings simulated_observers;
     std::vector<SimulatedEffect> simulated_effects;
@@ -375,7 +377,7 @@ struct Protocol {
     std::vector<MotionSettings> motions = std::vector<MotionSettings>(1);
     std::vector<ViewSettings> views = std::vector<ViewSettings>(1);
     std::vector<FrameSequenceSettings> frames;
-    std::vector<TrialTable> trial_tables; ///< of the tasks that name one
+    std::vector<TrialTable> trial_tables;      ///< of the tasks that name one
     std::vector<SlotSettings> slot_entries;    ///< as they are written
     std::vector<Slot> slots = written_out({}); ///< the places that they are; never empty
 

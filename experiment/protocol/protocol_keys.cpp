@@ -107,6 +107,11 @@ const KeyTable& protocol_keys() {
               {"catch", &Task::catch_trials, catch_trials(),
                "Trials that check whether the observer attends, mixed in by chance among the task's in each "
                "block. The record and all tables mark them."}}},
+            {"procedure", &Protocol::procedures, procedure(),
+             "What chooses the level of a trial when it comes, from the answers so far. A task names it in "
+             "its "
+             "`trials`. What is chosen, and where the procedure stands, is in the record with each trial; "
+             "a session that is resumed or replayed has the same levels."},
             {"block",
              &Protocol::blocks,
              block(),

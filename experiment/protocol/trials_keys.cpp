@@ -22,7 +22,7 @@ std::vector<Key> trials() {
         {"ordered", &T::ordered, "Of pairs: each comes both ways round."},
         {"identical", &T::identical, "Of pairs and standard: a stimulus comes with itself, too."},
         {"standard", &T::standard, left_out("none"),
-         "Level of `of` that all others are compared with, or several."},
+         "Level of `of` that all others are compared with, or several; of a procedure one."},
         {"size", &T::size, range(0, 100), "Of tuples: how many stimuli; 0 for one in each slot."},
         {"target", &T::target, left_out("none"),
          "Of a search: level of `of` that is looked for, or several, one in each trial."},
@@ -32,7 +32,7 @@ std::vector<Key> trials() {
          "Of a search: how many stimuli are shown."},
         {"absent", &T::absent, range(0, 1), "Of a search: share of the trials without the target."},
         {"in", &T::in, left_out("the only slot of the task"),
-         "Of every: id of the slot that the stimulus takes; the others stay empty."},
+         "Of every and procedure: id of the slot that the stimulus takes; the others stay empty."},
         {"sample", &T::sample, left_out("the first of the task"), "Of a match: slot of the sample."},
         {"among", &T::among, left_out("all others of the task"),
          "Of a match: slots of which one shows the match."},
@@ -43,6 +43,10 @@ std::vector<Key> trials() {
         {"lures", &T::lures, range(0, 1).left_out("as chance has it"),
          "Of a stream: share of the same trials that are lures, which came one trial earlier or later than "
          "`back` before; all others are then none. The factor `lure` says which."},
+        {"procedure", &T::procedures, identifier().left_out("none"),
+         "Ids of the `[[procedure]]`s that choose the level of `of` when a trial comes, in each condition "
+         "that the "
+         "other factors make; of several one is drawn for each trial among those that go on."},
     };
 }
 

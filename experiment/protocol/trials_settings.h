@@ -31,6 +31,7 @@ struct TrialsSettings {
     int length = 0, back = 1;
     double repeats = 0.25;
     std::optional<double> lures;
+    std::vector<std::string> procedures; ///< ids of [[procedure]]s that choose the trials' levels
 
     bool has_own_trials() const { return rule.has_value() || table >= 0; }
 };

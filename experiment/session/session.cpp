@@ -139,6 +139,8 @@ void Session::run_step(TrialQueue& queue, const SessionStep& step, SessionResult
         break;
     }
     block_ = step.trial.block;
+    if (step.choice)
+        state_.record().event({state_.now(), step.trial.index, level_chosen_event, step.choice->in_words()});
     TrialRun::Attempt attempt = trials_.run(step.trial, queue.expected(), false);
     judge(queue, step.trial, attempt);
     state_.record().trial_finished(step.trial, attempt.outcome);

@@ -61,6 +61,7 @@ struct RuleRequest {
     /// Of a stream: share of the same trials that are what came one trial earlier or later than `back` before,
     /// and not `back` before; nothing: as chance has it.
     std::optional<double> lures;
+    int procedure_trials = 0;       ///< of all procedures of the task, in each context
 };
 
 /// A trial as a rule gives it.

@@ -15,7 +15,7 @@ using MakeTrialRule = std::unique_ptr<TrialRule>(const RuleRequest& request);
 
 // A file each.
 MakeTrialRule every_rule, pairs_rule, triads_rule, quadruples_rule, standard_rule, tuples_rule, search_rule,
-    match_rule, stream_rule;
+    match_rule, stream_rule, procedure_rule;
 
 struct TrialRuleRow {
     std::string_view name;
@@ -26,7 +26,7 @@ struct TrialRuleRow {
     MakeTrialRule* make;
     /// The keys that it looks at besides `rule`, `of`, `same` and `per`; empty behind the last.
     std::array<std::string_view, 8> keys;
-    bool keeps_order = false; ///< its trials come in the order that it gives them
+    bool keeps_order = false;                     ///< its trials come in the order that it gives them
     std::array<std::string_view, 2> answers = {}; ///< that are correct; those of a match are slots
 
     constexpr bool has_key(std::string_view key) const { return std::ranges::find(keys, key) != keys.end(); }
@@ -87,6 +87,11 @@ inline constexpr auto kinds_of<TrialRuleKind> = std::to_array<TrialRuleRow>({
      {"length", "back", "repeats", "lures"},
      true,
      {"repeat", "new"}},
+    {"procedure",
+     "a level of one factor that a `[[procedure]]` chooses when the trial comes, alone or against `standard`",
+     "a level of {of} that is chosen by the answers so far",
+     procedure_rule,
+     {"procedure", "standard", "in", "side", "any"}},
 });
 
 } // namespace overt
