@@ -134,6 +134,46 @@ class ProcedureCheck {
     std::vector<double> levels_;
 };
 
+/// That the task has the answer that a procedure reads, and the answer what it counts.
+void check_answer(ProtocolExamination& examination, std::size_t procedure, const Task& task) {
+    const ProcedureSettings& settings = examination.protocol.procedures[procedure];
+    const auto error = [&](std::string_view key, const std::string& message, std::string hint) {
+        examination.error(
+            {fmt::format("procedure[{}].{}", procedure, key), fmt::format("procedure[{}].id", procedure)},
+            fmt::format("procedure \"{}\": {}", settings.id, message), std::move(hint));
+    };
+    if (task.answers.empty())
+        return error("answer", fmt::format("the task \"{}\" has no answer to go by", task.id),
+                     "give it a [[task.answer]]");
+    const std::vector<std::string_view> ids = ids_of<std::string_view>(task.answers);
+    const auto read = settings.answer.empty()
+                          ? task.answers.begin()
+                          : std::ranges::find(task.answers, settings.answer, &TaskAnswer::id);
+    if (read == task.answers.end())
+        return error("answer", fmt::format("the task \"{}\" has no answer \"{}\"", task.id, settings.answer),
+                     suggest_name(settings.answer, ids));
+    const bool has_standard = !task.trials.standard.empty();
+    const auto has_choice = [&](const std::string& choice) {
+        return std::ranges::find(read->choices, choice) != read->choices.end();
+    };
+    if (settings.yes == "test" || (settings.yes.empty() && has_standard)) {
+        for (const std::string& slot : task.slots)
+            if (has_standard && !has_choice(slot))
+                return error(
+                    "yes",
+                    fmt::format("\"yes\" is the slot of the level that is chosen, and \"{}\" is no choice of "
+                                "the answer \"{}\"",
+                                slot, read->id),
+                    "give the answer the slots as its choices, or write yes = \"correct\" or a choice");
+        return;
+    }
+    if (settings.yes.empty() || settings.yes == "correct")
+        return; // what is correct, the trial or the answer says
+    if (read->is_choice() && !has_choice(settings.yes))
+        error("yes", fmt::format("\"{}\" is no choice of the answer \"{}\"", settings.yes, read->id),
+              fmt::format("its choices are {}", fmt::join(read->choices, ", ")));
+}
+
 /// The procedures that a task names, and the factor that they choose levels of.
 void check_task_procedures(ProtocolExamination& examination, std::size_t task, std::set<std::string>& used) {
     const Protocol& protocol = examination.protocol;
@@ -169,6 +209,7 @@ void check_task_procedures(ProtocolExamination& examination, std::size_t task, s
             continue;
         used.insert(id);
         ProcedureCheck(examination, i, levels).run();
+        check_answer(examination, i, protocol.tasks[task]);
     }
 }
 

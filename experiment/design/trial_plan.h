@@ -20,8 +20,8 @@ struct PlannedStep {
     std::optional<int> refreshes = {};          ///< the same rounded; nothing: it has no end in time
     std::optional<int> patience_refreshes = {}; ///< that gaze is waited for
     bool is_watched = false;                    ///< gaze is recorded meanwhile
-    /// Of what the trial shows, rising: what `show` lights, and what `mask` covers: what the show before it lit,
-    /// or, before the first, the next.
+    /// Of what the trial shows, rising: what `show` lights, and what `mask` covers: what the show before it
+    /// lit, or, before the first, the next.
     std::vector<int> places = {};
 
     const GazeWait* gaze() const { return settings && settings->gaze ? &*settings->gaze : nullptr; }

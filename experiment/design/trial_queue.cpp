@@ -156,8 +156,8 @@ AttemptVerdict TrialQueue::tell(const AttemptResult& result) {
     return verdict;
 }
 
-/// Of a trial that counts. Where a procedure has ended, the rest of its trials are left out; where the block's
-/// criterion is met, the rest of the block.
+/// Of a trial that counts. Where a procedure has ended, the rest of its trials are left out; where the
+/// block's criterion is met, the rest of the block.
 void TrialQueue::count(const Trial& trial, const std::vector<GivenAnswer>& given) {
     procedures_.tell(trial, given);
     if (procedures_.has_ended(trial))

@@ -22,7 +22,7 @@ std::optional<double> ConstantStimuli::next() const {
 void ConstantStimuli::tell(double, TrackAnswer answer) {
     if (at_ >= order_.size())
         return;
-    if (answer == TrackAnswer::missed && missed_ == MissedAnswer::repeat) {
+    if (answer == TrackAnswer::missed && missed_ == UnansweredTrial::repeat) {
         order_.push_back(order_[at_]);
     } else {
         ++trials_;

@@ -10,7 +10,7 @@ namespace overt {
 struct ConstantStimuliSettings {
     std::vector<double> levels; ///< each once
     int repetitions = 10;
-    MissedAnswer missed = MissedAnswer::repeat; ///< a level that comes again does so at the end
+    UnansweredTrial missed = UnansweredTrial::repeat; ///< a level that comes again does so at the end
     std::uint64_t seed = 1;
 };
 
@@ -26,7 +26,7 @@ class ConstantStimuli : public LevelTrack {
   private:
     std::vector<double> order_;
     std::size_t at_ = 0;
-    MissedAnswer missed_;
+    UnansweredTrial missed_;
     int trials_ = 0;
 };
 

@@ -15,13 +15,13 @@ enum class TrackAnswer : std::uint8_t { no, yes, missed };
 template <> inline constexpr auto names_of<TrackAnswer> = enum_names<TrackAnswer>("no", "yes", "missed");
 
 /// What is made of a trial without an answer.
-enum class MissedAnswer : std::uint8_t {
+enum class UnansweredTrial : std::uint8_t {
     repeat, ///< the level comes again, and the trial does not count
     ignore, ///< the trial counts as one of the track's, and says nothing
     wrong   ///< as `no`
 };
 template <>
-inline constexpr auto names_of<MissedAnswer> = enum_names<MissedAnswer>("repeat", "ignore", "wrong");
+inline constexpr auto names_of<UnansweredTrial> = enum_names<UnansweredTrial>("repeat", "ignore", "wrong");
 
 /// Where a track stands, for the record and for people. Levels are in the procedure's own unit.
 struct TrackState {

@@ -54,10 +54,10 @@ std::optional<double> Quest::next() const {
 
 void Quest::tell(double shown, TrackAnswer answer) {
     if (trials_ >= settings_.trials ||
-        (answer == TrackAnswer::missed && settings_.missed == MissedAnswer::repeat))
+        (answer == TrackAnswer::missed && settings_.missed == UnansweredTrial::repeat))
         return;
     ++trials_;
-    if (answer == TrackAnswer::missed && settings_.missed == MissedAnswer::ignore)
+    if (answer == TrackAnswer::missed && settings_.missed == UnansweredTrial::ignore)
         return;
     const bool is_yes = answer == TrackAnswer::yes;
     const double from_guess = std::round((shown - settings_.guess) / settings_.grain);

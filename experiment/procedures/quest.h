@@ -23,7 +23,7 @@ struct QuestSettings {
     double range = 5.0;        ///< of the grid, about `guess`
     int trials = 40;
     std::vector<double> levels = {}; ///< that there are, log10: the nearest is next; empty: any
-    MissedAnswer missed = MissedAnswer::repeat;
+    UnansweredTrial missed = UnansweredTrial::repeat;
 };
 
 class Quest : public LevelTrack {

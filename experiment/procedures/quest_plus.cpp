@@ -115,10 +115,10 @@ void QuestPlus::choose() {
 }
 
 void QuestPlus::tell(double shown, TrackAnswer answer) {
-    if (is_over() || (answer == TrackAnswer::missed && settings_.missed == MissedAnswer::repeat))
+    if (is_over() || (answer == TrackAnswer::missed && settings_.missed == UnansweredTrial::repeat))
         return;
     ++trials_;
-    if (answer == TrackAnswer::missed && settings_.missed == MissedAnswer::ignore)
+    if (answer == TrackAnswer::missed && settings_.missed == UnansweredTrial::ignore)
         return;
     const bool is_yes = answer == TrackAnswer::yes;
     if (settings_.second_levels.empty()) {

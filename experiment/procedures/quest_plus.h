@@ -35,7 +35,7 @@ struct QuestPlusSettings {
     ParameterGrid threshold, slope, guess{{0.5}}, lapse{{0.02}}, tilt{{0.0}};
     int trials = 0;                          ///< 0: no such end
     std::optional<double> entropy_bits = {}; ///< the track ends when no more uncertainty is left than this
-    MissedAnswer missed = MissedAnswer::repeat;
+    UnansweredTrial missed = UnansweredTrial::repeat;
 };
 
 /// What the posterior says of a parameter.

@@ -76,9 +76,9 @@ void Staircase::tell(double, TrackAnswer answer) {
         return;
     has_reversed_ = was_clipped_ = false;
     if (answer == TrackAnswer::missed) {
-        if (settings_.missed != MissedAnswer::repeat)
+        if (settings_.missed != UnansweredTrial::repeat)
             ++trials_;
-        if (settings_.missed != MissedAnswer::wrong)
+        if (settings_.missed != UnansweredTrial::wrong)
             return;
     } else {
         ++trials_;

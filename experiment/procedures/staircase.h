@@ -40,7 +40,7 @@ struct StaircaseSettings {
     int reversals = 0;                               ///< 0: no such end
     StopRule stop = StopRule::both;                  ///< where there are both ends
     int discard = 2;                                 ///< first reversals that the estimate leaves out
-    MissedAnswer missed = MissedAnswer::repeat;
+    UnansweredTrial missed = UnansweredTrial::repeat;
 };
 
 class Staircase : public LevelTrack {

@@ -12,7 +12,8 @@ std::vector<Key> procedure() {
          "level "
          "whose answer is expected to say most about threshold and slope (Watson 2017)."},
         {"trials", &P::trials, range(1, 2000),
-         "How many trials it has in each condition at most, those without an answer included. What is left over when all procedures of a condition have ended is left out."},
+         "How many trials it has in each condition at most, those without an answer included. What is left "
+         "over when all procedures of a condition have ended is left out."},
         {"reversals", &P::reversals, range(0, 1000),
          "Of staircase: it ends after so many reversals, if that is earlier; 0: by its trials alone."},
         {"entropy_bits", &P::entropy_bits, range(0, 30).left_out("by its trials alone"),

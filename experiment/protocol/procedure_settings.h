@@ -25,12 +25,12 @@ inline constexpr auto names_of<ProcedureKind> = enum_names<ProcedureKind>("const
 struct ProcedureSettings {
     std::string id;
     ProcedureKind kind = ProcedureKind::staircase;
-    int trials = 40;    ///< in each condition, at most
-    int reversals = 0;  ///< of a staircase, after which it ends; 0: by its trials alone
+    int trials = 40;                         ///< in each condition, at most
+    int reversals = 0;                       ///< of a staircase, after which it ends; 0: by its trials alone
     std::optional<double> entropy_bits = {}; ///< of QUEST+, at which it ends
-    std::string answer; ///< id of the answer that it reads; empty: the first of the task
-    std::string yes;    ///< "correct", "test", or a choice; empty: see yes_of()
-    MissedAnswer missed = MissedAnswer::repeat;
+    std::string answer;                      ///< id of the answer that it reads; empty: the first of the task
+    std::string yes;                         ///< "correct", "test", or a choice; empty: see yes_of()
+    UnansweredTrial missed = UnansweredTrial::repeat;
 
     std::vector<double> levels; ///< of constant stimuli; empty: all
 

@@ -96,7 +96,7 @@ std::optional<StudyEstimate> staircase_study(RandomStream& random, std::uint64_t
 }
 
 std::optional<StudyEstimate> constant_study(RandomStream& random, std::uint64_t study) {
-    ConstantStimuli track({{-2.0, -1.0, 0.0, 1.0, 2.0, 3.0, 4.0}, 40, MissedAnswer::repeat, study});
+    ConstantStimuli track({{-2.0, -1.0, 0.0, 1.0, 2.0, 3.0, 4.0}, 40, UnansweredTrial::repeat, study});
     std::vector<LevelCount> trials;
     while (const std::optional<double> level = track.next()) {
         const TrackAnswer answer = answer_at(*level, random);

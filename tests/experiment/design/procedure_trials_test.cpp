@@ -45,6 +45,11 @@ id = "rougher"
 question = "Which is rougher?"
 slots = ["left", "right"]
 trials = {{ {} }}
+[[task.answer]]
+id = "which"
+kind = "choice"
+choices = ["left", "right"]
+keys = ["left", "right"]
 )",
                        procedures, trials);
 }
@@ -116,7 +121,9 @@ TEST_CASE("a procedure chooses among the levels of its condition, and all else s
         levels.insert(step->choice->level);
         std::vector<GivenAnswer> given = answers_to(protocol, step->trial, random);
         given.front().is_missed = false;
-        queue.tell({}, given);
+        AttemptResult result;
+        result.given = given;
+        queue.tell(result);
     }
     CHECK(trials == std::map<std::pair<std::string, int>, int>{
                         {{"above", 0}, 12}, {{"above", 1}, 12}, {{"below", 0}, 8}, {{"below", 1}, 8}});
@@ -134,7 +141,8 @@ TEST_CASE("a session taken up again has the levels that it would have had", "[un
         const std::vector<GivenAnswer> given = answers_to(protocol, step->trial, random);
         AttemptResult result;
         result.is_rejected = random.uniform() < 0.1; // comes again at the end, with a level of then
-        const AttemptVerdict verdict = whole.tell(result, given);
+        result.given = given;
+        const AttemptVerdict verdict = whole.tell(result);
         done.push_back({RecordedStep::Kind::trial,
                         step->trial.index,
                         verdict.failure == TrialFailure::none             ? AttemptFate::counted
@@ -187,6 +195,10 @@ TEST_CASE("levels that are no stimuli, and what does not belong together, are er
     CHECK(findings("scale = \"db\"\nsteps = [6.020599913]").empty()); // twice and half
     CHECK(findings("kind = \"quest-plus\"") ==
           std::vector<std::string>{"procedure \"above\": quest-plus needs slopes to choose between"});
+    CHECK(findings("answer = \"whch\"") ==
+          std::vector<std::string>{"procedure \"above\": the task \"rougher\" has no answer \"whch\""});
+    CHECK(findings("yes = \"glossy\"") ==
+          std::vector<std::string>{"procedure \"above\": \"glossy\" is no choice of the answer \"which\""});
     CHECK(findings("trials = 3") ==
           std::vector<std::string>{
               "procedure \"above\": 3 trials are fewer than the 5 levels that it chooses from"});
@@ -211,8 +223,40 @@ TEST_CASE("QUEST and QUEST+ choose levels of the series", "[unit]") {
         REQUIRE(step->choice);
         CHECK(std::set<double>{0.05, 0.1, 0.2, 0.4, 0.8}.contains(step->choice->level));
         CHECK(step->choice->in_words().find("above: roughness ") == 0);
-        queue.tell({}, answers_to(protocol, step->trial, random));
+        AttemptResult result;
+        result.given = answers_to(protocol, step->trial, random);
+        queue.tell(result);
         ++trials;
     }
     CHECK(trials == 40);
+}
+
+TEST_CASE("what is left of a procedure that has ended is left out, also when the session is taken up again",
+          "[unit]") {
+    const Protocol protocol = sound_one(procedure_protocol(
+        "[[procedure]]\nid = \"above\"\ntrials = 30\nreversals = 2\ndown = 1\n",
+        R"(rule = "procedure", procedure = ["above"], of = "roughness", same = ["object"], standard = "0.05")"));
+    const Schedule schedule = make_schedule(protocol, {"P01", 1}, 4);
+    REQUIRE(schedule.trials.size() == 60);
+    TrialQueue queue(protocol, schedule);
+    std::vector<RecordedStep> done;
+    std::vector<int> left_out;
+    std::map<int, int> trials;
+    while (const std::optional<SessionStep> step = queue.next()) {
+        const bool is_yes = trials[step->choice->condition]++ % 2 == 0; // up and down
+        GivenAnswer given;
+        given.is_missed = false;
+        given.value = is_yes ? std::string(own_level(step->trial, "side")) : "neither";
+        AttemptResult result;
+        result.given = {given};
+        queue.tell(result);
+        for (const int trial : queue.take_left_out())
+            left_out.push_back(trial);
+        done.push_back({RecordedStep::Kind::trial, step->trial.index, AttemptFate::counted, {}, {given}});
+    }
+    CHECK(trials == std::map<int, int>{{0, 3}, {1, 3}});
+    CHECK(left_out.size() == 54);
+    TrialQueue again(protocol, schedule);
+    again.go_through(done);
+    CHECK(again.is_done());
 }

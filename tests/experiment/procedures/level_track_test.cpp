@@ -77,16 +77,16 @@ TEST_CASE("a missed answer repeats, counts without saying anything, or is wrong"
     StaircaseSettings settings;
     settings.start = 5.0;
     settings.trials = 3;
-    settings.missed = GENERATE(MissedAnswer::repeat, MissedAnswer::ignore, MissedAnswer::wrong);
+    settings.missed = GENERATE(UnansweredTrial::repeat, UnansweredTrial::ignore, UnansweredTrial::wrong);
     Staircase staircase(settings);
     staircase.tell(5.0, TrackAnswer::missed);
-    CHECK(staircase.next() == (settings.missed == MissedAnswer::wrong ? 6.0 : 5.0));
-    CHECK(staircase.state().trials == (settings.missed == MissedAnswer::repeat ? 0 : 1));
+    CHECK(staircase.next() == (settings.missed == UnansweredTrial::wrong ? 6.0 : 5.0));
+    CHECK(staircase.state().trials == (settings.missed == UnansweredTrial::repeat ? 0 : 1));
     ConstantStimuli constant({{1.0, 2.0}, 1, settings.missed, 1});
     const double first = constant.next().value();
     constant.tell(first, TrackAnswer::missed);
     constant.tell(constant.next().value(), TrackAnswer::yes);
-    CHECK(constant.next() == (settings.missed == MissedAnswer::repeat ? std::optional(first) : std::nullopt));
+    CHECK(constant.next() == (settings.missed == UnansweredTrial::repeat ? std::optional(first) : std::nullopt));
 }
 
 TEST_CASE("a staircase ends by trials and reversals, or by either", "[unit]") {
