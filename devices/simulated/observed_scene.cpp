@@ -63,8 +63,10 @@ ObservedScene make_observed_scene(const Protocol& protocol, std::span<const Obje
             scene.slots.push_back(slot_geometry(protocol, slot));
     for (const Task& task : protocol.tasks)
         for (const StepSettings& step : task.steps)
-            if (step.kind == StepKind::show && step.duration)
-                scene.longest_step_s = std::max(scene.longest_step_s, step.duration->longest_s());
+            if (step.kind == StepKind::show && (step.duration || step.ends_by_answer))
+                scene.longest_step_s = std::max(scene.longest_step_s, step.duration
+                                                                          ? step.duration->longest_s()
+                                                                          : protocol.screens.response_max_s);
     scene.share_sd = protocol.simulated_observers.head_share_sd;
     return scene;
 }

@@ -70,7 +70,8 @@ void add_steps(SessionLength& length, const Protocol& protocol, const TrialPlan&
                double answer_s) {
     bool was_watched = false;
     for (const PlannedStep& step : plan.steps) {
-        const double own_s = step.drawn_s.value_or(step.gaze() ? step.gaze()->for_s : 0.0);
+        const double drawn_s = step.drawn_s.value_or(step.gaze() ? step.gaze()->for_s : 0.0);
+        const double own_s = step.ends_by_answer() ? std::min(drawn_s, answer_s) : drawn_s;
         if (step.is_watched) {
             length.animations_s += own_s + (was_watched ? 0.0 : 2.0 * protocol.screens.recording_lead_s);
         } else if (step.kind == StepKind::text) {

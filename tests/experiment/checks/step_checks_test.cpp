@@ -132,7 +132,7 @@ TEST_CASE("a step shows some of the task's slots, and slots of one place are nev
     const Lines elsewhere = lines(
         three, "{ show = \"first\", until = { gaze_on = \"head\", slot = \"left\" } },\n{ show = "
                "[\"second\", \"left\"] },");
-    CHECK(elsewhere == Lines{"18:55: this step shows nothing in slot left"});
+    CHECK(elsewhere == Lines{"18:54: this step shows nothing in slot left"});
     CHECK(lines(three, "{ fixation = { until = { gaze_within_deg = 2, slot = \"rihgt\", patience_s = 2 } } },\n" +
-                           in_turn + "\n{ show = \"left\" },") == Lines{"18:59: unknown slot \"rihgt\""});
+                           in_turn + "\n{ show = \"left\" },") == Lines{"18:54: unknown slot \"rihgt\""});
 }
