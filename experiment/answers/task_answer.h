@@ -90,6 +90,8 @@ struct TaskAnswer {
     std::vector<std::string> choices, labels;
     std::vector<std::string> keys; ///< one for each choice, or for each step of a scale
     AnsweredWith with = AnsweredWith::keys;
+    /// Of what can be given while the stimulus is shown: how high it stands beside it; nothing: unseen.
+    std::optional<double> beside_up_deg;
     std::optional<AnswerAccept> accept; ///< left out: see accepts_by_key()
     std::string accept_key = "enter";
     // Of scale and number.

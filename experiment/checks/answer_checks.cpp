@@ -310,12 +310,18 @@ class AskingChecks {
             error(step.answers_place, fmt::format("task {} has no answer that could end this step", task_.id),
                   "add a [[task.answer]] below the task");
         for (const TaskAnswer& answer : answers_waited_for(step))
-            if (!row_of(answer.kind).is_given_unseen && !(answer.steps && !answer.accepts_by_key()))
+            if (!row_of(answer.kind).is_given_unseen &&
+                !(answer.steps && !answer.accepts_by_key() && answer.items.empty()))
                 error(step.answers_place,
                       fmt::format("\"{}\" is a {}, and cannot be given while it is not on the screen",
                                   answer.id, name_of(answer.kind)),
                       "ask for it in a step { answer = … }; keys, choices, and scales of steps with accept = "
                       "\"at-once\" can end a stimulus");
+            else if (answer.with == AnsweredWith::mouse && !answer.beside_up_deg)
+                error(step.answers_place,
+                      fmt::format("\"{}\" is given with the mouse, and nothing to click on is on the screen",
+                                  answer.id),
+                      "write beside_up_deg, where it stands beside the stimulus");
     }
 
     /// Of the next step that asks, or all.

@@ -61,6 +61,10 @@ std::vector<Key> answer() {
          "button "
          "as its box calls it."},
         {"with", &A::with, "Whether it is given with keys, with the mouse, or with either."},
+        {"beside_up_deg", &A::beside_up_deg, range(-60, 60, "deg").left_out("it is not seen meanwhile"),
+         "While the stimulus is shown, and a step with `until = \"answer\"` waits for it: it stands beside "
+         "it, "
+         "with its middle so high above the screen's; below are negative numbers. Needed for the mouse."},
         {"accept", &A::accept, left_out("by-key for lines, scales, numbers and texts; else at-once"),
          "Whether what was chosen stands at once, or until `accept_key` is pressed."},
         {"accept_key", &A::accept_key, "The key that accepts."},

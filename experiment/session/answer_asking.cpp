@@ -1,6 +1,7 @@
 #include "experiment/session/answer_asking.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -60,10 +61,10 @@ void AnswerAsking::go_to(AnswerSheet& sheet) {
 
 void AnswerAsking::begin_watched_step(std::size_t number, SessionTime since, bool goes_elsewhere) {
     step_since_ = since;
-    has_screen_ = false;
     if (!asks())
         return;
     go_to(sheet_of(number));
+    put_beside(number);
     if (goes_elsewhere) {
         is_awaiting_ = false;
         return;
@@ -74,6 +75,32 @@ void AnswerAsking::begin_watched_step(std::size_t number, SessionTime since, boo
     state_.ports.panel.await_answer(since, trial_);
     is_awaiting_ = true;
     tell_opening();
+}
+
+/// What the step waits for stands with its stimulus, where the protocol has a place for it.
+void AnswerAsking::put_beside(std::size_t number) {
+    const PlannedStep& step = plan_->steps[number];
+    take_away();
+    if (step.kind != StepKind::show || !step.ends_by_answer() || step.sheet < 0 || current_->is_complete())
+        return;
+    const Task& task = state_.protocol.tasks[static_cast<std::size_t>(trial_->task)];
+    const PlannedSheet& sheet = plan_->sheets[static_cast<std::size_t>(step.sheet)];
+    std::optional<double> up_deg;
+    for (const int answer : sheet.answers)
+        if (!up_deg)
+            up_deg = task.answers[static_cast<std::size_t>(answer)].beside_up_deg;
+    if (!up_deg)
+        return;
+    AnswerView view = current_->view(state_.protocol.words.go_on);
+    view.up_deg = up_deg;
+    state_.ports.presenter.put_beside_stimuli(&view);
+    stands_beside_ = has_screen_ = true;
+}
+
+void AnswerAsking::take_away() {
+    has_screen_ = false;
+    if (std::exchange(stands_beside_, false))
+        state_.ports.presenter.put_beside_stimuli(nullptr);
 }
 
 void AnswerAsking::tell_opening() noexcept {
@@ -158,6 +185,7 @@ OperatorControl::Press AnswerAsking::ask(std::size_t number, const std::optional
     SessionPorts& ports = state_.ports;
     state_.enter(SessionPhase::response_screen, state_.trial());
     go_to(sheet_of(number));
+    take_away();
     int page = current_->page();
     onset = state_.show(screen());
     has_screen_ = true;
@@ -226,6 +254,7 @@ std::optional<bool> AnswerAsking::is_correct() const {
 
 void AnswerAsking::finish(TrialOutcome& outcome) {
     std::optional<SessionTime> last;
+    take_away();
     for (const std::unique_ptr<AnswerSheet>& sheet : sheets_) {
         sheet->close(state_.now());
         sheet->add_to(outcome.given, outcome.inputs);

@@ -57,6 +57,8 @@ class AnswerAsking {
     void tell_opening() noexcept;
     Screen screen() const;
     void note_answer() noexcept;
+    void put_beside(std::size_t number);
+    void take_away();
 
     SessionState& state_;
     OperatorControl& control_;
@@ -69,6 +71,7 @@ class AnswerAsking {
     bool is_awaiting_ = false;                         ///< inputs are told
     bool has_screen_ = false;                          ///< current_ stands on it: places mean something
     bool is_drawing_due_ = false;
+    bool stands_beside_ = false; ///< current_ is seen with the stimulus
     std::optional<SessionTime> opening_told_;
     int answers_marked_ = 0;
     std::optional<SessionTime> step_since_;
