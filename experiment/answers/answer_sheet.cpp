@@ -298,7 +298,9 @@ std::optional<SessionTime> AnswerSheet::is_over_at(SessionTime now) const noexce
         return completed_at_;
     std::optional<SessionTime> last;
     for (const Asked& asked : asked_) {
-        if (is_complete() ? asked.settings().ends_step : asked.is_done)
+        const bool may_change =
+            asked.settings().counts == AnswerCounts::last && !asked.settings().accepts_by_key();
+        if (is_complete() ? asked.settings().ends_step : asked.is_done && !may_change)
             continue;
         if (!asked.window.closes || *asked.window.closes >= now)
             return std::nullopt;

@@ -233,8 +233,10 @@ OperatorControl::Press AnswerAsking::ask(std::size_t number, const std::optional
     current_->close(state_.now());
     has_screen_ = false;
     is_awaiting_ = false;
-    if (press.how == OperatorControl::How::timed_out ||
-        (press.how == OperatorControl::How::next && !current_->is_complete())) {
+    const bool has_all = current_->is_complete() || current_->is_given();
+    const bool is_time_up =
+        press.how == OperatorControl::How::timed_out || press.how == OperatorControl::How::next;
+    if (is_time_up && !has_all) {
         state_.log().event({press.at, state_.trial(), response_timed_out_event, ""});
         return {OperatorControl::How::timed_out, press.at};
     }
