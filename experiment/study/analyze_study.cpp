@@ -12,6 +12,7 @@
 
 #include "experiment/base/counted.h"
 #include "experiment/base/parallel.h"
+#include "experiment/study/answer_results.h"
 #include "experiment/study/area_pairs.h"
 #include "experiment/study/area_shares.h"
 #include "experiment/study/surface_transitions.h"
@@ -26,6 +27,7 @@
 #include "experiment/study/methods/methods_text.h"
 #include "experiment/study/methods/reporting.h"
 #include "experiment/study/point_distributions.h"
+#include "experiment/study/read/answer_reader.h"
 #include "experiment/study/results/study_observers.h"
 #include "experiment/study/screen_area_looks.h"
 #include "experiment/study/study_maps.h"
@@ -214,7 +216,9 @@ void reckon_on_surfaces(ReadStudy& study, const StudyOptions& options, const Stu
 
 StudyResults analyze_study(std::span<const std::filesystem::path> sessions, const SurfaceFor& surface_for,
                            const StudyOptions& options, const StudyProgress& progress) {
-    return analyze_study(read_study(sessions, surface_for, options, progress), options, progress);
+    ReadStudy study = read_study(sessions, surface_for, options, progress);
+    study.results.answers.given = read_answers(sessions, options.same_observer);
+    return analyze_study(std::move(study), options, progress);
 }
 
 StudyResults analyze_study(ReadStudy study, const StudyOptions& options, const StudyProgress& progress) {
@@ -229,6 +233,7 @@ StudyResults analyze_study(ReadStudy study, const StudyOptions& options, const S
     results.groups = make_groups(results, options.by, study.levels);
 
     add_screen_area_looks(results, study.levels, options);
+    reckon_answers(results.answers, options);
     if (knows_stimuli(results))
         reckon_on_surfaces(study, options, progress);
     results.reporting = reporting_items(results, options);

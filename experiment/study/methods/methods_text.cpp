@@ -17,6 +17,7 @@ std::vector<MethodsParagraph> methods_text(const StudyResults& results, const St
     add("Fixations, saccades and blinks", events_text(results));
     add("Places on the surface", places_text(results, options));
     add("Areas of the screen", screen_areas_text(results, options));
+    add("Answers", answers_text(results, options));
     add("Analysis", statistics_text(results, options));
     return paragraphs;
 }

@@ -22,6 +22,8 @@ std::string events_text(const StudyResults& results);
 std::string places_text(const StudyResults& results, const StudyOptions& options);
 /// Areas of the screen, and what gaze did with them.
 std::string screen_areas_text(const StudyResults& results, const StudyOptions& options);
+/// What was answered, and how it was analysed; empty without answers.
+std::string answers_text(const StudyResults& results, const StudyOptions& options);
 /// Maps, comparisons, tests and intervals.
 std::string statistics_text(const StudyResults& results, const StudyOptions& options);
 

@@ -8,6 +8,7 @@
 #include "experiment/base/whole_file.h"
 #include "experiment/record/tables/export_tables.h"
 #include "experiment/study/area_shares.h"
+#include "experiment/study/tables/answer_layouts.h"
 #include "experiment/study/tables/area_layouts.h"
 #include "experiment/study/tables/mixed_models.h"
 #include "experiment/study/tables/screen_area_layouts.h"
@@ -73,6 +74,11 @@ template <class Visit> void for_each_table(const StudyResults& results, const Vi
             take(QualityRow{results.sessions[i], nullptr, results.session_quality[i]});
         }
     });
+    all(answers_layout(), results.answers.summaries, false);
+    all(answer_choices_layout(), results.answers.choices, false);
+    all(psychometric_functions_layout(), results.answers.curves, false);
+    all(answer_scales_layout(), results.answers.scales, false);
+    all(ratings_layout(), results.answers.ratings, false);
     all(reporting_layout(), results.reporting, true);
 }
 

@@ -1,0 +1,196 @@
+#include <algorithm>
+#include <map>
+#include <set>
+#include <tuple>
+
+#include <fmt/format.h>
+
+#include "experiment/fits/difference_scaling.h"
+#include "experiment/fits/pair_scaling.h"
+#include "experiment/statistics/distributions.h"
+#include "experiment/study/answer_results.h"
+
+namespace overt {
+
+namespace {
+
+/// The only factor in which two stimuli differ; of a series, the numbers rather than the ids.
+std::optional<std::string> only_difference(const AnsweredStimulus& one, const AnsweredStimulus& other) {
+    std::optional<std::string> word, number;
+    int words = 0, numbers = 0;
+    for (std::size_t i = 0; i < one.levels.size() && i < other.levels.size(); ++i) {
+        if (one.levels[i].second == other.levels[i].second)
+            continue;
+        const std::string& factor = one.levels[i].first;
+        if (one.number(factor)) {
+            ++numbers;
+            number = factor;
+        } else {
+            ++words;
+            word = factor;
+        }
+    }
+    // Entries of a series have ids of their own beside their numbers.
+    if (numbers == 1 && words <= 1)
+        return number;
+    return numbers == 0 && words == 1 ? word : std::nullopt;
+}
+
+std::string level_in(const AnsweredStimulus& of, const std::string& factor) {
+    const auto found = std::ranges::find(of.levels, factor, &std::pair<std::string, std::string>::first);
+    return found != of.levels.end() ? found->second : std::string();
+}
+
+Interval about(double value, double se, double confidence) {
+    const double half = normal_quantile(0.5 + 0.5 * confidence) * se;
+    return {value - half, value + half};
+}
+
+void add_pair_scales(std::vector<AnswerScaleRow>& rows, const AnswerOf& of,
+                     const std::vector<const StudyAnswer*>& given, const StudyOptions& options) {
+    std::map<std::string, std::vector<const StudyAnswer*>> by_factor;
+    for (const StudyAnswer* one : given)
+        if (!one->is_missed && (one->value == one->shown[0].slot || one->value == one->shown[1].slot))
+            if (const auto factor = only_difference(one->shown[0], one->shown[1]))
+                by_factor[*factor].push_back(one);
+    for (const auto& [factor, pairs] : by_factor) {
+        std::vector<std::string> items;
+        std::map<std::pair<std::size_t, std::size_t>, PairCount> counts;
+        const auto item = [&](const AnsweredStimulus& shown) {
+            const std::string level = level_in(shown, factor);
+            const auto found = std::ranges::find(items, level);
+            const auto index = static_cast<std::size_t>(found - items.begin());
+            if (found == items.end())
+                items.push_back(level);
+            return index;
+        };
+        for (const StudyAnswer* one : pairs) {
+            const std::size_t first = item(one->shown[0]), second = item(one->shown[1]);
+            PairCount& count = counts.try_emplace({first, second}, PairCount{first, second}).first->second;
+            count.trials += 1.0;
+            count.first += one->value == one->shown[0].slot ? 1.0 : 0.0;
+        }
+        if (items.size() < 3)
+            continue;
+        std::vector<PairCount> all;
+        for (const auto& [key, count] : counts)
+            all.push_back(count);
+        for (const auto& [model, name] : {std::pair(PairModel::bradley_terry, "Bradley-Terry"),
+                                          std::pair(PairModel::thurstone, "Thurstone Case V")}) {
+            const std::optional<PairScale> scale = fit_pairs(all, items.size(), model, true);
+            if (!scale)
+                continue;
+            for (std::size_t i = 0; i < items.size(); ++i) {
+                AnswerScaleRow& row = rows.emplace_back();
+                row.of = of;
+                row.method = name;
+                row.factor = factor;
+                row.level = items[i];
+                row.value = Estimate::of(scale->centred[i],
+                                         about(scale->centred[i], scale->centred_se[i], options.confidence));
+                row.se = scale->centred_se[i];
+                row.first_slot = scale->side;
+                row.trials = static_cast<int>(pairs.size());
+                row.is_penalised = scale->is_penalised;
+            }
+        }
+    }
+}
+
+/// The places of a trial's stimuli on the series, and whether the pair with the larger levels was chosen.
+struct JudgedDifference {
+    std::vector<double> levels; ///< rising
+    bool is_upper = false;
+};
+
+std::optional<JudgedDifference> judged_difference(const StudyAnswer& answer, const std::string& factor) {
+    JudgedDifference judged;
+    for (const AnsweredStimulus& shown : answer.shown) {
+        const auto number = shown.number(factor);
+        if (!number)
+            return std::nullopt;
+        judged.levels.push_back(*number);
+    }
+    const auto chosen = std::ranges::find(answer.shown, answer.value, &AnsweredStimulus::slot);
+    if (answer.is_missed || chosen == answer.shown.end())
+        return std::nullopt;
+    const auto place = static_cast<std::size_t>(chosen - answer.shown.begin());
+    const std::size_t count = judged.levels.size();
+    if (count == 3) {
+        if (place == 1)
+            return std::nullopt; // the middle one is of both pairs
+        judged.is_upper = judged.levels[place] > judged.levels[1];
+    } else {
+        const double own = judged.levels[place], other = judged.levels[place < 2 ? 2 : 0];
+        judged.is_upper = own > other;
+    }
+    std::ranges::sort(judged.levels);
+    if (std::ranges::adjacent_find(judged.levels) != judged.levels.end())
+        return std::nullopt;
+    return judged;
+}
+
+void add_difference_scales(std::vector<AnswerScaleRow>& rows, const AnswerOf& of,
+                           const std::vector<const StudyAnswer*>& given, const StudyOptions& options) {
+    for (const auto& [factor, any] : given.front()->shown.front().numbers) {
+        std::set<double> levels;
+        std::vector<JudgedDifference> judged;
+        for (const StudyAnswer* one : given)
+            if (auto difference = judged_difference(*one, factor)) {
+                levels.insert(difference->levels.begin(), difference->levels.end());
+                judged.push_back(*std::move(difference));
+            }
+        const std::vector<double> series(levels.begin(), levels.end());
+        std::map<std::vector<int>, DifferenceCount> counts;
+        for (const JudgedDifference& one : judged) {
+            std::vector<int> places;
+            for (const double level : one.levels)
+                places.push_back(static_cast<int>(std::ranges::lower_bound(series, level) - series.begin()));
+            DifferenceCount& count = counts.try_emplace(places, DifferenceCount{places}).first->second;
+            count.trials += 1.0;
+            count.upper += one.is_upper ? 1.0 : 0.0;
+        }
+        std::vector<DifferenceCount> all;
+        for (const auto& [key, count] : counts)
+            all.push_back(count);
+        const auto scale =
+            all.empty() ? std::nullopt : fit_difference_scale(all, static_cast<int>(series.size()));
+        if (!scale)
+            continue;
+        ScaleBootstrap settings;
+        settings.confidence = options.confidence;
+        settings.seed = options.seed;
+        const auto intervals = bootstrap_difference_scale(all, *scale, settings);
+        for (std::size_t i = 0; i < series.size(); ++i) {
+            AnswerScaleRow& row = rows.emplace_back();
+            row.of = of;
+            row.method = "MLDS";
+            row.factor = factor;
+            row.level = fmt::format("{}", series[i]);
+            row.value =
+                Estimate::of(scale->scale[i], intervals ? std::optional(intervals->scale[i]) : std::nullopt);
+            row.se = intervals ? std::optional(intervals->scale_sd[i]) : scale->normalised_se(i);
+            row.sigma = scale->sigma;
+            row.trials = static_cast<int>(judged.size());
+            row.is_penalised = scale->is_penalised;
+        }
+    }
+}
+
+} // namespace
+
+std::vector<AnswerScaleRow> answer_scales(const AnswersBy& answers, const StudyOptions& options) {
+    std::vector<AnswerScaleRow> rows;
+    for (const auto& [of, given] : answers) {
+        const std::size_t slots = given.front()->shown.size();
+        if (!std::ranges::all_of(given, [&](const StudyAnswer* one) { return one->shown.size() == slots; }))
+            continue;
+        if (slots == 2)
+            add_pair_scales(rows, of, given, options);
+        else if (slots == 3 || slots == 4)
+            add_difference_scales(rows, of, given, options);
+    }
+    return rows;
+}
+
+} // namespace overt

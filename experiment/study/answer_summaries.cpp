@@ -1,0 +1,167 @@
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "experiment/fits/detection.h"
+#include "experiment/fits/response_time_fit.h"
+#include "experiment/statistics/bootstrap.h"
+#include "experiment/statistics/proportion.h"
+#include "experiment/study/answer_results.h"
+
+namespace overt {
+
+namespace {
+
+constexpr std::size_t least_times_for_shape = 40;
+
+/// d' and criterion where two answers are right by turns; the first in the order of words is taken for the
+/// signal.
+void add_sensitivity(AnswerSummaryRow& row, const std::vector<const StudyAnswer*>& answers) {
+    std::set<std::string> right, slots;
+    for (const StudyAnswer* one : answers) {
+        if (!one->correct.empty())
+            right.insert(one->correct);
+        for (const AnsweredStimulus& shown : one->shown)
+            slots.insert(shown.slot);
+    }
+    if (right.size() != 2)
+        return;
+    const std::string& signal = *right.begin();
+    DetectionCounts counts;
+    for (const StudyAnswer* one : answers) {
+        if (one->is_missed || one->correct.empty())
+            continue;
+        const bool says_signal = one->value == signal;
+        double& count = one->correct == signal
+                            ? (says_signal ? counts.hits : counts.misses)
+                            : (says_signal ? counts.false_alarms : counts.correct_rejections);
+        count += 1.0;
+    }
+    if (counts.hits + counts.misses < 1.0 || counts.false_alarms + counts.correct_rejections < 1.0)
+        return;
+    const bool is_of_slots = std::ranges::includes(slots, right);
+    const DetectionEstimate found = is_of_slots ? two_alternatives(counts, ShareCorrection::log_linear)
+                                                : yes_no(counts, ShareCorrection::log_linear);
+    row.d_prime = found.d_prime;
+    row.d_prime_se = found.se;
+    row.criterion = found.criterion;
+}
+
+} // namespace
+
+AnswersBy answers_by(std::span<const StudyAnswer> answers) {
+    AnswersBy by;
+    for (const StudyAnswer& one : answers)
+        for (const std::string& observer : {one.observer, std::string()})
+            by[{observer, one.task, one.answer, one.item}].push_back(&one);
+    return by;
+}
+
+std::vector<AnswerSummaryRow> answer_summaries(const AnswersBy& answers, const StudyOptions& options) {
+    std::vector<AnswerSummaryRow> rows;
+    for (const auto& [of, given] : answers) {
+        AnswerSummaryRow& row = rows.emplace_back();
+        row.of = of;
+        std::vector<double> times;
+        double right = 0.0, judged = 0.0;
+        for (const StudyAnswer* one : given) {
+            ++row.trials;
+            row.missed += one->is_missed ? 1 : 0;
+            if (one->is_correct) {
+                judged += 1.0;
+                right += *one->is_correct ? 1.0 : 0.0;
+            }
+            if (one->response_s)
+                times.push_back(*one->response_s);
+        }
+        row.correct = judged > 0.0
+                          ? Estimate::of(right / judged, wilson_interval(right, judged, options.confidence))
+                          : Estimate::none("nothing is correct or wrong");
+        add_sensitivity(row, given);
+        if (times.empty())
+            continue;
+        std::ranges::sort(times);
+        row.median_response_s = quantile_of_sorted(times, 0.5);
+        row.mean_response_s = 0.0;
+        for (const double time : times)
+            *row.mean_response_s += time / static_cast<double>(times.size());
+        if (times.size() < least_times_for_shape)
+            continue;
+        if (const auto fit = fit_ex_gaussian(times)) {
+            row.ex_mu_s = fit->mu;
+            row.ex_sigma_s = fit->sigma;
+            row.ex_tau_s = fit->tau;
+        }
+    }
+    return rows;
+}
+
+std::vector<AnswerChoiceRow> answer_choices(const AnswersBy& answers, const StudyOptions& options) {
+    std::vector<AnswerChoiceRow> rows;
+    for (const auto& [of, given] : answers) {
+        std::map<std::string, int> counts;
+        int answered = 0;
+        for (const StudyAnswer* one : given) {
+            if (one->is_missed || one->number || one->kind == "text" || one->kind == "spoken")
+                continue;
+            ++counts[one->value];
+            ++answered;
+        }
+        for (const auto& [choice, count] : counts)
+            rows.push_back({of, choice, count, answered,
+                            Estimate::of(static_cast<double>(count) / answered,
+                                         wilson_interval(count, answered, options.confidence))});
+    }
+    return rows;
+}
+
+std::vector<AnswerRatingRow> answer_ratings(const AnswersBy& answers, const StudyOptions& options) {
+    std::vector<AnswerRatingRow> rows;
+    for (const auto& [of, given] : answers) {
+        // By factor and level, and within by observer: an interval over observers is of their means.
+        std::map<std::pair<std::string, std::string>, std::map<std::string, std::vector<double>>> ratings;
+        for (const StudyAnswer* one : given) {
+            if (!one->number)
+                continue;
+            ratings[{}][one->observer].push_back(*one->number);
+            if (one->shown.size() == 1)
+                for (const auto& level : one->shown.front().levels)
+                    ratings[level][one->observer].push_back(*one->number);
+        }
+        for (const auto& [level, by_observer] : ratings) {
+            std::vector<double> all, means;
+            for (const auto& [observer, own] : by_observer) {
+                double sum = 0.0;
+                for (const double one : own)
+                    sum += one;
+                means.push_back(sum / static_cast<double>(own.size()));
+                all.insert(all.end(), own.begin(), own.end());
+            }
+            AnswerRatingRow& row = rows.emplace_back();
+            row.of = of;
+            row.factor = level.first;
+            row.level = level.second;
+            row.ratings = static_cast<int>(all.size());
+            row.mean = estimated_mean(of.observer.empty() ? means : all, options.bootstrap(), "no ratings");
+            double mean = 0.0, squares = 0.0;
+            for (const double one : all)
+                mean += one / static_cast<double>(all.size());
+            for (const double one : all)
+                squares += (one - mean) * (one - mean);
+            if (all.size() > 1)
+                row.sd = std::sqrt(squares / static_cast<double>(all.size() - 1));
+        }
+    }
+    return rows;
+}
+
+void reckon_answers(StudyAnswers& answers, const StudyOptions& options) {
+    const AnswersBy by = answers_by(answers.given);
+    answers.summaries = answer_summaries(by, options);
+    answers.choices = answer_choices(by, options);
+    answers.curves = answer_curves(by, options);
+    answers.scales = answer_scales(by, options);
+    answers.ratings = answer_ratings(by, options);
+}
+
+} // namespace overt
