@@ -17,7 +17,7 @@ namespace overt {
 using Fixations = std::vector<const StudyFixation*>;
 
 /// Of the counted fixations on one object, blurred along the surface with their own sigmas. Maps are given
-/// by sample of the object's surface, per mm^2: samples are at most the least sigma / 2.5 apart everywhere,
+/// by sample of the object's surface, per mm^2: samples are at most the least sigma / 3 apart everywhere,
 /// or are all nodes of the mesh. Metrics over them differ from those over all nodes by less than 0.01 in CC
 /// and 0.01 bits (tests/experiment/study/fixation_maps_test.cpp).
 class FixationMaps {

@@ -15,7 +15,12 @@ namespace {
 
 using HatMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor, std::int32_t>;
 
-double time_of(double sigma_mm) { return 0.5 * sigma_mm * sigma_mm; }
+/// Functions that are sums of hats are stiffer than the surface: heat spreads so many times as fast in their
+/// space. Measured: the variance of what flows from a point is 1.022 to 1.032 times that of all nodes, on a
+/// plane and on a sphere, for sigmas from the least to twice that.
+constexpr double hat_stiffness = 1.026;
+
+double time_of(double sigma_mm) { return 0.5 * sigma_mm * sigma_mm / hat_stiffness; }
 
 /// The hats by node, the stiffness and the areas of all nodes in the hats' space.
 struct HatSystem {

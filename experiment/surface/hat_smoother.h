@@ -13,11 +13,11 @@ namespace overt {
 /// What SurfaceSmoother makes, up to what hats a fraction of a sigma apart cannot hold: heat flows in their
 /// space (Galerkin's method), with areas and cotangent weights of all the surface's nodes. The mass of each
 /// piece of the surface is kept. Correlation with SurfaceSmoother's map is above 0.995 (measured on shipped
-/// objects and in tests/experiment/surface).
+/// objects and in tests/experiment/surface). That hats are stiffer than the surface is taken into account.
 class HatSmoother {
   public:
     /// Hats are the least sigma divided by this apart.
-    static constexpr double hats_per_sigma = 2.5;
+    static constexpr double hats_per_sigma = 3.0;
 
     /// Whether this takes much less work than all of the surface's nodes.
     static bool is_worth_while(const SurfaceGeometry& geometry, double least_sigma_mm);

@@ -172,40 +172,37 @@ struct AllNodes {
 } // namespace
 
 TEST_CASE("metrics over samples of a surface are those over all of its nodes, on flat faces too", "[unit]") {
-    // With hats for the heat and without them; the narrower, the more nodes are samples.
-    for (const double sigma_mm : {14.0, 8.0}) {
-        for (const double apart_mm : {10.0, 60.0}) {
-            CAPTURE(sigma_mm, apart_mm);
-            const SlabStudy study(sigma_mm, apart_mm);
-            REQUIRE((study.surfaces[0].hats != nullptr) == (sigma_mm > 10.0));
-            const FixationMaps maps(study.results, 0, study.surfaces[0]);
-            const AllNodes all(study, sigma_mm);
-            CHECK(maps.samples().count() < all.visible.size() / 2);
-            const double cc = *correlation(maps.sum_of(study.of(0)), maps.sum_of(study.of(1)),
-                                           maps.visible_areas()),
-                         cc_all = *correlation(all.sum_of(study.of(0)), all.sum_of(study.of(1)), all.visible);
-            CHECK(cc == Approx(cc_all).margin(0.01));
-            ObjectFixationMaps of_objects;
-            of_objects.push_back(std::make_unique<FixationMaps>(study.results, 0, study.surfaces[0]));
-            for (const MapPredictionRow& row : map_predictions(study.results, of_objects, study.options)) {
-                if (row.by == MapPredictor::same_level)
-                    CHECK(*row.gain_over_exposure.value ==
-                          Approx(all.gain(static_cast<std::size_t>(row.group))).margin(0.01));
-            }
+    // With hats for the heat and without them; levels that are alike, and levels that are not.
+    for (const auto& [sigma_mm, apart_mm] : {std::pair(17.0, 12.0), {8.0, 50.0}}) {
+        CAPTURE(sigma_mm, apart_mm);
+        const SlabStudy study(sigma_mm, apart_mm);
+        REQUIRE((study.surfaces[0].hats != nullptr) == (sigma_mm > 10.0));
+        ObjectFixationMaps of_objects;
+        of_objects.push_back(std::make_unique<FixationMaps>(study.results, 0, study.surfaces[0]));
+        const FixationMaps& maps = *of_objects.front();
+        const AllNodes all(study, sigma_mm);
+        CHECK(maps.samples().count() < all.visible.size() / 2);
+        CHECK(
+            *correlation(maps.sum_of(study.of(0)), maps.sum_of(study.of(1)), maps.visible_areas()) ==
+            Approx(*correlation(all.sum_of(study.of(0)), all.sum_of(study.of(1)), all.visible)).margin(0.01));
+        for (const MapPredictionRow& row : map_predictions(study.results, of_objects, study.options)) {
+            if (row.by == MapPredictor::same_level)
+                CHECK(*row.gain_over_exposure.value ==
+                      Approx(all.gain(static_cast<std::size_t>(row.group))).margin(0.01));
         }
     }
 }
 
 TEST_CASE("what is on a fixation's own place is in the sum of maps there, and no more than all of it",
           "[unit]") {
-    const SlabStudy study(14.0, 20.0);
+    const SlabStudy study(17.0, 20.0);
     const FixationMaps maps(study.results, 0, study.surfaces[0]);
-    const AllNodes all(study, 14.0);
+    const AllNodes all(study, 17.0);
     const Fixations clay = study.of(0), gold = study.of(1);
     const std::vector<double> found = maps.sum_at(clay, gold), expected = all.at(all.sum_of(clay), gold);
     const double most = *std::max_element(expected.begin(), expected.end());
     for (std::size_t i = 0; i < found.size(); ++i)
-        CHECK(found[i] == Approx(expected[i]).margin(0.01 * most));
+        CHECK(found[i] == Approx(expected[i]).margin(0.015 * most));
     // Each has the mass of one fixation, visible or not.
     CHECK(integral(maps.sum_of(clay), maps.areas()) ==
           Approx(static_cast<double>(clay.size())).epsilon(1e-3));
