@@ -4,6 +4,7 @@
 #include <cctype>
 #include <filesystem>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -74,6 +75,7 @@ class SeriesWriter {
     /// Lists of files in place of patterns. Of several patterns in a series files of one name belong together.
     bool write_out_patterns(TomlTable& keys) {
         const TomlEntry* first = nullptr;
+        std::string first_written;
         for (TomlEntry& key : keys) {
             const auto* pattern = std::get_if<std::string>(&key.value.content);
             if (!pattern || !is_pattern(*pattern))
@@ -87,9 +89,11 @@ class SeriesWriter {
                                 (std::filesystem::path(*pattern).parent_path() / name).generic_string()});
             const std::string written = *pattern;
             key.value.content = std::move(list);
-            if (first && !are_of_one_name(*first, key, written))
+            if (first &&
+                !(are_of_one_name(*first, key, written) && are_of_one_name(key, *first, first_written)))
                 return false;
-            first = first ? first : &key;
+            if (!std::exchange(first, first ? first : &key))
+                first_written = written;
         }
         return true;
     }
