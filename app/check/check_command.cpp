@@ -18,6 +18,7 @@
 #include "experiment/base/counted.h"
 #include "experiment/checks/design_report.h"
 #include "experiment/design/answer_words.h"
+#include "experiment/design/procedure_trials.h"
 #include "experiment/design/schedule.h"
 #include "experiment/design/trial_plan.h"
 #include "render/gl/headless_context.h"
@@ -78,7 +79,8 @@ DesignReport report_on(const Experiment& experiment, const CheckOptions& options
 std::string steps_of_tasks(const Protocol& protocol) {
     std::string text;
     for (const Task& task : protocol.tasks)
-        text += describe_steps(protocol, task) + describe_answers(protocol, task);
+        text += describe_steps(protocol, task) + describe_answers(protocol, task) +
+                describe_procedures(protocol, task);
     return text;
 }
 

@@ -59,6 +59,31 @@ std::string ProcedureChoice::in_words() const {
     return words;
 }
 
+std::string describe_procedures(const Protocol& protocol, const Task& task) {
+    std::string text;
+    for (const std::string& id : task.trials.procedures) {
+        const auto found = std::ranges::find(protocol.procedures, id, &ProcedureSettings::id);
+        if (found == protocol.procedures.end())
+            continue;
+        const std::string yes = !found->yes.empty()             ? found->yes
+                                : !task.trials.standard.empty() ? "test"
+                                                                : "correct";
+        text += fmt::format(
+            "  procedure {}: {}; {} trials in each condition{}. \"Yes\" is {}; a missed answer {}.\n", id,
+            procedure_in_words(*found), found->trials,
+            found->reversals > 0  ? fmt::format(", or {} reversals", found->reversals)
+            : found->entropy_bits ? fmt::format(", or until {} bits are left", *found->entropy_bits)
+                                  : "",
+            yes == "test"      ? "the slot with the level that was chosen"
+            : yes == "correct" ? "the correct answer"
+                               : fmt::format("the answer \"{}\"", yes),
+            found->missed == UnansweredTrial::repeat   ? "has the level come again"
+            : found->missed == UnansweredTrial::ignore ? "says nothing"
+                                                       : "counts as \"no\"");
+    }
+    return text;
+}
+
 std::size_t chosen_place(const Protocol& protocol, const Trial& trial) {
     const std::string_view side = own_level(trial, "side");
     const std::string_view slot = side.empty() ? std::string_view(trials_of_task(protocol, trial).in) : side;

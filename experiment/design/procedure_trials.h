@@ -57,6 +57,10 @@ class ProcedureTrials {
     std::vector<std::unique_ptr<Condition>> conditions_;
 };
 
+/// Lines on the procedures of a task for a person: how each chooses, how long, and what it counts as "yes".
+/// Empty where the task has none.
+std::string describe_procedures(const Protocol& protocol, const Task& task);
+
 /// Which of a trial's stimuli the procedure chooses: an index into all_shown().
 std::size_t chosen_place(const Protocol& protocol, const Trial& trial);
 
