@@ -119,7 +119,14 @@ SimulatedAnswers::Intended SimulatedAnswers::answer(const AnswerOffer& offer, co
     given.is_late = when.uniform() < truth.late && offer.limit_s.has_value();
     if (given.is_late)
         given.after = from_seconds(*offer.limit_s + late_by_s);
-    if (!offer.values.empty() && offer.numbers.empty())
+    if (offer.kind == "point") {
+        const ScreenGeometry screen =
+            slot_geometry(protocol_, protocol_.slots[static_cast<std::size_t>(trial.shown(0).slot)]);
+        const ScreenPoint middle = screen.screen_from_image(0.5 * glm::dvec2(screen.image_px));
+        const double sd = screen.image_px.y / 8.0;
+        given.right_px = middle.x_px - screen.centre().x_px + sd * what.normal();
+        given.down_px = middle.y_px - screen.centre().y_px + sd * what.normal();
+    } else if (!offer.values.empty() && offer.numbers.empty())
         given.choice = choose(offer, trial, truth, what);
     else
         given.number = judge(offer, trial, truth, what);
@@ -153,6 +160,20 @@ void SimulatedKeys::type(const std::string& text, SessionDuration& after) {
         planned_.push_back({input, after});
         after += between_keys;
     }
+}
+
+void SimulatedKeys::point_at(double right_px, double down_px, SessionDuration after) {
+    ObserverInput input;
+    input.device = ShortName(simulated_observer_device);
+    input.right_px = right_px;
+    input.down_px = down_px;
+    input.kind = ObserverInput::Kind::pointer_moved;
+    planned_.push_back({input, after});
+    input.button = 1;
+    input.kind = ObserverInput::Kind::pointer_down;
+    planned_.push_back({input, after});
+    input.kind = ObserverInput::Kind::pointer_up;
+    planned_.push_back({input, after + key_held});
 }
 
 /// From the middle, where the first press has the marker come up.
@@ -193,7 +214,9 @@ void SimulatedKeys::plan(const SimulatedAnswers& answers, const std::vector<Answ
             press(early_, offer.keys.front(), early_after);
         if (given.is_missing)
             continue;
-        if (!offer.values.empty() && offer.numbers.empty()) {
+        if (offer.kind == "point") {
+            point_at(given.right_px, given.down_px, after);
+        } else if (!offer.values.empty() && offer.numbers.empty()) {
             if (static_cast<std::size_t>(given.choice) >= offer.keys.size())
                 continue; // by the mouse alone
             press(planned_, offer.keys[static_cast<std::size_t>(given.choice)], after);

@@ -25,6 +25,9 @@ class SimulatedAnswers {
         SessionDuration after{};           ///< the window opened
         int choice = 0;                    ///< index into the offer's values
         std::optional<double> number = {}; ///< of scales and numbers
+        /// Of a point, from the middle of the screen: normally distributed about the middle of the first
+        /// image that is shown, with an eighth of its height for standard deviation.
+        double right_px = 0.0, down_px = 0.0;
     };
     Intended answer(const AnswerOffer& offer, const Trial& trial) const;
 
@@ -58,6 +61,7 @@ class SimulatedKeys {
         SessionDuration after{}; ///< the window opened, or inputs were awaited
     };
     void press(std::vector<PlannedInput>& to, std::string_view key, SessionDuration after);
+    void point_at(double right_px, double down_px, SessionDuration after);
     void move_to(const AnswerOffer& offer, double number, SessionDuration& after);
     void type(const std::string& text, SessionDuration& after);
 

@@ -14,7 +14,8 @@ namespace overt {
 using MakeAnswering = std::unique_ptr<Answering>(const AnswerForm& form);
 
 // A file each, or two that are alike.
-MakeAnswering key_answering, choice_answering, scale_answering, number_answering, text_answering;
+MakeAnswering key_answering, choice_answering, scale_answering, number_answering, text_answering,
+    point_answering;
 
 struct AnswerKindRow {
     std::string_view name;
@@ -57,6 +58,14 @@ inline constexpr auto kinds_of<AnswerKind> = std::to_array<AnswerKindRow>({
      true,
      false},
     {"text", "words that are typed", text_answering, {"longest", "accept_key"}, true, false},
+    {"point",
+     "a place of the stimulus while it is shown, pointed at with the mouse; tables tell the place on the "
+     "object's "
+     "surface",
+     point_answering,
+     {},
+     false,
+     true},
     {"spoken", "spoken, and recorded as `[answers]` says; a key goes on", nullptr, {}, false, false},
 });
 

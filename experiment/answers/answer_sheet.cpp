@@ -329,7 +329,8 @@ AnswerView AnswerSheet::view(const std::string& accept) const {
         asked.answering->draw(item);
         item.is_here = i == here_;
         is_accepted = is_accepted || asked.settings().accepts_by_key();
-        view.shows_pointer = view.shows_pointer || asked.settings().with != AnsweredWith::keys;
+        view.shows_pointer =
+            view.shows_pointer || asked.settings().with != AnsweredWith::keys || asked.answering->points();
         const bool is_sound =
             asked.answering->has_value() ? asked.answering->is_sound() : !asked.settings().is_required;
         view.can_accept = view.can_accept && is_sound;

@@ -1,6 +1,7 @@
 /// Answers that are asked together: their window, whose turn it is, and what came of each.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <optional>
@@ -79,6 +80,10 @@ class AnswerSheet {
     /// accepts it.
     AnswerView view(const std::string& accept) const;
 
+    /// One of its answers is pointed at on the stimulus.
+    bool points() const noexcept {
+        return std::ranges::any_of(asked_, [](const Asked& asked) { return asked.answering->points(); });
+    }
     /// What is still to be answered on this page.
     std::vector<AnswerOffer> offers() const;
     /// When presses began to count for what keys go to now; nothing: they do not yet.

@@ -44,6 +44,8 @@ class Answering {
     virtual std::string value() const = 0;
     /// Of a scale where its marker stands, of a number what was typed; allocates nothing.
     virtual std::optional<double> number() const noexcept { return std::nullopt; }
+    /// It is given with the mouse on the stimulus itself, whose pointer is seen there.
+    virtual bool points() const noexcept { return false; }
     /// All but the question.
     virtual void draw(AnswerItem& item) const = 0;
     /// How it can be given; all but id, item, kind, correct, and the key that accepts.

@@ -266,6 +266,7 @@ class AskingChecks {
         }
         for (const StepSettings& step : task_.steps)
             check_step(step);
+        check_points();
     }
 
   private:
@@ -322,6 +323,25 @@ class AskingChecks {
                       fmt::format("\"{}\" is given with the mouse, and nothing to click on is on the screen",
                                   answer.id),
                       "write beside_up_deg, where it stands beside the stimulus");
+    }
+
+    /// What is pointed at has to be there.
+    void check_points() {
+        for (std::size_t i = 0; i < task_.answers.size(); ++i) {
+            const TaskAnswer& answer = task_.answers[i];
+            if (name_of(answer.kind) != "point")
+                continue;
+            const bool is_there = std::ranges::any_of(task_.steps, [&](const StepSettings& step) {
+                const std::vector<TaskAnswer> awaited = answers_waited_for(step);
+                return step.kind == StepKind::show && step.ends_by_answer &&
+                       std::ranges::find(awaited, answer.id, &TaskAnswer::id) != awaited.end();
+            });
+            if (!is_there)
+                examination_.error(
+                    {fmt::format("task[{}].answer[{}].kind", number_, i)},
+                    fmt::format("nothing is shown while \"{}\" is pointed at", answer.id),
+                    "have a step of the task that shows the stimulus wait for it: until = \"answer\"");
+        }
     }
 
     /// Of the next step that asks, or all.

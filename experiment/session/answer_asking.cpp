@@ -35,6 +35,13 @@ void AnswerAsking::begin_trial(const Trial& trial, const TrialPlan& plan, bool i
         place += static_cast<int>(forms.size());
         sheets_.push_back(std::make_unique<AnswerSheet>(forms, sheet.waits_unseen));
     }
+    const bool points = std::ranges::any_of(sheets_, [](const auto& sheet) { return sheet->points(); });
+    if (points != points_on_stimuli_) {
+        AnswerView pointer;
+        pointer.shows_pointer = true;
+        state_.ports.presenter.put_beside_stimuli(points ? &pointer : nullptr);
+        points_on_stimuli_ = points;
+    }
 }
 
 const AnswerSheet* AnswerAsking::sheet_at(std::size_t number) const noexcept {

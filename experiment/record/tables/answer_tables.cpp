@@ -1,5 +1,8 @@
 /// What was answered by keys, the mouse or boxes, and every press meanwhile, as tables.
+#include <fmt/format.h>
+
 #include "experiment/record/tables/attempt_cells.h"
+#include "experiment/record/tables/joined_cells.h"
 #include "experiment/record/tables/session_tables.h"
 
 namespace overt {
@@ -8,6 +11,78 @@ namespace {
 
 auto time_of_answer(std::optional<SessionTime> GivenAnswer::*at) {
     return [at](const GivenAnswerRow& row) { return row.given.*at; };
+}
+
+/// Of what was pointed at: `what(PointedAnswer)`, or what(SurfacePoint) of its place.
+auto of_pointed(auto what) {
+    return [what](const GivenAnswerRow& row) {
+        return row.pointed ? std::optional(what(*row.pointed)) : std::nullopt;
+    };
+}
+auto of_pointed_surface(auto what) {
+    return [what](const GivenAnswerRow& row) {
+        return row.pointed && row.pointed->surface ? std::optional(what(*row.pointed->surface))
+                                                   : std::nullopt;
+    };
+}
+auto pointed_coordinate(int axis) {
+    return of_pointed_surface(
+        [axis](const SurfacePoint& surface) { return surface_coordinate(surface.position[axis]); });
+}
+auto pointed_sd(double SurfaceFootprint::*sd) {
+    return [sd](const GivenAnswerRow& row) {
+        return row.pointed && row.pointed->footprint
+                   ? std::optional(surface_coordinate(*row.pointed->footprint.*sd))
+                   : std::nullopt;
+    };
+}
+
+/// The place of an answer of kind "point".
+void add_pointed_columns(RowLayout<GivenAnswerRow>& layout, const SessionHeader& header) {
+    const LengthWords length = length_words(header);
+    layout.add<GivenAnswerRow>({
+        {{"point_slot", "Of a place that was pointed at, the slot whose image it lies in; n/a: in none"},
+         of_pointed([](const PointedAnswer& pointed) { return pointed.slot; })},
+        {{"point_image_x_px", "The place in that image, to the right", "px"},
+         of_pointed([](const PointedAnswer& pointed) {
+             return Fixed{pointed.image_px.x, pixel_decimals};
+         })},
+        {{"point_image_y_px", "The same downwards", "px"}, of_pointed([](const PointedAnswer& pointed) {
+             return Fixed{pointed.image_px.y, pixel_decimals};
+         })},
+        {{"point_frame", "Animation frame that was lit there when it was pointed at"},
+         [](auto& row) {
+             return row.pointed && row.pointed->shown ? std::optional(row.pointed->shown->frame.value)
+                                                      : std::nullopt;
+         }},
+        {{"point_x", fmt::format("Place on the unturned surface{}; n/a: beside the object", length.remark),
+          length.unit},
+         pointed_coordinate(0)},
+        {{"point_y", fmt::format("Place on the unturned surface{}", length.remark), length.unit},
+         pointed_coordinate(1)},
+        {{"point_z", fmt::format("Place on the unturned surface, upwards{}", length.remark), length.unit},
+         pointed_coordinate(2)},
+        {{"point_triangle", "Index of the mesh's triangle, from 0"},
+         of_pointed_surface([](const SurfacePoint& surface) { return surface.triangle; })},
+        {{"point_part", "Part of the surface"},
+         [](auto& row) {
+             return when(row.pointed && row.pointed->surface,
+                         row.pointed ? row.pointed->part : std::string());
+         }},
+        {{"point_incidence_deg", "Angle between the line of sight and the surface's normal there", "deg"},
+         of_pointed_surface([](const SurfacePoint& surface) {
+             return Fixed{surface.incidence.value, angle_decimals};
+         })},
+        {{"point_sd_major",
+          fmt::format(
+              "Standard deviation on the surface of a place within the pixel that was pointed at, along "
+              "the longer axis of its ellipse{}",
+              length.remark),
+          length.unit},
+         pointed_sd(&SurfaceFootprint::largest_sd)},
+        {{"point_sd_minor", fmt::format("The same along its shorter axis{}", length.remark), length.unit},
+         pointed_sd(&SurfaceFootprint::smallest_sd)},
+    });
 }
 
 } // namespace
@@ -83,6 +158,7 @@ RowLayout<GivenAnswerRow> given_answers_layout(const SharedColumns& shared, cons
           {{"yes", "which was first is not known"}, {"no", "one came first"}}},
          [](auto& row) -> std::string_view { return row.given.is_tied ? "yes" : "no"; }},
     });
+    add_pointed_columns(layout, header);
     return layout;
 }
 

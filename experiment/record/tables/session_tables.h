@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "experiment/record/read/pointed_answer.h"
 #include "experiment/record/read/session_record.h"
 #include "experiment/record/tables/shared_columns.h"
 
@@ -30,6 +31,8 @@ RowLayout<StepRow> steps_layout(const SessionHeader& header);
 struct GivenAnswerRow {
     const TrialRecord& attempt;
     const GivenAnswer& given;
+    const PointedAnswer* pointed =
+        nullptr; ///< of one that is a place, where one of the trial's images has it
     operator const TrialRecord&() const { return attempt; }
 };
 /// `header` must outlive it.

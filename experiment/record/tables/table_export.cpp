@@ -113,6 +113,10 @@ class TableExport {
     void take_lines_of(const Table& table, const TrialRecord& trial,
                        const std::vector<std::size_t>& places) const;
 
+    void note_points(const TrialRecord& trial, const std::optional<TrialLedger>& ledger);
+    std::map<std::pair<std::int64_t, std::size_t>, PointedAnswer>
+        points_; ///< by trial's id, and which answer
+
     /// Whose the fixations are that name no eye: they are of the one that was recorded.
     Eye eye_of_unnamed(std::span<const GazeEvent> events, int sitting) const;
 
@@ -147,6 +151,22 @@ Eye TableExport::eye_of_unnamed(std::span<const GazeEvent> events, int sitting) 
     return has_usual || eyes.none() ? usual : usual == Eye::left ? Eye::right : Eye::left;
 }
 
+/// Of several slots that a place lies in, the one that was lit.
+void TableExport::note_points(const TrialRecord& trial, const std::optional<TrialLedger>& ledger) {
+    const std::vector<GivenAnswer>& given = trial.outcome.given;
+    for (std::size_t i = 0; i < given.size(); ++i) {
+        if (given[i].kind != point_kind)
+            continue;
+        std::optional<PointedAnswer> pointed =
+            pointed_answer(header_, trial, record_.flip_history(trial, ledger), lookup_, given[i]);
+        if (!pointed)
+            continue;
+        const auto [known, is_new] = points_.try_emplace({trial.id, i}, *pointed);
+        if (!is_new && !known->second.shown)
+            known->second = *pointed;
+    }
+}
+
 void TableExport::join_samples(const TrialRecord& trial) {
     std::vector<GazeEvent> events;
     record_.read_gaze_events(trial, [&](const GazeEvent& event) { events.push_back(event); });
@@ -166,6 +186,7 @@ void TableExport::join_samples(const TrialRecord& trial) {
                             ways_ ? &*ways_ : nullptr,
                             lookup_};
     context.has_other_slots = !trial.trial.beside.empty();
+    note_points(trial, ledger);
     PassingFixations fixations(context, events, eye_of_unnamed(events, trial.sitting),
                                Degrees{presentation.validation ? presentation.validation->mean_deg : 0.0});
     Aside& aside = aside_[{trial.id, trial.place}];
@@ -290,8 +311,12 @@ void TableExport::write_what_belongs_to_no_trial() {
         int number = 0;
         for (const AttemptStep& step : trial.outcome.steps)
             write(tables_.steps, StepRow{trial, ++number, step});
-        for (const GivenAnswer& given : trial.outcome.given)
-            write(tables_.given_answers, GivenAnswerRow{trial, given});
+        for (std::size_t i = 0; i < trial.outcome.given.size(); ++i) {
+            const auto pointed = points_.find({trial.id, i});
+            write(tables_.given_answers,
+                  GivenAnswerRow{trial, trial.outcome.given[i],
+                                 pointed == points_.end() ? nullptr : &pointed->second});
+        }
         number = 0;
         for (const AnswerInput& input : trial.outcome.inputs)
             write(tables_.answer_inputs, AnswerInputRow{trial, ++number, input});

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "experiment/base/whole_file.h"
+#include "experiment/record/read/pointed_answer.h"
 #include "tests/app/replay/replayed_session.h"
 #include "tests/support/tsv_file.h"
 
@@ -133,4 +134,50 @@ TEST_CASE("answers by keys are recorded, exported and presented again", "[sessio
     const ProgramRun replayed = replay(experiment);
     INFO(replayed.out << replayed.err);
     CHECK(replayed.exit_code == 0);
+}
+
+TEST_CASE("what is pointed at is a place of the surface, with how exact that is", "[session]") {
+    const SmallExperiment experiment(answered(R"(
+  { show = "centre", for_s = 2, until = "answer" },
+  { answer = "where", limit_s = 1 },
+)",
+                                              "[[task.answer]]\nid = \"where\"\nkind = \"point\"\n"));
+    const ProgramRun run = experiment.run();
+    INFO(run.err);
+    REQUIRE(run.exit_code == 0);
+    const fs::path out = experiment.folder().path() / "tables";
+    const ProgramRun done =
+        experiment.overt({"export", experiment.session().string(), "--format", "tsv", "--out", out.string()});
+    INFO(done.err);
+    REQUIRE(done.exit_code == 0);
+    std::optional<TsvFile> given;
+    for (const fs::directory_entry& file : fs::recursive_directory_iterator(out))
+        if (file.path().filename() == "given_answers.tsv")
+            given.emplace(file.path());
+    REQUIRE(given);
+    const SessionRecord record(experiment.session());
+    const ScreenGeometry screen = record.header().screen_of_slot(0);
+    REQUIRE(given->size() == record.trials().size());
+    int on_object = 0;
+    for (std::size_t row = 0; row < given->size(); ++row) {
+        CAPTURE(row);
+        // The place in the image is the one on the screen.
+        const auto px = read_pointed_px(given->text(row, "answer"));
+        REQUIRE(px);
+        const glm::dvec2 image =
+            screen.image_from_screen({screen.centre().x_px + px->x, screen.centre().y_px + px->y});
+        CHECK(given->number(row, "point_image_x_px") == Approx(image.x).margin(1e-3));
+        CHECK(given->number(row, "point_image_y_px") == Approx(image.y).margin(1e-3));
+        CHECK(given->has(row, "point_frame"));
+        if (!given->has(row, "point_x"))
+            continue;
+        ++on_object;
+        // A place that is seen obliquely is less exact along one way, by the cosine.
+        const double major = given->number(row, "point_sd_major"),
+                     minor = given->number(row, "point_sd_minor");
+        CHECK(minor > 0.0);
+        const double oblique = std::cos(given->number(row, "point_incidence_deg") * 0.017453292519943295);
+        CHECK(minor / major == Approx(oblique).epsilon(0.02).margin(0.05));
+    }
+    CHECK(on_object > 0);
 }

@@ -317,3 +317,32 @@ TEST_CASE("what is not required can be passed over, and is missed then", "[unit]
         CHECK(SheetRows(sheet).given[0].value == "hé");
     }
 }
+
+TEST_CASE("a point is where the left button went down on the stimulus, once that is there", "[unit]") {
+    TaskAnswer answer;
+    answer.id = "where";
+    answer.kind = kind_called<AnswerKind>("point");
+    AnswerSheet sheet({form_of(answer)}, true);
+    CHECK(sheet.points());
+    CHECK(sheet.view("").shows_pointer);
+    const auto down_at = [](double ms, double right_px, int button) {
+        ObserverInput input = mouse_at(ms, ObserverInput::Kind::pointer_down);
+        input.right_px = right_px;
+        input.down_px = -7.25;
+        input.button = button;
+        return input;
+    };
+    sheet.take(down_at(90, 1.0, 1), {});
+    sheet.take(mouse_at(95, ObserverInput::Kind::pointer_up), {});
+    sheet.stimulus_lit(at_ms(100));
+    sheet.take(down_at(150, 2.0, 3), {});
+    CHECK_FALSE(sheet.is_complete());
+    sheet.take(mouse_at(160, ObserverInput::Kind::pointer_up), {});
+    sheet.take(down_at(200, 31.5, 1), {});
+    CHECK(sheet.ends_stimulus_at() == at_ms(200));
+    const SheetRows rows(sheet);
+    CHECK(rows.given[0].value == "31.500 -7.250");
+    CHECK(rows.inputs[0].state == InputState::before);
+    const TaskAnswer by_keys = two_choices();
+    CHECK_FALSE(AnswerSheet({form_of(by_keys)}, true).view("").shows_pointer);
+}
