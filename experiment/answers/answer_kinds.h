@@ -63,7 +63,7 @@ inline constexpr auto kinds_of<AnswerKind> = std::to_array<AnswerKindRow>({
      "object's "
      "surface",
      point_answering,
-     {},
+     {"beside_up_deg"},
      false,
      true},
     {"spoken", "spoken, and recorded as `[answers]` says; a key goes on", nullptr, {}, false, false},

@@ -35,13 +35,6 @@ void AnswerAsking::begin_trial(const Trial& trial, const TrialPlan& plan, bool i
         place += static_cast<int>(forms.size());
         sheets_.push_back(std::make_unique<AnswerSheet>(forms, sheet.waits_unseen));
     }
-    const bool points = std::ranges::any_of(sheets_, [](const auto& sheet) { return sheet->points(); });
-    if (points != points_on_stimuli_) {
-        AnswerView pointer;
-        pointer.shows_pointer = true;
-        state_.ports.presenter.put_beside_stimuli(points ? &pointer : nullptr);
-        points_on_stimuli_ = points;
-    }
 }
 
 const AnswerSheet* AnswerAsking::sheet_at(std::size_t number) const noexcept {
@@ -96,10 +89,14 @@ void AnswerAsking::put_beside(std::size_t number) {
     for (const int answer : sheet.answers)
         if (!up_deg)
             up_deg = task.answers[static_cast<std::size_t>(answer)].beside_up_deg;
-    if (!up_deg)
+    if (!up_deg && !current_->points())
         return;
     AnswerView view = current_->view(state_.protocol.words.go_on);
     view.up_deg = up_deg;
+    if (!up_deg) { // the mouse's pointer alone
+        view.items.clear();
+        view.accept.clear();
+    }
     state_.ports.presenter.put_beside_stimuli(&view);
     stands_beside_ = has_screen_ = true;
 }

@@ -74,7 +74,6 @@ class AnswerAsking {
     bool stands_beside_ = false; ///< current_ is seen with the stimulus
     std::optional<SessionTime> opening_told_;
     int answers_marked_ = 0;
-    bool points_on_stimuli_ = false; ///< the mouse's pointer is seen there
     std::optional<SessionTime> step_since_;
     std::array<ObserverInput, 64> batch_{};
 };
