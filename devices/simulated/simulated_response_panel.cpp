@@ -72,6 +72,8 @@ void SimulatedResponsePanel::offer(const std::vector<AnswerOffer>& answers) {
 
 void SimulatedResponsePanel::entered(SessionPhase phase, int trial) noexcept {
     own_decisions_ = 0;
+    if (phase == SessionPhase::trial)
+        asked_in_ = nullptr; // the one before is over
     pressed_on_.entered(phase, trial);
     if (phase == SessionPhase::pause && !resumes_at_)
         resumes_at_ = clock_->now() + operators_pause;

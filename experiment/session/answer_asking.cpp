@@ -53,6 +53,7 @@ AnswerSheet& AnswerAsking::sheet_of(std::size_t number) noexcept {
 void AnswerAsking::go_to(AnswerSheet& sheet) {
     if (current_ != &sheet) {
         current_ = &sheet;
+        answers_marked_ = sheet.given_count();
         opening_told_.reset();
         is_awaiting_ = false;
     }
@@ -187,7 +188,8 @@ OperatorControl::Press AnswerAsking::ask(std::size_t number, const std::optional
                                          SessionTime& onset) {
     const PlannedStep& step = plan_->steps[number];
     SessionPorts& ports = state_.ports;
-    state_.enter(SessionPhase::response_screen, state_.trial());
+    if (state_.phase() != SessionPhase::response_screen)
+        state_.enter(SessionPhase::response_screen, state_.trial());
     go_to(sheet_of(number));
     take_away();
     int page = current_->page();

@@ -27,6 +27,8 @@ class AnswerAsking {
     /// A step during which gaze is recorded begins; inputs are told from `since` on. Not in one that another
     /// key ends: `goes_elsewhere`.
     void begin_watched_step(std::size_t number, SessionTime since, bool goes_elsewhere);
+    /// Keys were waited for otherwise in between.
+    void interrupted() noexcept { is_awaiting_ = false; }
     /// Takes what the observer did. Allocates and throws nothing, as all that follow.
     void look() noexcept;
     /// The stimulus of this step of the plan is on the screen.

@@ -22,7 +22,8 @@ OperatorControl::How AnswerTaking::take(const Trial& trial, const std::optional<
                                         TrialOutcome& outcome) {
     const ScreenSettings& screens = state_.protocol.screens;
     SessionPorts& ports = state_.ports;
-    state_.enter(SessionPhase::response_screen, state_.trial());
+    if (state_.phase() != SessionPhase::response_screen)
+        state_.enter(SessionPhase::response_screen, state_.trial());
     std::unique_ptr<AnswerRecording> recording;
     if (ports.recorder && !is_practice)
         recording = ports.recorder->begin(trial);

@@ -173,6 +173,7 @@ void TrialRun::mark_step(const PlannedStep& step, SessionTime lit) {
 
 /// A text that a key ends: the question, or the step's.
 void TrialRun::ask(Running& running, std::size_t number) {
+    asking_.interrupted();
     const ScreenSettings& screens = state_.protocol.screens;
     const PlannedStep& step = running.plan.steps[number];
     TrialOutcome& outcome = running.attempt.outcome;
@@ -193,6 +194,7 @@ void TrialRun::ask(Running& running, std::size_t number) {
 }
 
 void TrialRun::check_drift(Running& running, const PlannedStep& step) {
+    asking_.interrupted();
     TrialOutcome& outcome = running.attempt.outcome;
     add_row(running, step);
     drift_checks_.check(outcome);
