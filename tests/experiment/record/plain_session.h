@@ -197,6 +197,11 @@ class ScriptedPanel final : public ResponsePanel {
         }
         return press;
     }
+    void offer(const std::vector<AnswerOffer>&) override { opened.reset(); }
+    void window_opened(SessionTime at) noexcept override { opened = at; }
+    std::optional<ObserverInput> next_input() noexcept override {
+        return does ? does(*this, clock_.now()) : std::nullopt;
+    }
     std::string answer() override { return "yes"; }
     bool has_keyboard() const noexcept override { return !lacks_keyboard || !lacks_keyboard(*this); }
 
@@ -208,6 +213,9 @@ class ScriptedPanel final : public ResponsePanel {
     std::function<bool(const ScriptedPanel&)> lacks_keyboard;
     /// What it presses now, if not the usual.
     std::function<std::optional<ResponsePress>(ScriptedPanel&)> tell;
+    /// What it does while an answer is awaited; asked again until that is nothing.
+    std::function<std::optional<ObserverInput>(ScriptedPanel&, SessionTime now)> does;
+    std::optional<SessionTime> opened; ///< since when presses count
     std::vector<SessionPhase> phases;
     int trial = -1;
     int looks = 0; ///< in this phase
