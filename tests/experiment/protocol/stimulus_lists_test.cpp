@@ -221,5 +221,5 @@ TEST_CASE("a pattern in a series stands for the files that fit, and a record kee
     std::filesystem::create_directories(folder.path() / "shapes");
     Diagnostics none;
     CHECK_FALSE(read_protocol(file, shipped_names, none));
-    CHECK(none.findings()[0].message == "\"shapes/*.ply\": no file has such a name");
+    CHECK(none.findings()[0].message == "\"shapes/*.labels\": no file has such a name");
 }
