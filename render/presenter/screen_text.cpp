@@ -1,5 +1,4 @@
 #include "render/presenter/screen_text.h"
-#include "render/presenter/noise_picture.h"
 #include "render/presenter/setup_screens.h"
 
 #include <algorithm>
@@ -378,8 +377,6 @@ PlacedPicture draw_screen(const Screen& screen, const ScreenGeometry& geometry, 
     const auto grey = static_cast<float>(screens.text_grey), behind = static_cast<float>(background);
     if (screen.kind == Screen::Kind::target)
         return draw_target(screen, geometry, grey, behind);
-    if (screen.kind == Screen::Kind::noise)
-        return draw_noise(screen, geometry);
     const Surroundings surroundings(screen, geometry, screens.text_height_deg);
     const Rows rows = surroundings.middle();
     TextStyle style = style_of(geometry, screens.text_height_deg);
