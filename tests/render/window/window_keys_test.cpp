@@ -219,3 +219,89 @@ TEST_CASE("every key that a protocol may name is one of the window's", "[unit]")
     held.is_repeated = true;
     CHECK_FALSE(key_called("f1").is(held));
 }
+
+TEST_CASE("while an answer is awaited, keys, characters and the mouse of a window are told as they are",
+          "[gl]") {
+    using Kind = ObserverInput::Kind;
+    const auto screen = test::VirtualScreen::start(640, 480, 24);
+    WindowWithKeyboard typed_at;
+    WindowResponsePanel panel = typed_at.panel();
+    test::Keyboard& keyboard = typed_at.keyboard;
+    const auto told = [&] {
+        std::vector<ObserverInput> inputs;
+        CHECK_FALSE(panel.poll());
+        while (const auto input = panel.next_input())
+            inputs.push_back(*input);
+        return inputs;
+    };
+    panel.await_key({});
+    keyboard.type(XK_x); // too early
+    panel.await_answer({}, nullptr);
+    CHECK(told().empty());
+    // A key that is held went down once, and writes again and again.
+    keyboard.hold(XK_j, 3);
+    const std::vector<ObserverInput> held = told();
+    REQUIRE(held.size() == 5);
+    CHECK(held[0].kind == Kind::key_down);
+    CHECK(held[0].key.view() == "j");
+    CHECK(held[0].device.view() == "keyboard");
+    CHECK(held[0].uncertainty > SessionDuration::zero());
+    CHECK(held[0].at <= typed_at.clock.now());
+    for (const std::size_t i : {1u, 2u, 3u})
+        CHECK(held[i].character == U'j');
+    CHECK(held[4].kind == Kind::key_up);
+    CHECK(held[4].key.view() == "j");
+    keyboard.type(XK_Left);
+    const std::vector<ObserverInput> arrow = told();
+    REQUIRE(arrow.size() == 2);
+    CHECK(arrow[0].key.view() == "left");
+    // From the middle of the window's 320 x 200 pixels to the middle of the pixel.
+    keyboard.click(200, 60);
+    const std::vector<ObserverInput> clicked = told();
+    REQUIRE(clicked.size() == 3);
+    CHECK(clicked[0].kind == Kind::pointer_moved);
+    CHECK(clicked[1].kind == Kind::pointer_down);
+    CHECK(clicked[1].device.view() == "mouse");
+    CHECK(clicked[1].right_px == 40.5);
+    CHECK(clicked[1].down_px == -39.5);
+    CHECK(clicked[1].button == 1);
+    CHECK(clicked[2].kind == Kind::pointer_up);
+    // The operator's keys stay the operator's.
+    keyboard.type(XK_F5);
+    const auto press = panel.poll();
+    REQUIRE(press);
+    CHECK(press->key == Key::skip);
+    CHECK_FALSE(panel.next_input());
+    // Where a box answers, the keyboard still writes.
+    typed_at.operators.keyboard_answers = false;
+    WindowResponsePanel beside_box = typed_at.panel();
+    beside_box.await_answer({}, nullptr);
+    keyboard.type(XK_j);
+    keyboard.type(XK_BackSpace);
+    CHECK_FALSE(beside_box.poll());
+    std::vector<Kind> kinds;
+    while (const auto input = beside_box.next_input())
+        kinds.push_back(input->kind);
+    CHECK(kinds == std::vector{Kind::text, Kind::key_down, Kind::key_up});
+}
+
+TEST_CASE("of movements of the mouse the last is kept, and what nobody asks for gives way", "[unit]") {
+    using Kind = ObserverInput::Kind;
+    WindowInputs inputs;
+    for (int i = 0; i < 5; ++i)
+        inputs.push({.kind = Kind::pointer_moved, .from_middle_px = {i, 0.0}});
+    inputs.push({.kind = Kind::pointer_down});
+    inputs.push({.kind = Kind::pointer_moved, .from_middle_px = {9.0, 0.0}});
+    WindowInput input;
+    REQUIRE(inputs.next(input));
+    CHECK(input.from_middle_px.x == 4.0);
+    REQUIRE(inputs.next(input));
+    CHECK(input.kind == Kind::pointer_down);
+    REQUIRE(inputs.next(input));
+    CHECK(input.from_middle_px.x == 9.0);
+    CHECK_FALSE(inputs.next(input));
+    for (int code = 0; code < 300; ++code)
+        inputs.push({.kind = Kind::key_down, .code = code});
+    REQUIRE(inputs.next(input));
+    CHECK(input.code == 44); // of 300 the last 256
+}
