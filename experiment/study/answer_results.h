@@ -27,8 +27,9 @@ std::vector<AnswerChoiceRow> answer_choices(const AnswersBy& answers, const Stud
 std::vector<AnswerCurveRow> answer_curves(const AnswersBy& answers, const StudyOptions& options);
 
 /// Of choices between two slots whose stimuli differ in one list: Bradley-Terry and Thurstone's Case V, with
-/// the first slot's effect. Of choices among three or four slots whose stimuli are in order of one factor of
-/// numbers: difference scaling, an answer being the slot of the pair that differs more.
+/// the first slot's effect; whose stimuli differ in several factors of numbers, conjoint measurement. Of
+/// choices among three or four slots whose stimuli are in order of one factor of numbers: difference scaling,
+/// an answer being the slot of the pair that differs more.
 std::vector<AnswerScaleRow> answer_scales(const AnswersBy& answers, const StudyOptions& options);
 
 /// Means of scales and numbers, by each factor's levels and over all.

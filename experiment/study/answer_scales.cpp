@@ -97,6 +97,68 @@ void add_pair_scales(std::vector<AnswerScaleRow>& rows, const AnswerOf& of,
     }
 }
 
+/// Of pairs that can differ in several factors of numbers at once: what each level of each adds to the
+/// judgement.
+void add_conjoint_scales(std::vector<AnswerScaleRow>& rows, const AnswerOf& of,
+                         const std::vector<const StudyAnswer*>& given, const StudyOptions& options) {
+    std::map<std::string, std::set<double>> levels;
+    for (const StudyAnswer* one : given)
+        for (const AnsweredStimulus& shown : one->shown)
+            for (const auto& [factor, number] : shown.numbers)
+                levels[factor].insert(number);
+    std::erase_if(levels, [](const auto& one) { return one.second.size() < 2; });
+    std::vector<int> sizes;
+    for (const auto& [factor, numbers] : levels)
+        sizes.push_back(static_cast<int>(numbers.size()));
+    if (sizes.size() < 2)
+        return;
+    const auto places_of = [&](const AnsweredStimulus& shown) {
+        std::vector<int> places;
+        for (const auto& [factor, numbers] : levels)
+            if (const auto number = shown.number(factor))
+                places.push_back(static_cast<int>(std::distance(numbers.begin(), numbers.find(*number))));
+        return places;
+    };
+    std::map<std::pair<std::vector<int>, std::vector<int>>, ConjointCount> counts;
+    int trials = 0;
+    for (const StudyAnswer* one : given) {
+        const std::vector<int> first = places_of(one->shown[0]), second = places_of(one->shown[1]);
+        const bool is_slot = one->value == one->shown[0].slot || one->value == one->shown[1].slot;
+        if (one->is_missed || !is_slot || first.size() != sizes.size() || second.size() != sizes.size())
+            continue;
+        ConjointCount& count =
+            counts.try_emplace({first, second}, ConjointCount{first, second}).first->second;
+        count.trials += 1.0;
+        count.first += one->value == one->shown[0].slot ? 1.0 : 0.0;
+        ++trials;
+    }
+    std::vector<ConjointCount> all;
+    for (const auto& [key, count] : counts)
+        all.push_back(count);
+    const std::optional<ConjointScale> scale = fit_conjoint(all, sizes);
+    if (!scale)
+        return;
+    std::size_t f = 0;
+    for (const auto& [factor, numbers] : levels) {
+        std::size_t level = 0;
+        for (const double number : numbers) {
+            AnswerScaleRow& row = rows.emplace_back();
+            row.of = of;
+            row.method = "MLCM";
+            row.factor = factor;
+            row.level = fmt::format("{}", number);
+            row.value =
+                Estimate::of(scale->parts[f][level],
+                             about(scale->parts[f][level], scale->parts_se[f][level], options.confidence));
+            row.se = scale->parts_se[f][level];
+            row.trials = trials;
+            row.is_penalised = scale->is_penalised;
+            ++level;
+        }
+        ++f;
+    }
+}
+
 /// The places of a trial's stimuli on the series, and whether the pair with the larger levels was chosen.
 struct JudgedDifference {
     std::vector<double> levels; ///< rising
@@ -185,9 +247,10 @@ std::vector<AnswerScaleRow> answer_scales(const AnswersBy& answers, const StudyO
         const std::size_t slots = given.front()->shown.size();
         if (!std::ranges::all_of(given, [&](const StudyAnswer* one) { return one->shown.size() == slots; }))
             continue;
-        if (slots == 2)
+        if (slots == 2) {
             add_pair_scales(rows, of, given, options);
-        else if (slots == 3 || slots == 4)
+            add_conjoint_scales(rows, of, given, options);
+        } else if (slots == 3 || slots == 4)
             add_difference_scales(rows, of, given, options);
     }
     return rows;

@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <span>
 
 #include "experiment/fits/detection.h"
+#include "experiment/fits/rating_scale_fit.h"
 #include "experiment/fits/response_time_fit.h"
 #include "experiment/statistics/bootstrap.h"
 #include "experiment/statistics/proportion.h"
@@ -45,6 +47,42 @@ void add_sensitivity(AnswerSummaryRow& row, const std::vector<const StudyAnswer*
     row.d_prime = found.d_prime;
     row.d_prime_se = found.se;
     row.criterion = found.criterion;
+}
+
+/// Places of the levels of each factor on a continuous quality, where the ratings are steps of a scale.
+void add_rating_places(std::span<AnswerRatingRow> rows,
+                       const std::map<std::pair<std::string, std::string>, std::vector<double>>& ratings) {
+    std::map<std::string, std::vector<std::pair<AnswerRatingRow*, RatingCounts>>> by_factor;
+    double low = 0.0, high = 0.0;
+    bool is_first = true;
+    for (const auto& [level, numbers] : ratings)
+        for (const double number : numbers) {
+            if (number != std::floor(number))
+                return; // a line has no steps
+            low = is_first ? number : std::min(low, number);
+            high = is_first ? number : std::max(high, number);
+            is_first = false;
+        }
+    if (high - low < 1.0 || high - low > 20.0)
+        return;
+    for (AnswerRatingRow& row : rows) {
+        if (row.factor.empty())
+            continue;
+        RatingCounts counts{std::vector<double>(static_cast<std::size_t>(high - low) + 1, 0.0)};
+        for (const double number : ratings.at({row.factor, row.level}))
+            counts.by_category[static_cast<std::size_t>(number - low)] += 1.0;
+        by_factor[row.factor].emplace_back(&row, std::move(counts));
+    }
+    for (auto& [factor, levels] : by_factor) {
+        std::vector<RatingCounts> counts;
+        for (const auto& [row, own] : levels)
+            counts.push_back(own);
+        const std::optional<RatingScale> scale = levels.size() > 1 ? fit_rating_scale(counts) : std::nullopt;
+        for (std::size_t i = 0; scale && i < levels.size(); ++i) {
+            levels[i].first->place = scale->stimuli[i];
+            levels[i].first->place_se = scale->stimuli_se[i];
+        }
+    }
 }
 
 } // namespace
@@ -128,8 +166,11 @@ std::vector<AnswerRatingRow> answer_ratings(const AnswersBy& answers, const Stud
                 for (const auto& level : one->shown.front().levels)
                     ratings[level][one->observer].push_back(*one->number);
         }
+        const std::size_t before = rows.size();
+        std::map<std::pair<std::string, std::string>, std::vector<double>> together;
         for (const auto& [level, by_observer] : ratings) {
-            std::vector<double> all, means;
+            std::vector<double>& all = together[level];
+            std::vector<double> means;
             for (const auto& [observer, own] : by_observer) {
                 double sum = 0.0;
                 for (const double one : own)
@@ -151,6 +192,7 @@ std::vector<AnswerRatingRow> answer_ratings(const AnswersBy& answers, const Stud
             if (all.size() > 1)
                 row.sd = std::sqrt(squares / static_cast<double>(all.size() - 1));
         }
+        add_rating_places(std::span(rows).subspan(before), together);
     }
     return rows;
 }

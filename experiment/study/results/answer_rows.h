@@ -75,7 +75,7 @@ struct AnswerCurveRow {
 /// A place on a scale made of comparisons.
 struct AnswerScaleRow {
     AnswerOf of;
-    std::string method; ///< "Bradley-Terry", "Thurstone Case V", "MLDS"
+    std::string method; ///< "Bradley-Terry", "Thurstone Case V", "MLDS", "MLCM"
     std::string factor, level;
     Estimate value;
     std::optional<double> se = {};
@@ -92,6 +92,8 @@ struct AnswerRatingRow {
     int ratings = 0;
     Estimate mean;
     std::optional<double> sd = {};
+    /// Of whole numbers: the level's place by the cumulative probit model, its first level being 0.
+    std::optional<double> place = {}, place_se = {};
 };
 
 struct StudyAnswers {

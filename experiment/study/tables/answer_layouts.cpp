@@ -98,7 +98,8 @@ RowLayout<AnswerScaleRow> answer_scales_layout() {
     StudyLayout<Row> to(
         "answer_scales",
         "Scales of comparisons by maximum likelihood. Bradley-Terry (logits) and Thurstone's Case V (in "
-        "standard deviations of one percept) with a mean of 0; MLDS from 0 to 1.");
+        "standard deviations of one percept) with a mean of 0; MLDS from 0 to 1; MLCM, what each level adds "
+        "to the first of its factor, in standard deviations of the judgement.");
     add_answer_of(to);
     to.text("method", "Model", &Row::method);
     to.text("factor", "Factor on whose levels it is", &Row::factor);
@@ -129,6 +130,14 @@ RowLayout<AnswerRatingRow> ratings_layout() {
     to.estimate("mean", "Mean; of all observers the mean of their means, with the interval over observers",
                 "", &Row::mean);
     to.number("sd", "Standard deviation of the answers", "", &Row::sd);
+    to.number(
+        "place",
+        "Of scales with steps: place of the level on a continuous quality that the steps cut up, in standard "
+        "deviations of a judgement (cumulative probit, maximum likelihood), the factor's first level being "
+        "0; n/a: there "
+        "is none",
+        "", &Row::place);
+    to.number("place_se", "Its standard error", "", &Row::place_se);
     return to;
 }
 

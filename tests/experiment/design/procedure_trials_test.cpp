@@ -6,6 +6,7 @@
 #include <set>
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
 #include "experiment/base/random.h"
 #include "experiment/design/schedule.h"

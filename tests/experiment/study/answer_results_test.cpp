@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
 #include "experiment/base/random.h"
 #include "experiment/statistics/distributions.h"
@@ -137,4 +138,40 @@ TEST_CASE("ratings have means by level, and over observers of their means", "[un
     CHECK(row("", "0.1").mean.value == 3.5); // of 2 and 5
     CHECK(row("P01", "").ratings == 3);
     CHECK(answer_choices(answers_by(answers), quick_options()).empty());
+}
+
+TEST_CASE("steps of a scale give back the places of levels, and pairs in two factors what each adds",
+          "[unit]") {
+    RandomStream random(6, "answers");
+    std::vector<StudyAnswer> ratings, pairs;
+    for (const auto& [level, place] : {std::pair(0.1, 0.0), std::pair(0.2, 1.0), std::pair(0.3, 1.5)})
+        for (int trial = 0; trial < 400; ++trial) {
+            const double seen = place + random.normal();
+            StudyAnswer answer = choice_of("P01", {gloss_in("", level)}, "step");
+            answer.kind = "scale";
+            answer.number = 1.0 + (seen > -0.5) + (seen > 0.5) + (seen > 1.5);
+            ratings.push_back(std::move(answer));
+        }
+    for (const AnswerRatingRow& row : answer_ratings(answers_by(ratings), quick_options()))
+        if (row.level == "0.3")
+            CHECK(row.place.value() == Approx(1.5).margin(0.25));
+    const auto stimulus = [](const std::string& slot, int gloss, int bump) {
+        return AnsweredStimulus{slot, {}, {{"bump", 1.0 * bump}, {"gloss", 1.0 * gloss}}};
+    };
+    for (int i = 0; i < 4; ++i)
+        for (int j = 0; j < 4; ++j)
+            for (int trial = 0; trial < 200; ++trial) {
+                const double delta = 0.8 * (i / 2 - j / 2) + 0.4 * (i % 2 - j % 2);
+                pairs.push_back(choice_of("P01",
+                                          {stimulus("left", i / 2, i % 2), stimulus("right", j / 2, j % 2)},
+                                          random.uniform() < normal_probability(delta) ? "left" : "right"));
+            }
+    int found = 0;
+    for (const AnswerScaleRow& row : answer_scales(answers_by(pairs), quick_options())) {
+        if (row.method != "MLCM" || row.level != "1")
+            continue;
+        CHECK(row.value.value.value() == Approx(row.factor == "gloss" ? 0.8 : 0.4).margin(0.15));
+        ++found;
+    }
+    CHECK(found == 4); // of the observer and of all
 }
