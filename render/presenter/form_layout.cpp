@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <string>
-#include <utility>
 
 namespace overt {
 
@@ -64,25 +63,43 @@ FormLayout::FormLayout(std::span<const FormRow> rows, const TextStyle& style)
 
 void FormLayout::place_chips(const FormRow& row, RowPlace& place) {
     const int padding = static_cast<int>(chip_padding * em_px_);
-    int start = 0, line = 0;
-    // A scale's words stand before its first step and after its last.
-    std::vector<std::pair<std::string, bool>> shown;
-    if (!row.ends.empty())
-        shown.emplace_back(row.ends.front(), true);
-    for (const std::string& choice : row.choices)
-        shown.emplace_back(choice, false);
-    if (row.ends.size() > 1)
-        shown.emplace_back(row.ends.back(), true);
-    for (const auto& [choice, is_end] : shown) {
-        const TextMeasure measure = measure_text(choice, value_style_);
+    const auto width_of = [&](const std::string& words) {
+        const TextMeasure measure = measure_text(words, value_style_);
         unknown_glyphs_ += measure.unknown_glyphs;
-        const int width = measure.size_px.x + 2 * padding;
+        return measure.size_px.x + 2 * padding;
+    };
+    int start = 0, line = 0;
+    const auto put = [&](const std::string& words, int width, bool is_end) {
         if (start > 0 && start + width > value_px_) {
             start = 0;
             ++line;
         }
-        place.chips.push_back({choice, start, line * line_px_ * 5 / 4, width, is_end});
+        place.chips.push_back({words, start, line * line_px_ * 5 / 4, width, is_end});
         start += width + padding;
+    };
+    std::vector<int> widths;
+    int all = -padding;
+    for (const std::string& choice : row.choices)
+        all += widths.emplace_back(width_of(choice)) + padding;
+    const bool is_scale = row.ends.size() == 2;
+    const int first_end = is_scale ? width_of(row.ends[0]) : 0,
+              last_end = is_scale ? width_of(row.ends[1]) : 0;
+    // A scale's words stand before its first step and after its last, or below them where there is no room.
+    const bool is_in_line = is_scale && all + first_end + last_end + 2 * padding <= value_px_;
+    if (is_in_line)
+        put(row.ends[0], first_end, true);
+    for (std::size_t i = 0; i < widths.size(); ++i)
+        put(row.choices[i], widths[i], false);
+    if (is_in_line) {
+        put(row.ends[1], last_end, true);
+    } else if (is_scale) {
+        const int end = std::max(std::min(start - padding, value_px_),
+                                 std::min(first_end + padding + last_end, value_px_));
+        start = 0;
+        ++line;
+        put(row.ends[0], first_end, true);
+        start = std::max(start, end - last_end);
+        put(row.ends[1], last_end, true);
     }
     place.height_px = std::max(place.height_px, line * line_px_ * 5 / 4 + line_px_);
 }
