@@ -182,6 +182,12 @@ TEST_CASE("metrics over samples of a surface are those over all of its nodes, on
         const FixationMaps& maps = *of_objects.front();
         const AllNodes all(study, sigma_mm);
         CHECK(maps.samples().count() < all.visible.size() / 2);
+        double farthest_mm = 0.0;
+        for (std::uint32_t node = 0; node < maps.geometry().node_count(); ++node)
+            farthest_mm =
+                std::max(farthest_mm, glm::distance(maps.geometry().node_positions_mm()[node],
+                                                    maps.position_mm(maps.samples().nearest(node))));
+        CHECK(farthest_mm <= sigma_mm / 3.0 + 1e-6);
         CHECK(
             *correlation(maps.sum_of(study.of(0)), maps.sum_of(study.of(1)), maps.visible_areas()) ==
             Approx(*correlation(all.sum_of(study.of(0)), all.sum_of(study.of(1)), all.visible)).margin(0.01));
