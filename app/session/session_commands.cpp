@@ -45,7 +45,8 @@ void add_session_commands(CLI::App& app, ChosenCommand& chosen) {
     option(command, "--simulate-operator", options.operator_keys, "KEY",
            "A key that an operator presses in a simulated observer's session, as \"stimulus@3+0.5=skip,2\": "
            "the phase, the trial, seconds after the phase began, the key, and the answer to the question "
-           "that follows; once for each key",
+           "that follows; once for each key. Or what the observer does, as \"response screen@2+0.5=press 7\" "
+           "(docs/sitting.md)",
            one_each_time);
     option(command, "--tracker", options.tracker, "KIND",
            "Kind of eye tracker, instead of the protocol's [tracker] kind",
