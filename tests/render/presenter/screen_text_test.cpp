@@ -172,7 +172,8 @@ TEST_CASE("the presenter shows consents and forms longer than its screen within 
     for (const Screen& screen :
          {of_text("a\nb\nc\nd\ne"), Screen{.kind = Screen::Kind::form,
                                     .text = "# t",
-                                    .rows = {{"a", "b", {}, true, false}, {"c", "", {"d", "e"}}}}}) {
+                                    .rows = {{.label = "a", .value = "b", .choices = {}, .is_here = true},
+                                             {.label = "c", .value = "", .choices = {"d", "e"}}}}}) {
         presenter.show(screen);
         const auto canvas = presenter.read_canvas();
         int inked = 0;
@@ -213,7 +214,12 @@ Screen form_of(const std::string& label, const std::string& typed, const std::st
                const std::string& message = {}) {
     return {.kind = Screen::Kind::form,
             .text = "# Form\n" + message,
-            .rows = {{label, typed, {}, true, !message.empty()}, {label, chosen, {"aa", "bb", "cc"}}},
+            .rows = {{.label = label,
+                      .value = typed,
+                      .choices = {},
+                      .is_here = true,
+                      .is_at_fault = !message.empty()},
+                     {.label = label, .value = chosen, .choices = {"aa", "bb", "cc"}}},
             .page = 1,
             .pages = 2};
 }
