@@ -82,7 +82,11 @@ void AnswerSheet::stimulus_lit(SessionTime onset) noexcept {
     open_by(AnswerOpening::From::onset, onset);
 }
 
-void AnswerSheet::stimulus_gone(SessionTime offset) noexcept { open_by(AnswerOpening::From::offset, offset); }
+void AnswerSheet::stimulus_gone(SessionTime offset) noexcept {
+    // Of the shows before its own nothing opens.
+    if (stimulus_onset_)
+        open_by(AnswerOpening::From::offset, offset);
+}
 
 void AnswerSheet::screen_lit(SessionTime onset) noexcept {
     for (Asked& asked : asked_)
