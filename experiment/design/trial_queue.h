@@ -19,11 +19,11 @@ namespace overt {
 
 struct SessionStep {
     enum class Kind : std::uint8_t {
-        feedback,     ///< on a block that is over
         instructions, ///< the text of a block that begins
         practice,     ///< a trial that does not count, with feedback
         trial,
-        pause
+        pause,
+        feedback ///< on a block that is over
     };
     Kind kind = Kind::trial;
     Trial trial;     ///< of practice, its index is that of the entry in the protocol's practice

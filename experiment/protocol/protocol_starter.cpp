@@ -124,7 +124,7 @@ void add_keys(std::string& text, const Section& section, const Values& values, b
     for (const Section& table : section.tables) {
         if (!with_comments)
             continue;
-        text += fmt::format("\n{}", comment(table.explanation));
+        text += fmt::format("\n{}", comment(without_links(table.explanation)));
         std::string keys;
         for (const Key& key : table.keys)
             keys += fmt::format("{}{} = …", keys.empty() ? "" : ", ", key.rule.name);

@@ -68,7 +68,7 @@ TEST_CASE("what is wrong with a step is said at its place, and all of it at once
   { blank = 0.5, colour = "red" },
   { fixation = { from = 1.0, to = 0.5 } },
   { fixation = { from = 0.5, to = 1.0, mean = 0.9 } },
-  { answer = "sung" },
+  { answer = "spoken" },
   { show = "centre", until = "soon" },
   { show = "centre", until = { for_s = 1 } },
   0.5,)");
@@ -79,8 +79,7 @@ TEST_CASE("what is wrong with a step is said at its place, and all of it at once
                 "21:18: a step \"blank\" has no key \"colour\"",
                 "22:16: fixation: from 1 to 0.5 s there is nothing to draw",
                 "23:47: fixation: the mean of 0.9 s does not lie between 0.5 s and the middle, 0.75 s",
-                "24:14: answer: unknown value \"sung\"", "25:30: until: unknown value \"soon\"",
-                "26:30: until: nothing says where gaze is waited for",
+                "25:30: until: unknown value \"soon\"", "26:30: until: nothing says where gaze is waited for",
                 "27:3: steps: expected a step such as { blank = 0.5 }, found a number"});
 }
 
@@ -127,12 +126,14 @@ TEST_CASE("a step shows some of the task's slots, and slots of one place are nev
     const Lines overlap = lines(two, "{ show = " + two + " },");
     REQUIRE(overlap.size() == 1);
     CHECK(overlap[0].starts_with("18:1: the slots \"first\" and \"second\" overlap: columns "));
-    CHECK(lines(three, "{ show = \"first\" },\n{ show = [\"second\", \"left\"], until = { gaze_on = \"head\", "
-                       "slot = \"left\" } },") == Lines{});
-    const Lines elsewhere = lines(
-        three, "{ show = \"first\", until = { gaze_on = \"head\", slot = \"left\" } },\n{ show = "
-               "[\"second\", \"left\"] },");
+    CHECK(lines(three,
+                "{ show = \"first\" },\n{ show = [\"second\", \"left\"], until = { gaze_on = \"head\", "
+                "slot = \"left\" } },") == Lines{});
+    const Lines elsewhere =
+        lines(three, "{ show = \"first\", until = { gaze_on = \"head\", slot = \"left\" } },\n{ show = "
+                     "[\"second\", \"left\"] },");
     CHECK(elsewhere == Lines{"18:54: this step shows nothing in slot left"});
-    CHECK(lines(three, "{ fixation = { until = { gaze_within_deg = 2, slot = \"rihgt\", patience_s = 2 } } },\n" +
-                           in_turn + "\n{ show = \"left\" },") == Lines{"18:54: unknown slot \"rihgt\""});
+    CHECK(lines(three,
+                "{ fixation = { until = { gaze_within_deg = 2, slot = \"rihgt\", patience_s = 2 } } },\n" +
+                    in_turn + "\n{ show = \"left\" },") == Lines{"18:54: unknown slot \"rihgt\""});
 }
