@@ -215,6 +215,7 @@ TEST_CASE("answers stand beside a stimulus, which covers what of them is in its 
     bench.geometry.screen_px = {640, 360};
     bench.geometry.screen_mm = {230.0, 130.0};
     bench.geometry.image_origin_px = {304, 164};
+    bench.screens.text_height_deg = 0.2; // there is room for them below the stimulus
     PagePresenter presenter(*bench.context, bench.display, bench.pages, bench.geometry, bench.settings,
                             bench.screens);
     const auto bright_rows = [&](int first, int end) {
