@@ -109,7 +109,7 @@ const char* const observer_tables_sql = R"sql(
 CREATE TABLE IF NOT EXISTS observer_field (n INTEGER PRIMARY KEY, id TEXT NOT NULL, title TEXT NOT NULL,
                                            value TEXT NOT NULL) STRICT;
 CREATE TABLE IF NOT EXISTS observer_form (
-    id TEXT PRIMARY KEY, sitting INTEGER NOT NULL REFERENCES sitting, asked TEXT NOT NULL, at_ns INTEGER
+    field TEXT PRIMARY KEY, sitting INTEGER NOT NULL REFERENCES sitting, asked TEXT NOT NULL, at_ns INTEGER
 ) STRICT, WITHOUT ROWID;
 CREATE TABLE IF NOT EXISTS dataset_entry (n INTEGER PRIMARY KEY, key TEXT NOT NULL, value TEXT NOT NULL) STRICT;
 CREATE TABLE IF NOT EXISTS consent (

@@ -44,7 +44,7 @@ std::vector<RecordedObserverField> SessionRecord::observer_fields() const {
         const char* const sql =
             has_table(*database_, "observer_form")
                 ? "SELECT f.id, title, value, COALESCE(asked, 'begin'), at_ns FROM observer_field f "
-                  "LEFT JOIN observer_form USING (id) ORDER BY n"
+                  "LEFT JOIN observer_form o ON o.field = f.id ORDER BY n"
                 : "SELECT id, title, value, 'begin', NULL FROM observer_field ORDER BY n";
         return read_later_rows(*database_, "observer_field", sql, [](Query& row) {
             RecordedObserverField field;

@@ -335,13 +335,13 @@ void RowWriter::write(const std::vector<RecordedObserverField>& fields) {
     const std::string asked = fields.empty() ? std::string(form_at_begin) : fields.front().asked;
     SQLite::Statement forget(database_,
                              "DELETE FROM observer_field WHERE COALESCE((SELECT asked FROM observer_form "
-                             "WHERE observer_form.id = observer_field.id), 'begin') = ?1");
+                             "WHERE observer_form.field = observer_field.id), 'begin') = ?1");
     forget.bind(1, asked);
     forget.exec();
     for (const RecordedObserverField& field : fields) {
         insert_values(database_, "INTO observer_field (id, title, value)", field.id, field.title,
                       field.value);
-        insert_values(database_, "OR REPLACE INTO observer_form (id, sitting, asked, at_ns)", field.id,
+        insert_values(database_, "OR REPLACE INTO observer_form (field, sitting, asked, at_ns)", field.id,
                       sitting_, field.asked, field.at);
     }
 }
