@@ -147,6 +147,11 @@ TEST_CASE("the session shows the form where somebody can type, with what is know
     };
     CHECK(sitting.run().completed_trials == 2);
     CHECK(is_corrected);
+    REQUIRE(sitting.log.fields.size() == 2);
+    for (RecordedObserverField& field : sitting.log.fields) {
+        CHECK(field.at > SessionTime{});
+        field.at.reset();
+    }
     CHECK(sitting.log.fields ==
           std::vector<RecordedObserverField>{{"age", "Age in years", "20"}, {"sex", "Sex", "male"}});
     // Where all is known nobody is asked.
