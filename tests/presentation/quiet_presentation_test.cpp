@@ -72,6 +72,7 @@ std::vector<StepSettings> waiting_steps() {
     steps[0].kind = StepKind::fixation;
     steps[0].duration = StepDuration{StepDuration::Law::uniform, {}, 0.2, 0.4, 0.0};
     steps[1].kind = StepKind::show;
+    steps[1].slots = {Protocol().slots.front().id};
     steps[1].id = "a_name_that_is_longer_than_a_short_text";
     steps[1].gaze.emplace();
     steps[1].gaze->area = "head";

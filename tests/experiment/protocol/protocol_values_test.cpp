@@ -140,9 +140,9 @@ TEST_CASE("a single sphere or plane needs no list around it", "[unit]") {
     const ReadText list(minimal_protocol,
                         mesh + "head = { spheres = [[1, 2, 3, 4]], planes = [[[1, 2, 3], [0, 0, 1]]] }\n");
     REQUIRE((one.protocol && list.protocol));
-    const AreaSettings& shape = one.protocol->objects.at(0).areas.at(0);
-    CHECK(shape.spheres == list.protocol->objects.at(0).areas.at(0).spheres);
-    CHECK(shape.planes == list.protocol->objects.at(0).areas.at(0).planes);
+    const AreaSettings& shape = one.protocol->objects.back().areas.at(0);
+    CHECK(shape.spheres == list.protocol->objects.back().areas.at(0).spheres);
+    CHECK(shape.planes == list.protocol->objects.back().areas.at(0).planes);
     CHECK(shape.planes.size() == 1);
 }
 
@@ -154,7 +154,7 @@ TEST_CASE("head shapes that cannot be are found where they stand", "[unit]") {
           Lines{"15:21: spheres: expected 4 numbers, found 3"});
     CHECK(ReadText(minimal_protocol, mesh + "head = { spheres = [[1, 2, 3, 4]], planes = [[0, 1]] }\n")
               .lines() ==
-          Lines{"15:46: planes: expected a point and a direction, [[x, y, z], [nx, ny, nz]]"});
+          Lines{"15:45: planes: expected a point and a direction, [[x, y, z], [nx, ny, nz]]"});
     CHECK(ReadText(minimal_protocol, mesh + "head = 3\n").lines() ==
           Lines{"15:8: head: expected a table, found a whole number"});
 }
