@@ -107,6 +107,7 @@ class TrialRun {
     bool was_next_pressed_ = false;   ///< it came
     int gaze_checks_ = 0;             ///< drift checks in this attempt because gaze did not come
     SlotCycles slots_;
+    std::vector<Screen> held_; ///< what the watched steps that show no stimulus show, by step
     /// Of one tracker of the session.
     struct Feed {
         UsedTracker& used;

@@ -52,6 +52,10 @@ void TrialRun::run_steps(Running& running) {
 
 /// Steps during which gaze is recorded: nothing else happens between them.
 void TrialRun::run_watched(Running& running, std::size_t begin, std::size_t end) {
+    // Made before anything is shown: what follows a show must not allocate.
+    held_.resize(running.plan.steps.size());
+    for (std::size_t number = begin; number < end; ++number)
+        held_[number] = screen_of(running.plan.steps[number], circumstances(running, number));
     for (std::size_t number = begin; number < end && goes_on(running.attempt);) {
         if (!begin_watching(running)) {
             act_on_tracker(running.attempt);
@@ -271,9 +275,8 @@ void TrialRun::hold(Running& running, std::size_t number) {
     // What only waits for an answer that came already is passed over.
     if (step.ends_by_answer() && asking_.is_needless(number))
         return;
-    const Screen screen = screen_of(step, circumstances(running, number));
     const double refresh_hz = state_.protocol.display.refresh_hz;
-    const SessionTime onset = state_.show(screen);
+    const SessionTime onset = state_.show(held_[number]);
     mark_step(step, onset);
     add_row(running, step);
     begin_row(running, onset);
