@@ -137,9 +137,9 @@ struct AllNodes {
             weights.push_back(weight_of(*fixation, 1.0));
         return smoother_.density(weights);
     }
-    std::vector<double> at(const std::vector<double>& map, const Fixations& places) const {
+    std::vector<double> at(const std::vector<double>& map, const Fixations& there) const {
         std::vector<double> found;
-        for (const StudyFixation* place : places) {
+        for (const StudyFixation* place : there) {
             double value = 0.0;
             for (int corner = 0; corner < 3; ++corner)
                 value += place->barycentric[corner] *
