@@ -140,18 +140,20 @@ std::string movement_of(const Animation& motion) {
 
 void add_motion(std::string& text, const DesignReport& report, const AnimationFacts& animation) {
     const bool is_one_of_several = report.motions.size() > 1;
-    add_facts(
-        text, is_one_of_several ? "Motion" : "Animation",
-        {fmt::format("{}{} ({}), {}, {}", is_one_of_several ? animation.id + ": " : "",
-                     counted(animation.frames, "frame"), name_of(animation.motion.playback),
-                     counted(animation.distinct_poses, "distinct pose"), movement_of(animation.motion)),
-         fmt::format("shown: {} at {:.6g} Hz = {:.3f} s = {:.4g} swings to and fro",
-                     counted(animation.shown_frames, "frame"), animation.shown_frames / animation.duration_s,
-                     animation.duration_s, animation.periods),
-         fmt::format("each frame is lit for {} at {} Hz: {} refreshes{}",
-                     counted(animation.refreshes_per_frame, "refresh", "refreshes"),
-                     report.display.refresh_hz, animation.refreshes,
-                     difference_of_rates(report, animation))});
+    const bool moves = animation.distinct_poses > 1 || animation.motion.light_amplitude.value != 0.0;
+    add_facts(text, is_one_of_several ? "Motion" : "Animation",
+              {fmt::format("{}{} ({}), {}, {}", is_one_of_several ? animation.id + ": " : "",
+                           counted(animation.frames, "frame"), name_of(animation.motion.playback),
+                           counted(animation.distinct_poses, "distinct pose"), movement_of(animation.motion)),
+               moves ? fmt::format("shown: {} at {:.6g} Hz = {:.3f} s = {:.4g} swings to and fro",
+                                   counted(animation.shown_frames, "frame"),
+                                   animation.shown_frames / animation.duration_s, animation.duration_s,
+                                   animation.periods)
+                     : fmt::format("shown: {:.3f} s", animation.duration_s),
+               fmt::format("each frame is lit for {} at {} Hz: {} refreshes{}",
+                           counted(animation.refreshes_per_frame, "refresh", "refreshes"),
+                           report.display.refresh_hz, animation.refreshes,
+                           difference_of_rates(report, animation))});
 }
 
 /// "7.98 deg to the left of the screen's middle and 2.00 deg above it".

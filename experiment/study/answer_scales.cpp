@@ -54,15 +54,18 @@ void add_pair_scales(std::vector<AnswerScaleRow>& rows, const AnswerOf& of,
             if (const auto factor = only_difference(one->shown[0], one->shown[1]))
                 by_factor[*factor].push_back(one);
     for (const auto& [factor, pairs] : by_factor) {
+        // Numbers rise in the tables, words stand in the order of the alphabet.
+        std::set<std::pair<double, std::string>> levels;
+        for (const StudyAnswer* one : pairs)
+            for (const AnsweredStimulus* shown : {&one->shown[0], &one->shown[1]})
+                levels.emplace(shown->number(factor).value_or(0.0), level_in(*shown, factor));
         std::vector<std::string> items;
+        for (const auto& [number, level] : levels)
+            items.push_back(level);
         std::map<std::pair<std::size_t, std::size_t>, PairCount> counts;
         const auto item = [&](const AnsweredStimulus& shown) {
-            const std::string level = level_in(shown, factor);
-            const auto found = std::ranges::find(items, level);
-            const auto index = static_cast<std::size_t>(found - items.begin());
-            if (found == items.end())
-                items.push_back(level);
-            return index;
+            return static_cast<std::size_t>(std::ranges::find(items, level_in(shown, factor)) -
+                                            items.begin());
         };
         for (const StudyAnswer* one : pairs) {
             const std::size_t first = item(one->shown[0]), second = item(one->shown[1]);
