@@ -48,9 +48,10 @@ inline constexpr AnimationFrameIndex no_frame{-1};
 /// A row of the ledger: what was planned for a refresh of a presentation, and what was shown.
 struct FlipRecord {
     int trial = 0;
-    int refresh_in_trial = 0;    ///< since the onset of the attempt's first show, by the display's count
-    AnimationFrameIndex planned; ///< for this refresh; no_frame where the plan had ended, or the slot was empty
-    AnimationFrameIndex shown;   ///< no_frame: the slot was empty
+    int refresh_in_trial = 0; ///< since the onset of the attempt's first show, by the display's count
+    AnimationFrameIndex
+        planned;               ///< for this refresh; no_frame where the plan had ended, or the slot was empty
+    AnimationFrameIndex shown; ///< no_frame: the slot was empty
     PoseIndex pose;
     FlipReport report;
     /// Refreshes that went by with the picture before since the one that this was for. The ledger says so

@@ -171,7 +171,8 @@ GazeStepTrials simulate_gaze_steps(const Protocol& protocol, std::span<const Obj
                                               places, trial % 2 == 1, random);
         const SessionDuration late = from_seconds(random.uniform(0.001, 0.006));
         // As TrialRun::present: what has come is looked at before each flip.
-        watch.begin(wait, {{}, {{0, view}}}, 0, SessionTime(), readings, {"planted", sample_rate_hz, Eye::right});
+        watch.begin(wait, {{}, {{0, view}}}, 0, SessionTime(), readings,
+                    {"planted", sample_rate_hz, Eye::right});
         std::size_t next = 0, ended = flips.size();
         for (std::size_t flip = 0; flip < flips.size() && ended == flips.size(); ++flip) {
             const SessionTime now =

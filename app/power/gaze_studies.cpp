@@ -206,8 +206,7 @@ void GazeStudies::add_presentation(const Trial& trial, int place, std::uint64_t 
     for (const Factor& factor : factors_.all())
         if (!factor.levels.empty())
             shown.keys.push_back(
-                {factor.name,
-                 factor.levels[static_cast<std::size_t>(factors_.level_of(factor, seen))].name});
+                {factor.name, factor.levels[static_cast<std::size_t>(factors_.level_of(factor, seen))].name});
     shown.first_fixation = results.fixations.size();
 
     RandomStream random(seed, "calibration offset", static_cast<std::uint64_t>(trial.index));

@@ -47,8 +47,8 @@ class GazeStudies {
     void plant_spread(std::size_t effect, double spread, double of_log);
 
     /// Sessions, trials and fixations of observers 1 … `observers`, as read_study() gives them: a function of
-    /// the seed; of several slots, each is a trial. `wanted`: only those for which it is true of the trial with
-    /// this stimulus alone, each as it would be among all.
+    /// the seed; of several slots, each is a trial. `wanted`: only those for which it is true of the trial
+    /// with this stimulus alone, each as it would be among all.
     StudyResults study(std::uint64_t seed, int observers,
                        const std::function<bool(const Trial&)>& wanted = {}) const;
 
@@ -67,8 +67,8 @@ class GazeStudies {
     ObservedScene scene_of(std::uint64_t observer_seed) const;
     /// A show of a trial: what it lights, and what the observer does meanwhile.
     struct LookedAt {
-        std::vector<int> places; ///< of Trial::shown
-        SessionDuration onset{}, end{}; ///< since the trial's first
+        std::vector<int> places;                 ///< of Trial::shown
+        SessionDuration onset{}, end{};          ///< since the trial's first
         std::vector<ObservedPresentation> shown; ///< by index of `places`
         std::vector<ScriptedFixation> fixations;
     };

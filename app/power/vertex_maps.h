@@ -10,9 +10,10 @@
 
 namespace overt {
 
-/// The map of one fixation at each vertex of a coarse surface. Heat adds up, so every map is a weighted sum of
-/// these. Unlike the analysis, which has each fixation's own kernel and leaves out what no frame shows, the
-/// kernel has one width everywhere, that in the depth of the object's axis, and all of the surface counts.
+/// The map of one fixation at each vertex of a coarse surface. Heat adds up, so every map is a weighted sum
+/// of these. Unlike the analysis, which has each fixation's own kernel and leaves out what no frame shows,
+/// the kernel has one width everywhere, that in the depth of the object's axis, and all of the surface
+/// counts.
 class VertexMaps {
   public:
     /// `most_threads` as in SurfaceSmoother::densities.

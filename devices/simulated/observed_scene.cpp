@@ -64,9 +64,9 @@ ObservedScene make_observed_scene(const Protocol& protocol, std::span<const Obje
     for (const Task& task : protocol.tasks)
         for (const StepSettings& step : task.steps)
             if (step.kind == StepKind::show && (step.duration || step.ends_by_answer))
-                scene.longest_step_s = std::max(scene.longest_step_s, step.duration
-                                                                          ? step.duration->longest_s()
-                                                                          : protocol.screens.response_max_s);
+                scene.longest_step_s =
+                    std::max(scene.longest_step_s,
+                             step.duration ? step.duration->longest_s() : protocol.screens.response_max_s);
     scene.share_sd = protocol.simulated_observers.head_share_sd;
     return scene;
 }

@@ -63,7 +63,7 @@ struct ObservedScene {
     std::vector<ObservedEffect> effects = {};
     double share_sd = 0.0;                  ///< of the logit of each area's share, over observers
     std::vector<ScreenGeometry> slots = {}; ///< the screen with each slot's image; none: `screen` alone
-    double longest_step_s = 0.0;            ///< of the steps of tasks that show something for a time of their own
+    double longest_step_s = 0.0; ///< of the steps of tasks that show something for a time of their own
 
     const ScreenGeometry& screen_of_slot(int slot) const {
         return slots.empty() ? screen : slots[static_cast<std::size_t>(slot)];

@@ -64,7 +64,8 @@ void SimulatedObserver::presentation_begins(const Trial& trial, int show) noexce
                                       gaze_plan(scene_, seed_, trial.task, stimulus),
                                       &motions_[static_cast<std::size_t>(stimulus.motion)].turn, slot});
     }
-    presentation.script.compose(scene_, presentation.shown, settings_, seed_, script_number(trial.index, show));
+    presentation.script.compose(scene_, presentation.shown, settings_, seed_,
+                                script_number(trial.index, show));
 }
 
 void SimulatedObserver::flipped(const FlipRecord& flip) noexcept {

@@ -29,7 +29,7 @@ struct TrueGaze {
 /// All that is known about an instant.
 struct GazeTruth {
     TrueGaze gaze;
-    std::optional<SurfacePoint> target;       ///< what the fixation under way pursues
+    std::optional<SurfacePoint> target; ///< what the fixation under way pursues
     /// Really lit then on the row looked at: of the thing that has the gaze in its image, else of the first.
     std::optional<AnimationFrameIndex> frame;
     std::optional<SurfacePoint> surface; ///< what is under the gaze in that frame, by ray casting

@@ -31,8 +31,8 @@ struct Lighting {
 ///
 /// Row y of refresh r is lit from vertical_blank(r) + latency + y / screen_rows * one nominal refresh until
 /// the same row of the next refresh in the ledger (so a picture that stays because a refresh was dropped
-/// stays here too); after the last one of a show, for one nominal refresh. Rows above and below the screen are taken as
-/// its first and last.
+/// stays here too); after the last one of a show, for one nominal refresh. Rows above and below the screen
+/// are taken as its first and last.
 class FlipHistory {
   public:
     /// A show: its flips in any order, and the page cycle that it was to follow.

@@ -64,8 +64,8 @@ VisualAngles visual_angles(const Protocol& protocol) {
     return angles;
 }
 
-/// What a trial by steps adds to a session: steps as they are drawn for it, gaze that comes at once, and words
-/// and answers as long as is assumed of all.
+/// What a trial by steps adds to a session: steps as they are drawn for it, gaze that comes at once, and
+/// words and answers as long as is assumed of all.
 void add_steps(SessionLength& length, const Protocol& protocol, const TrialPlan& plan, double question_s,
                double answer_s) {
     bool was_watched = false;
@@ -123,8 +123,8 @@ SessionLength session_length(const Protocol& protocol, const Schedule& schedule,
             break;
         case SessionStep::Kind::trial:
             if (!protocol.tasks[static_cast<std::size_t>(step->trial.task)].steps.empty()) {
-                add_steps(length, protocol, plan_trial(protocol, schedule.seed, step->trial, false), question_s,
-                          answer_s);
+                add_steps(length, protocol, plan_trial(protocol, schedule.seed, step->trial, false),
+                          question_s, answer_s);
                 queue.tell({});
                 break;
             }

@@ -145,9 +145,10 @@ void check_apart(const Protocol& protocol, std::span<const int> shown_at_once, c
             const ScreenGeometry other = slot_geometry(protocol, slot_at(j));
             if (come_closer(one.image_origin_px, one.image_origin_px + one.image_px, other.image_origin_px,
                             other.image_origin_px + other.image_px, 2 * pair_reach_px(protocol.display)))
-                return report(fmt::format("the slots \"{}\" and \"{}\" overlap: {}, and {}", slot_at(j).id,
-                                          slot_at(i).id, pixels_of(other), pixels_of(one)),
-                              "make them smaller, place them farther apart, or show them in steps of their own");
+                return report(
+                    fmt::format("the slots \"{}\" and \"{}\" overlap: {}, and {}", slot_at(j).id,
+                                slot_at(i).id, pixels_of(other), pixels_of(one)),
+                    "make them smaller, place them farther apart, or show them in steps of their own");
         }
     }
 }

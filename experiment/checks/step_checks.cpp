@@ -108,8 +108,9 @@ class StepChecks {
         for (const std::string& name : names) {
             const std::vector<int> slots = slots_named(examination_.protocol, {name});
             if (slots.empty())
-                error(place, fmt::format("unknown slot \"{}\"", name),
-                      fmt::format("slots of task {} are {}", task_.id, fmt::join(ids_of_slots(slots_), ", ")));
+                error(
+                    place, fmt::format("unknown slot \"{}\"", name),
+                    fmt::format("slots of task {} are {}", task_.id, fmt::join(ids_of_slots(slots_), ", ")));
             else if (!std::ranges::all_of(slots, [&](int slot) { return is_shown_by_task(slot); }))
                 error(place,
                       fmt::format("task {} shows stimuli in {}, and this step in {}", task_.id,
@@ -136,7 +137,8 @@ class StepChecks {
                 const std::vector<int> shown = slots_named(examination_.protocol, step.slots);
                 for (const std::string& name : step.slots)
                     are_known = are_known && !slots_named(examination_.protocol, {name}).empty();
-                std::erase_if(missing, [&](int slot) { return std::ranges::find(shown, slot) != shown.end(); });
+                std::erase_if(missing,
+                              [&](int slot) { return std::ranges::find(shown, slot) != shown.end(); });
             }
         if (!last)
             error(task_.steps.front().place, fmt::format("no step of task {} shows the stimulus", task_.id),

@@ -12,8 +12,8 @@ namespace overt {
 class PresentationListener {
   public:
     virtual ~PresentationListener() = default;
-    /// A show of this trial begins with the next flip, and `lit` is what it lights of the trial: no more, and in
-    /// the trial's order. `show`: which of the attempt's it is, from 0.
+    /// A show of this trial begins with the next flip, and `lit` is what it lights of the trial: no more, and
+    /// in the trial's order. `show`: which of the attempt's it is, from 0.
     virtual void presentation_begins(const Trial& lit, int show) noexcept = 0;
     /// Of the first that is lit.
     virtual void flipped(const FlipRecord& flip) noexcept = 0;

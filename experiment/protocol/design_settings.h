@@ -41,7 +41,7 @@ struct Task {
     TrialsSettings trials = {};             ///< neither a rule nor a file: every stimulus, by `stimuli`
     std::filesystem::path trials_file = {}; ///< of a table; resolved against the protocol's folder
     CatchSettings catch_trials = {};
-    int repetitions = 1; ///< how often each of its trials comes
+    int repetitions = 1;                  ///< how often each of its trials comes
     std::vector<TaskAnswer> answers = {}; ///< none: the answer is spoken
 };
 
@@ -135,7 +135,7 @@ struct BlockSettings {
     DrawSettings draw = {};
     CriterionSettings criterion = {};
     std::string feedback = {}; ///< shown after it, with what was answered; empty: nothing
-    bool practice = false; ///< all is recorded of its trials, and results are not of them
+    bool practice = false;     ///< all is recorded of its trials, and results are not of them
     NamedNumbers max_run, min_distance;
     std::optional<int> max_task_run, max_object_run, max_material_run, max_stimulus_run;
     std::optional<int> min_task_distance, min_object_distance, min_material_distance, min_stimulus_distance;

@@ -29,8 +29,9 @@ std::filesystem::path folder_of(const Protocol& protocol, std::string_view key_p
 
 /// The files that a pattern stands for. Their names are kept beside the texts of included files, so that a
 /// session is taken up, and replayed, with those that it was begun with.
-std::optional<std::vector<std::string>> files_of(ProtocolExamination& examination, const IncludeReader& reader,
-                                                 const std::string& pattern, Place place) {
+std::optional<std::vector<std::string>> files_of(ProtocolExamination& examination,
+                                                 const IncludeReader& reader, const std::string& pattern,
+                                                 Place place) {
     Protocol& protocol = examination.protocol;
     std::filesystem::path folder = protocol.file.parent_path();
     for (const IncludedText& included : protocol.included)
@@ -150,7 +151,9 @@ bool read_written_keys(ProtocolExamination& examination, std::string_view text, 
     put_todays_words(joined.toml, protocol.file.string(), diagnostics);
     write_out_series(
         joined.toml, protocol.file.string(),
-        [&](const std::string& pattern, Place place) { return files_of(examination, reader, pattern, place); },
+        [&](const std::string& pattern, Place place) {
+            return files_of(examination, reader, pattern, place);
+        },
         diagnostics);
     KeyWalk(protocol_keys(), protocol.file.string(), protocol.places, examination.faulty, diagnostics)
         .read(joined.toml, protocol);

@@ -44,7 +44,11 @@ inline constexpr auto step_kinds = std::to_array<StepKindRow>({
      true},
     {StepKind::show, "show", "the trial's stimulus", {"for_s", "limit_s", "until", "frame"}, true},
     {StepKind::blank, "blank", "the background", {"for_s", "limit_s", "until"}, true},
-    {StepKind::mask, "mask", "noise where stimuli stand, or what they showed, scrambled", {"for_s", "cell_deg"}, true},
+    {StepKind::mask,
+     "mask",
+     "noise where stimuli stand, or what they showed, scrambled",
+     {"for_s", "cell_deg"},
+     true},
     {StepKind::answer, "answer", "the screen of the answer", {"limit_s"}, false},
     {StepKind::feedback, "feedback", "words by what was answered", {"for_s", "answered", "missed"}, false},
     {StepKind::drift_check, "drift_check", "the target by which the tracker's drift is measured", {}, false},
@@ -95,7 +99,8 @@ struct GazeWait {
     std::optional<double> within_deg; ///< of the fixation target, or of the screen's middle
     std::string area;                 ///< an area of the object; empty: within_deg says where
     Place area_place;
-    std::string slot; ///< where: its object, or its middle; empty: any that the step shows, or no slot's middle
+    std::string
+        slot; ///< where: its object, or its middle; empty: any that the step shows, or no slot's middle
     Place slot_place;
     double for_s = 0.2;
     double blink_s = 0.3; ///< gaze that is lost for no longer neither counts nor breaks

@@ -72,7 +72,8 @@ class SeriesWriter {
     }
 
   private:
-    /// Lists of files in place of patterns. Of several patterns in a series files of one name belong together.
+    /// Lists of files in place of patterns. Of several patterns in a series files of one name belong
+    /// together.
     bool write_out_patterns(TomlTable& keys) {
         const TomlEntry* first = nullptr;
         std::string first_written;
@@ -247,7 +248,8 @@ bool fits_pattern(std::string_view name, std::string_view pattern) {
     if (pattern.empty())
         return name.empty();
     if (pattern.front() == '*')
-        return fits_pattern(name, pattern.substr(1)) || (!name.empty() && fits_pattern(name.substr(1), pattern));
+        return fits_pattern(name, pattern.substr(1)) ||
+               (!name.empty() && fits_pattern(name.substr(1), pattern));
     return !name.empty() && (pattern.front() == '?' || pattern.front() == name.front()) &&
            fits_pattern(name.substr(1), pattern.substr(1));
 }

@@ -18,8 +18,8 @@ bool is_pattern(const std::filesystem::path& file);
 /// Whether a name fits a pattern's.
 bool fits_pattern(std::string_view name, std::string_view pattern);
 
-/// Gives the names of the files that a pattern stands for, in their order, or nothing once it has reported why
-/// there are none. `place`: where the pattern is written.
+/// Gives the names of the files that a pattern stands for, in their order, or nothing once it has reported
+/// why there are none. `place`: where the pattern is written.
 using FilesOfPattern =
     std::function<std::optional<std::vector<std::string>>(const std::string& pattern, Place place)>;
 

@@ -22,7 +22,8 @@ Json number(const std::optional<double>& value, int digits = 6);
 Json json_of(const Estimate& estimate);
 /// An array of pairs of a column and its level.
 Json json_of(const std::vector<StudyKey>& keys);
-/// Its value, those of two observers of the "other" and the "same" level and their "effect", the "null" and p.
+/// Its value, those of two observers of the "other" and the "same" level and their "effect", the "null" and
+/// p.
 Json json_of(const SimilarityEstimate& similarity);
 /// An array of three.
 Json json_of(const glm::dvec3& v);

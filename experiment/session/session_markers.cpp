@@ -126,8 +126,8 @@ void SessionMarkers::flipped(const FlipRecord& flip, int refresh) noexcept {
     if (is_new)
         send(is_onset ? MarkedEvent::onset : MarkedEvent::frame, lit, text, planned_, refresh);
     if (raised_now_ != 0)
-        keep_raised(lit, is_new ? text : std::string_view("REFRESH"), raised_now_, planned_,
-                    refresh, &flip.report);
+        keep_raised(lit, is_new ? text : std::string_view("REFRESH"), raised_now_, planned_, refresh,
+                    &flip.report);
 }
 
 RecordedMarker SessionMarkers::recorded(std::int64_t number, std::string_view output) const {

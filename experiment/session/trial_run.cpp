@@ -164,8 +164,8 @@ void TrialRun::present(Running& running, std::size_t number) {
             break;
         // Show the frame that the plan has next, and learn when it was lit.
         state_.markers.before_flip(ledger_.next_refresh(), ledger_.next().frame, presenter);
-        note_flip(ledger_.enter(
-            presenter.flip_slots(slots_.frames(ledger_.next().frame, ledger_.next_refresh()))));
+        note_flip(
+            ledger_.enter(presenter.flip_slots(slots_.frames(ledger_.next().frame, ledger_.next_refresh()))));
         // Take what the observer answers, and remember what the operator pressed, here or at the tracker's
         // host.
         if (ledger_.shown_refreshes() == 1)
@@ -238,8 +238,8 @@ void TrialRun::mark_trackers(SessionTime at, std::string_view text) noexcept {
             feed.used.tracker.mark({at, text});
 }
 
-/// For the trackers, the onset of a show, and each change of the frame of the first that it lights: "FRAME 12"
-/// is on the screen from its flip's vertical blank on.
+/// For the trackers, the onset of a show, and each change of the frame of the first that it lights: "FRAME
+/// 12" is on the screen from its flip's vertical blank on.
 void TrialRun::mark_flip(const FlipRecord& flip) noexcept {
     if (flip.shown == marked_frame_)
         return;

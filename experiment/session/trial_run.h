@@ -99,20 +99,21 @@ class TrialRun {
     Trial lit_;                     ///< the trial with what that step lights
     RefreshLedger ledger_;
     GazeWatch watch_;
-    int shows_ = 0;                         ///< of this attempt, of which flips were recorded
+    int shows_ = 0;                          ///< of this attempt, of which flips were recorded
     std::optional<RefreshIndex> first_flip_; ///< of its first show
     bool has_shown_ = false;                 ///< in what is watched now
-    bool has_ended_in_order_ = false; ///< what was watched in this attempt
-    bool awaits_key_ = false;         ///< of the observer, to end the step under way
-    bool was_next_pressed_ = false;   ///< it came
-    int gaze_checks_ = 0;             ///< drift checks in this attempt because gaze did not come
+    bool has_ended_in_order_ = false;        ///< what was watched in this attempt
+    bool awaits_key_ = false;                ///< of the observer, to end the step under way
+    bool was_next_pressed_ = false;          ///< it came
+    int gaze_checks_ = 0;                    ///< drift checks in this attempt because gaze did not come
     SlotCycles slots_;
     std::vector<Screen> held_; ///< what the watched steps that show no stimulus show, by step
     /// Of one tracker of the session.
     struct Feed {
         UsedTracker& used;
         TrackerFeed items;
-        GazeYield earlier = {}; ///< of what was watched in this attempt before an answer, and showed something
+        GazeYield earlier =
+            {}; ///< of what was watched in this attempt before an answer, and showed something
     };
     std::vector<Feed> feeds_;                     ///< of all trackers, the session's own first
     std::optional<ResponsePress> pressed_;        ///< by the operator during a presentation, the first

@@ -15,7 +15,6 @@
 #include "experiment/study/answer_results.h"
 #include "experiment/study/area_pairs.h"
 #include "experiment/study/area_shares.h"
-#include "experiment/study/surface_transitions.h"
 #include "experiment/study/difference_maps.h"
 #include "experiment/study/error_budget.h"
 #include "experiment/study/factor_effects.h"
@@ -32,6 +31,7 @@
 #include "experiment/study/screen_area_looks.h"
 #include "experiment/study/study_maps.h"
 #include "experiment/study/study_pairs.h"
+#include "experiment/study/surface_transitions.h"
 
 namespace overt {
 

@@ -10,9 +10,10 @@ namespace overt {
 
 /// Turns the display's reports into rows. One thread; allocates and throws nothing.
 ///
-/// The first flip is the onset, refresh 0 of an attempt's first show; further shows count on from there. For each refresh from there to the plan's end there is a row in
-/// the end: a FlipRecord, or a MissedRefresh if it went by with the picture before. What is planned for a
-/// refresh is always the nominal plan, whatever was done about lateness.
+/// The first flip is the onset, refresh 0 of an attempt's first show; further shows count on from there. For
+/// each refresh from there to the plan's end there is a row in the end: a FlipRecord, or a MissedRefresh if
+/// it went by with the picture before. What is planned for a refresh is always the nominal plan, whatever was
+/// done about lateness.
 class RefreshLedger {
   public:
     /// `cycle` must outlive the ledger.

@@ -14,9 +14,9 @@ namespace overt {
 /// own. One thread; after begin() it allocates and throws nothing.
 class SlotCycles {
   public:
-    /// Begins a show of a trial that has `shown_count` stimuli. `places`: those that it lights (Trial::shown),
-    /// rising, one at least; the first is the lead. `beside`: the cycles of the others, in their order; one
-    /// that ends before the ledger's begins again.
+    /// Begins a show of a trial that has `shown_count` stimuli. `places`: those that it lights
+    /// (Trial::shown), rising, one at least; the first is the lead. `beside`: the cycles of the others, in
+    /// their order; one that ends before the ledger's begins again.
     void begin(int trial, std::size_t shown_count, std::vector<int> places, std::vector<PageCycle> beside);
 
     /// What a flip is to show, of all that the trial has: `lead`, and beside it the frames of this refresh of

@@ -54,7 +54,7 @@ class VirtualRefresh final : public PresentationListener {
     DisplayFaults faults_;
     RandomStream jitter_;
     RefreshCount count_;
-    std::int64_t last_ = 0;     ///< by the display's own count
+    std::int64_t last_ = 0; ///< by the display's own count
     bool in_presentation_ = false;
     std::int64_t onset_ = -1; ///< -1: the presentation's first flip is still to come
     std::vector<DisplayFault> planned_, struck_;

@@ -200,8 +200,8 @@ void PagePresenter::put_masks(const Screen& screen) {
     }
 }
 
-/// On the card, so that it takes no longer than a screen: encoded pages, in squares of even columns, since some
-/// outputs join pixels in pairs. What is left at the edges stays empty.
+/// On the card, so that it takes no longer than a screen: encoded pages, in squares of even columns, since
+/// some outputs join pixels in pairs. What is left at the edges stays empty.
 void PagePresenter::put_scrambled(const InSlot& slot, glm::ivec2 slot_px, const Screen& screen, int place) {
     const double wished_px = screen.noise_cell.value * geometry_.px_per_deg_at_centre();
     const int side = std::max(2, 2 * static_cast<int>(std::lround(0.5 * wished_px)));
@@ -324,8 +324,8 @@ FlipReport PagePresenter::flip_slots(std::span<const AnimationFrameIndex> frames
     // An onset is when something comes up in a slot that was empty.
     bool is_onset = false;
     for (std::size_t i = 0; i < frames.size(); ++i)
-        is_onset = is_onset || (frames[i].value >= 0 &&
-                                (!is_stimulus_on_canvas_ || in_slots_[i].page_on_canvas < 0));
+        is_onset = is_onset ||
+                   (frames[i].value >= 0 && (!is_stimulus_on_canvas_ || in_slots_[i].page_on_canvas < 0));
     if (!is_stimulus_on_canvas_)
         surface_->show_pointer(beside_.shows_pointer);
     if (is_onset && display_.onset_trigger != 0) {

@@ -32,7 +32,8 @@ LiveMaps::LiveMaps(const GlContext& context, std::span<const Object> objects, co
         }
     }
     for (int i = 0; i < reads_at_once; ++i)
-        reads_.push_back({std::make_unique<PixelReadback>(context, image_px, PixelFormat::r32ui), nullptr, 0});
+        reads_.push_back(
+            {std::make_unique<PixelReadback>(context, image_px, PixelFormat::r32ui), nullptr, 0});
 }
 
 void LiveMaps::presentation_begins(const Trial& lit, int) noexcept {

@@ -15,7 +15,8 @@ constexpr int most_draws = 1000;
 
 /// n-back: whether a stimulus repeats the one `back` trials before. Exactly so many do as the share says; all
 /// others are drawn evenly from those that do not. Lures are what came one trial earlier or later than that;
-/// where a share is asked for, so many are, as far as that can be, and the rest is drawn from what is neither.
+/// where a share is asked for, so many are, as far as that can be, and the rest is drawn from what is
+/// neither.
 class StreamRule : public TrialRule {
   public:
     using TrialRule::TrialRule;
@@ -35,7 +36,8 @@ class StreamRule : public TrialRule {
                              "together they can be 1 at most"});
         const auto is_too_small = [](const std::vector<int>& stimuli) { return stimuli.size() < 4; };
         if (request().lures && std::ranges::any_of(stimuli_by_context(request()), is_too_small))
-            found.push_back({"lures", "of fewer than four stimuli some are always lures", "name four at least"});
+            found.push_back(
+                {"lures", "of fewer than four stimuli some are always lures", "name four at least"});
         if (std::ranges::any_of(stimuli_by_context(request()),
                                 [](const std::vector<int>& stimuli) { return stimuli.size() == 1; }))
             found.push_back({"of", "a stream of a single stimulus repeats it always", "name two at least"});

@@ -58,10 +58,10 @@ struct RuleRequest {
     std::vector<std::string> among; ///< slots; empty: all others
     int length = 0, back = 1;       ///< of a stream
     double repeats = 0.25;          ///< share of the trials of a stream that can repeat
-    /// Of a stream: share of the same trials that are what came one trial earlier or later than `back` before,
-    /// and not `back` before; nothing: as chance has it.
+    /// Of a stream: share of the same trials that are what came one trial earlier or later than `back`
+    /// before, and not `back` before; nothing: as chance has it.
     std::optional<double> lures;
-    int procedure_trials = 0;       ///< of all procedures of the task, in each context
+    int procedure_trials = 0; ///< of all procedures of the task, in each context
 };
 
 /// A trial as a rule gives it.

@@ -247,10 +247,9 @@ std::optional<SessionTime> next_begin(const SessionRecord& record, const TrialRe
 
 /// How an attempt ended, and what was answered, for a reader who has a row for each attempt.
 std::vector<std::pair<std::string, std::string>> outcomes_of(const TrialRecord& trial) {
-    std::vector<std::pair<std::string, std::string>> outcomes{
-        {"attempt", fmt::format("{}", trial.attempt)},
-        {"status", std::string(name_of(trial.status))},
-        {"counts", trial.counts ? "yes" : "no"}};
+    std::vector<std::pair<std::string, std::string>> outcomes{{"attempt", fmt::format("{}", trial.attempt)},
+                                                              {"status", std::string(name_of(trial.status))},
+                                                              {"counts", trial.counts ? "yes" : "no"}};
     const TrialOutcome& outcome = trial.outcome;
     if (trial.reached(outcome.responded_at) && trial.reached(outcome.response_screen_onset))
         outcomes.emplace_back(

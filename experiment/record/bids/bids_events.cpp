@@ -222,8 +222,7 @@ void add_events(std::vector<BidsEvent>& to, const TrialRecord& trial, SessionTim
         if (outcome.steps.empty())
             spans.emplace_back(outcome.presentation_onset, outcome.presentation_end);
         for (const auto& [onset, dark] : spans)
-            to.push_back(
-                {&shown, presentation_event, onset, dark, {}, stimulus_file(shown.trial.stimulus)});
+            to.push_back({&shown, presentation_event, onset, dark, {}, stimulus_file(shown.trial.stimulus)});
     }
     for (const GivenAnswer& given : outcome.given) {
         // What was missed stands where it could last have been given.
@@ -257,10 +256,10 @@ void add_events(std::vector<BidsEvent>& to, const TrialRecord& trial, SessionTim
     for (const AttemptStep* const step : further_steps(trial))
         if (step->kind != "show") // which are presentations
             to.push_back({.attempt = &trial,
-                      .what = step->kind,
-                      .from = *step->begin,
-                      .to = step->end.value_or(*step->begin),
-                      .value = step->id});
+                          .what = step->kind,
+                          .from = *step->begin,
+                          .to = step->end.value_or(*step->begin),
+                          .value = step->id});
 }
 
 /// Presses of buttons and keys in an attempt, and markers of it that were sent.

@@ -236,9 +236,8 @@ std::vector<RecordedShow> shows_of(const SessionHeader& header, const TrialRecor
             show.plan = planned_in(*step, std::move(show.plan),
                                    flips[end - 1].refresh_in_trial - show.first_refresh + 1);
         } else { // of an attempt that was cut off
-            show.is_lit = std::ranges::any_of(flips.subspan(begin, end - begin), [](const FlipRecord& flip) {
-                return flip.shown != no_frame;
-            });
+            show.is_lit = std::ranges::any_of(flips.subspan(begin, end - begin),
+                                              [](const FlipRecord& flip) { return flip.shown != no_frame; });
         }
         shows.push_back(std::move(show));
     }

@@ -86,8 +86,8 @@ TrialRecord TrialRecord::seen_in(std::size_t i) const {
             seen.trial.slot = shown.slot;
         }
     }
-    const bool tells_places = std::ranges::any_of(
-        outcome.steps, [](const AttemptStep& step) { return step.places.has_value(); });
+    const bool tells_places =
+        std::ranges::any_of(outcome.steps, [](const AttemptStep& step) { return step.places.has_value(); });
     if (tells_places && has_outcome()) {
         const auto spans = seen.lit_spans();
         const SessionTime never = started - SessionDuration(1);

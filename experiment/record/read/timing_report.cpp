@@ -37,8 +37,7 @@ void take_ledger(TrialTiming& timing, const TrialLedger& ledger, std::span<const
     const auto& [recorded, fit] = ledger;
     for (const RecordedShow& show : shows) {
         timing.planned_refreshes += show.plan.total_refreshes;
-        timing.unaccounted +=
-            show.plan.total_refreshes - rows_within(fit, show, timing.flipped_refreshes);
+        timing.unaccounted += show.plan.total_refreshes - rows_within(fit, show, timing.flipped_refreshes);
     }
     timing.missed_runs = fit.missed_runs();
     for (const MissedRun& run : timing.missed_runs)

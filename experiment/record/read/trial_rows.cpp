@@ -154,12 +154,13 @@ void add_steps(const SQLite::Database& database, std::vector<TrialRecord>& trial
     if (!has_table(database, "step"))
         return;
     const char* const places = has_column(database, "step", "places") ? "places" : "NULL";
-    for (Query row(database,
-                   fmt::format("SELECT trial_id, kind, id, planned_refreshes, drawn_s, still_frame, begin_ns, "
-                               "end_ns, ended_by, gaze_onset_us, gaze_detected_us, {} FROM step "
-                               "ORDER BY trial_id, n",
-                               places)
-                       .c_str());
+    for (Query row(
+             database,
+             fmt::format("SELECT trial_id, kind, id, planned_refreshes, drawn_s, still_frame, begin_ns, "
+                         "end_ns, ended_by, gaze_onset_us, gaze_detected_us, {} FROM step "
+                         "ORDER BY trial_id, n",
+                         places)
+                 .c_str());
          row.step();) {
         const auto trial = std::ranges::find(trials, row.integer(), &TrialRecord::id);
         AttemptStep step;

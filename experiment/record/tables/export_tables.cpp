@@ -33,8 +33,7 @@ ExportTables::ExportTables(const SessionHeader& header, const SharedColumns& sha
       display_box(display_box_layout()), buttons(buttons_layout()), key_presses(key_presses_layout()),
       markers(markers_layout()), steps(steps_layout(header)),
       given_answers(given_answers_layout(shared, header)), answer_inputs(answer_inputs_layout()),
-      participants(participants_layout(participant)),
-      has_slots_(shared.has_slots) {
+      participants(participants_layout(participant)), has_slots_(shared.has_slots) {
     const std::vector<LeadingColumn> leading{
         {{"observer", "Label of the observer"}, header.schedule.observer.label},
         {{"session", "Which session of this observer, from 1"}, std::to_string(header.session_number), true}};

@@ -32,9 +32,10 @@ void forget_sittings_from(const std::filesystem::path& session_file, int sitting
                       std::to_string(sitting));
         // Of later parts of the form it is known in which sitting they were filled in.
         if (has_table(database, "observer_form"))
-            database.exec(fmt::format("DELETE FROM observer_field WHERE id IN (SELECT field FROM observer_form "
-                                      "WHERE asked <> 'begin' AND sitting >= {})",
-                                      sitting));
+            database.exec(
+                fmt::format("DELETE FROM observer_field WHERE id IN (SELECT field FROM observer_form "
+                            "WHERE asked <> 'begin' AND sitting >= {})",
+                            sitting));
         for (const SealedTable& table : tables_to_seal(database)) {
             const char* const name = table.name.c_str();
             if (has_column(database, name, "sitting"))

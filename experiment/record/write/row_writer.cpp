@@ -415,8 +415,8 @@ void RowWriter::write(const TrialFinish& finish) {
                       "end_ns, ended_by, gaze_onset_us, gaze_detected_us, places)",
                       trial_counts_.trial_id, ++number, step.kind, step.id, step.planned_refreshes,
                       step.drawn_s, step.still_frame, step.begin, step.end,
-                      step.ended_by ? std::optional(name_of(*step.ended_by)) : std::nullopt,
-                      step.gaze_onset, step.gaze_detected, text_of_places(step.places));
+                      step.ended_by ? std::optional(name_of(*step.ended_by)) : std::nullopt, step.gaze_onset,
+                      step.gaze_detected, text_of_places(step.places));
     write_answers(outcome);
     for (const int trial : outcome.left_out)
         insert_values(database_, "OR REPLACE INTO given_up", trial, sitting_, "the criterion was met");

@@ -65,7 +65,8 @@ std::vector<StudyParameter> parameters_of(const StudyOptions& options) {
          "Columns of the table of trials whose values make the groups."},
         {"compare", options.compare, "", "The column whose levels are compared within observers."},
         {"area", options.areas.empty() ? "all" : fmt::format("{}", fmt::join(options.areas, ",")), "",
-         "Areas whose shares are compared and corrected over; the first of several names is that of figure 4."},
+         "Areas whose shares are compared and corrected over; the first of several names is that of figure "
+         "4."},
         {"sigma", fmt::format("{}", options.sigma.value), options.sigma.is_mm ? "mm" : "deg",
          "Standard deviation of the maps' kernel: millimetres of the object itself, or degrees of visual "
          "angle, which "

@@ -86,8 +86,9 @@ TEST_CASE("trials by steps are as long as their steps", "[unit]") {
         return settings;
     };
     for (Task& task : protocol.tasks)
-        task.steps = {step(StepKind::fixation, 0.5), step(StepKind::show, 1.0),   step(StepKind::blank, 0.25),
-                      step(StepKind::show, 2.0),     step(StepKind::answer, 3.0), step(StepKind::feedback, 0.5)};
+        task.steps = {step(StepKind::fixation, 0.5), step(StepKind::show, 1.0),
+                      step(StepKind::blank, 0.25),   step(StepKind::show, 2.0),
+                      step(StepKind::answer, 3.0),   step(StepKind::feedback, 0.5)};
     DesignAssumptions assumptions{.calibration_s = 100.0, .question_s = 0.5, .answer_s = 90.0};
     const SessionLength session = make_design_report(protocol, {}, 1, assumptions).session;
     CHECK(session.questions_s == 0.0);

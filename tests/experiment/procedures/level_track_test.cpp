@@ -86,7 +86,8 @@ TEST_CASE("a missed answer repeats, counts without saying anything, or is wrong"
     const double first = constant.next().value();
     constant.tell(first, TrackAnswer::missed);
     constant.tell(constant.next().value(), TrackAnswer::yes);
-    CHECK(constant.next() == (settings.missed == UnansweredTrial::repeat ? std::optional(first) : std::nullopt));
+    CHECK(constant.next() ==
+          (settings.missed == UnansweredTrial::repeat ? std::optional(first) : std::nullopt));
 }
 
 TEST_CASE("a staircase ends by trials and reversals, or by either", "[unit]") {

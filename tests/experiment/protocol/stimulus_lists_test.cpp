@@ -178,7 +178,8 @@ TEST_CASE("columns hold words or numbers, under names of their own", "[unit]") {
           Lines{"14:21: entries of [[material]] have a column \"gloss\", too"});
 }
 
-TEST_CASE("a pattern in a series stands for the files that fit, and a record keeps which they were", "[unit]") {
+TEST_CASE("a pattern in a series stands for the files that fit, and a record keeps which they were",
+          "[unit]") {
     CHECK(fits_pattern("a.ply", "*.ply"));
     CHECK(fits_pattern("shape-07.ply", "shape-??.ply"));
     CHECK_FALSE(fits_pattern("a.ply.bak", "*.ply"));
@@ -203,9 +204,9 @@ TEST_CASE("a pattern in a series stands for the files that fit, and a record kee
         CHECK(finding.message.find("series") == std::string::npos);
     // From a record: what is in the folder by now does not matter.
     Diagnostics kept;
-    const auto again = read_protocol_text(text, file, shipped_names, kept,
-                                          {{"shapes/*.ply", "c.ply\nd.ply\n"},
-                                           {"shapes/*.labels", "c.labels\nd.labels\n"}});
+    const auto again =
+        read_protocol_text(text, file, shipped_names, kept,
+                           {{"shapes/*.ply", "c.ply\nd.ply\n"}, {"shapes/*.labels", "c.labels\nd.labels\n"}});
     CAPTURE(kept.print());
     REQUIRE(again);
     CHECK(novel(*again) == std::vector<std::string>{"novel-c", "novel-d"});

@@ -54,7 +54,6 @@ id = "b"
 tasks = "t"
 )";
 
-
 bool has_said(const Sitting& sitting, std::string_view words) {
     return std::ranges::find(sitting.presenter.texts, words) != sitting.presenter.texts.end();
 }

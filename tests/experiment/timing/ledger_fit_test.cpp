@@ -63,7 +63,8 @@ TEST_CASE("a missed refresh has the cause that its times tell, and the margin to
     CHECK(LedgerFit(steady_flips(60), 100.0).missed_runs().empty());
 }
 
-TEST_CASE("what lies between two shows was not missed, by a display that counts no refreshes either", "[unit]") {
+TEST_CASE("what lies between two shows was not missed, by a display that counts no refreshes either",
+          "[unit]") {
     std::vector<FlipRecord> flips = steady_flips(60);
     for (std::size_t i = 30; i < flips.size(); ++i) {
         flips[i].step = 3;

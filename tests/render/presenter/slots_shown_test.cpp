@@ -184,8 +184,7 @@ TEST_CASE("a scrambled mask has the squares of what was shown last, in another o
             for (int x = 0; x < slot_px.x; x += 2) {
                 auto& square = squares.emplace_back();
                 for (int row = 0; row < 2; ++row) {
-                    const auto first =
-                        bytes.begin() + 4 * ((corner.y + y + row) * wide_px.x + corner.x + x);
+                    const auto first = bytes.begin() + 4 * ((corner.y + y + row) * wide_px.x + corner.x + x);
                     square.insert(square.end(), first, first + 8);
                 }
             }
