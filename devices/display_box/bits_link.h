@@ -21,8 +21,9 @@ namespace overt {
 
 /// How long to wait for what.
 struct BitsTimeouts {
-    /// A reply must have begun by then, and must go on within this time until it is complete.
-    SessionDuration reply = std::chrono::milliseconds(500);
+    /// A reply must have begun by then, and must go on within this time until it is complete. A box answers
+    /// within milliseconds; a machine that is busy may take a second to notice.
+    SessionDuration reply = std::chrono::seconds(2);
     /// A reply must be complete by then.
     SessionDuration whole_reply = std::chrono::seconds(5);
     /// So long nothing must come for the line to be quiet.
