@@ -54,7 +54,8 @@ void add_bench(CLI::App& app, ChosenCommand& chosen) {
     CLI::App& command = add_command(app, "bench", "The program's own benchmarks",
                                     "overt bench lut --json\n"
                                     "  overt bench lut --mesh statue.ply --up y\n"
-                                    "  overt bench events recordings --json");
+                                    "  overt bench events recordings --json\n"
+                                    "  overt bench procedures");
     std::vector<std::string> names, lines;
     for (const Benchmark& one : benchmarks) {
         names.emplace_back(one.name);

@@ -103,14 +103,18 @@ TEST_CASE("pairs and triads give back the scale of a made-up observer", "[unit]"
                 }
         }
     const std::vector<AnswerScaleRow> of_pairs = answer_scales(answers_by(pairs), quick_options());
+    std::vector<double> checked; ///< levels, as the rows stand
     for (const AnswerScaleRow& row : of_pairs) {
         if (row.method != "Thurstone Case V" || row.of.observer.empty())
             continue;
+        checked.push_back(std::stod(row.level));
         const auto place = static_cast<std::size_t>(std::lround(10.0 * std::stod(row.level))) - 1;
         CHECK(row.value.value.value() / (3.0 * std::sqrt(2.0)) == Approx(scale[place] - 0.4).margin(0.1));
         CHECK(row.first_slot.value() / std::sqrt(2.0) == Approx(0.5).margin(0.2));
         CHECK(row.trials == 1200);
     }
+    REQUIRE(checked.size() >= 5);
+    CHECK(std::is_sorted(checked.begin(), checked.begin() + 5));
     const std::vector<AnswerScaleRow> of_triads = answer_scales(answers_by(triads), quick_options());
     REQUIRE(of_triads.size() == 10); // of the observer and of all
     for (std::size_t i = 0; i < 5; ++i) {
