@@ -1,5 +1,6 @@
 /// The types that the value of a key can have: one object for each, with all that is done with such a value.
-/// A type of its own needs a read_value() and a row in value_type.cpp.
+/// A type of its own needs a read_value() (value_read.h), the form it
+/// has in a file (value_schema.h) and a row in value_type.cpp.
 #pragma once
 
 #include <array>
@@ -64,13 +65,13 @@ const ValueType& value_type(TypeTag<std::vector<std::array<glm::dvec3, 2>>>); //
 /// Numbers by names, in the order of the file: { rim = 0.2, base = 0.3 }. The rule holds for each number.
 const ValueType& value_type(TypeTag<std::vector<std::pair<std::string, double>>>);
 
-/// A name that the file gives to something: letters, digits, - and _, 40 at most. `what`: of which it is.
-ValueResult check_name(const std::string& name, Place place, std::string_view what);
 /// Tables of names that no table of keys knows. The rule holds for each value.
 const ValueType& value_type(TypeTag<NamedNumbers>);
 const ValueType& value_type(TypeTag<NamedWords>);
 const ValueType& value_type(TypeTag<Series>);
 
+/// A name that the file gives to something: letters, digits, - and _, 40 at most. `what`: of which it is.
+ValueResult check_name(const std::string& name, Place place, std::string_view what);
 /// A text that is one of the rule's choices: which.
 ValueResult read_choice(const TomlValue& value, const KeyRule& rule, std::size_t& index);
 
