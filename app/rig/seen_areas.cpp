@@ -1,6 +1,7 @@
 #include "app/rig/seen_areas.h"
 
 #include "experiment/maps/sight_lines.h"
+#include "experiment/scene/areas.h"
 #include "experiment/scene/ray_caster.h"
 
 namespace overt {

@@ -22,6 +22,11 @@ std::vector<std::string_view> areas_of_part(std::string_view part_name) {
     }
 }
 
+bool part_is_in_area(std::string_view part_name, std::string_view area) {
+    const std::vector<std::string_view> areas = areas_of_part(part_name);
+    return std::ranges::find(areas, area) != areas.end();
+}
+
 std::string_view usual_area(std::span<const std::string> names) {
     if (std::ranges::find(names, head_area) != names.end())
         return head_area;

@@ -51,6 +51,8 @@ class Areas {
 
 /// The areas that a part of that name belongs to.
 std::vector<std::string_view> areas_of_part(std::string_view part_name);
+/// Whether it is one of them; the rest of a surface counts as an area here, too.
+bool part_is_in_area(std::string_view part_name, std::string_view area);
 
 /// Of names of areas: "head" if it is there, else the first that is not the rest of the surface, else the
 /// first; empty if there are none.

@@ -1,18 +1,6 @@
 #include "experiment/scene/mesh.h"
 
-#include <algorithm>
-
 namespace overt {
-
-bool part_is_in_area(std::string_view part_name, std::string_view area) {
-    for (std::size_t begin = 0; begin <= part_name.size();) {
-        const std::size_t end = std::min(part_name.find('/', begin), part_name.size());
-        if (part_name.substr(begin, end - begin) == area)
-            return true;
-        begin = end + 1;
-    }
-    return false;
-}
 
 namespace {
 

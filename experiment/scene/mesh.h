@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -25,9 +24,6 @@ inline constexpr std::uint64_t max_mesh_vertices = 0x7fffffff;
 
 /// Index into Mesh::part_names.
 using PartIndex = std::uint8_t;
-
-/// Whether a part belongs to an area: it has its name, or is one of several areas at once, "head/eyes".
-bool part_is_in_area(std::string_view part_name, std::string_view area);
 
 /// Positions, triangles and the part of the figure that each triangle belongs to.
 struct Mesh {
