@@ -125,6 +125,8 @@ void Rig::open(SimulatedFaults faults, SessionTime start) {
     simulated_answers_ = std::make_unique<SimulatedAnswers>(*protocol_, request_.seed);
     observer_ = std::make_unique<SimulatedObserver>(make_observed_scene(*protocol_, objects_, geometry),
                                                     request_.seed);
+    observer_->let_answers_guide(
+        [this](const Trial& lit) { return simulated_answers_->favour_of(lit, observer_->scene().areas); });
     MadeTracker made = make_tracker({.protocol = *protocol_,
                                      .clock = clock(),
                                      .observer = *observer_,

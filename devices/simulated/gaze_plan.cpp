@@ -8,6 +8,15 @@
 
 namespace overt {
 
+void favour_area(GazePlan& plan, const GazeFavour& favour) noexcept {
+    const auto area = static_cast<std::size_t>(favour.area);
+    if (favour.area < 0 || area >= plan.area_count)
+        return;
+    const double before = plan.shares[area], all = 1.0 - before + before * favour.odds;
+    for (std::size_t i = 0; i < plan.area_count; ++i)
+        plan.shares[i] *= (i == area ? favour.odds : 1.0) / all;
+}
+
 GazePlan gaze_plan(const ObservedScene& scene, std::uint64_t seed, int task, Stimulus stimulus) noexcept {
     GazePlan plan;
     plan.area_count = std::min(scene.areas.size(), most_observed_areas);

@@ -25,6 +25,16 @@ struct GazePlan {
     double spread = 0.0;
 };
 
+/// How what an observer is going to answer changes where they look before.
+struct GazeFavour {
+    int slot = -1;      ///< index into the protocol's, that is looked at more, or less, than others; -1: none
+    double share = 0.0; ///< of the fixations, on it
+    int area = -1;      ///< of ObservedScene::areas; -1: none
+    double odds = 1.0;  ///< times those of a fixation on that area
+};
+/// Multiplies the odds of the area in a plan; what it gains all other shares lose in proportion.
+void favour_area(GazePlan& plan, const GazeFavour& favour) noexcept;
+
 /// The plan of an observer, who is known by the seed: the task's shares of areas, the odds of each times
 /// those of all effects on it that hold in the trial, and on the scale of logits the observer's own
 /// inclination to it, which is normal with the scene's standard deviation; then all shares are brought to a

@@ -125,6 +125,22 @@ struct Composer {
         return area;
     }
 
+    std::size_t choose_shown() {
+        double all = 0.0;
+        bool is_alike = true;
+        for (const ObservedPresentation& one : shown) {
+            all += one.weight;
+            is_alike = is_alike && one.weight == shown.front().weight;
+        }
+        if (is_alike || !(all > 0.0))
+            return which.below(static_cast<std::uint32_t>(shown.size()));
+        double chance = all * which.uniform();
+        std::size_t chosen = 0;
+        for (; chosen + 1 < shown.size() && chance >= shown[chosen].weight; ++chosen)
+            chance -= shown[chosen].weight;
+        return chosen;
+    }
+
     bool find_in_another(const Departure& before, ScriptedFixation& next, double duration_s,
                          std::size_t region) {
         for (std::size_t other = shown[next.shown].targets->elsewhere() + 1; other-- > 0;) {
@@ -137,8 +153,8 @@ struct Composer {
     ScriptedFixation next_fixation(const ScriptedFixation& last) {
         ScriptedFixation next;
         if (shown.size() > 1)
-            next.shown = which.below(static_cast<std::uint32_t>(shown.size()));
-        const auto& [targets, screen, plan, turn, slot] = shown[next.shown];
+            next.shown = choose_shown();
+        const auto& [targets, screen, plan, turn, slot, weight] = shown[next.shown];
         const Departure before = departure_of(last, shown[next.shown]);
         const double duration_s =
             log_normal_within(random, settings.fixation_median_s, settings.fixation_log_sd,

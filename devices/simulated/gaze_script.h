@@ -72,6 +72,7 @@ struct ObservedPresentation {
     GazePlan plan;
     const PursuedTurn* turn = nullptr; ///< with `targets`, never null
     int slot = 0;                      ///< index into the protocol's
+    double weight = 1.0;               ///< how often a fixation is on it, beside the others' weights
 };
 
 /// The fixations of one presentation in order; between the end of one and the begin of the next lies a
@@ -96,8 +97,8 @@ class GazeScript {
         const ObservedPresentation only{targets, scene.screen, plan, &turn};
         compose(scene, {&only, 1}, settings, seed, trial);
     }
-    /// The same of several things shown at once (one at least): each fixation is on one of them, all equally
-    /// probable.
+    /// The same of several things shown at once (one at least): each fixation is on one of them, as probable
+    /// as its weight says.
     void compose(const ObservedScene& scene, std::span<const ObservedPresentation> shown,
                  const ObserverSettings& settings, std::uint64_t seed, int trial) noexcept;
 

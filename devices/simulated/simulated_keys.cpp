@@ -8,6 +8,7 @@
 
 #include "experiment/base/text_number.h"
 #include "experiment/base/utf8_text.h"
+#include "experiment/design/answer_forms.h"
 #include "experiment/ports/recorded_key_press.h"
 
 namespace overt {
@@ -25,7 +26,45 @@ constexpr double late_by_s = 0.15;
 } // namespace
 
 SimulatedAnswers::SimulatedAnswers(const Protocol& protocol, std::uint64_t seed)
-    : protocol_(protocol), factors_(factors_of(protocol)), seed_(seed) {}
+    : protocol_(protocol), factors_(factors_of(protocol)), seed_(seed) {
+    for (const SimulatedEffect& effect : protocol.simulated_effects)
+        effect_entries_.push_back(chosen_by(protocol, effect));
+}
+
+SimulatedAnswers::Leaning SimulatedAnswers::leaning_to(const std::string& answer, const Trial& trial,
+                                                       const Stimulus& stimulus) const {
+    Leaning leaning;
+    for (std::size_t i = 0; i < effect_entries_.size(); ++i) {
+        const SimulatedEffect& effect = protocol_.simulated_effects[i];
+        const std::string& task = protocol_.tasks[static_cast<std::size_t>(trial.task)].id;
+        if (effect.answer != answer || (!effect.task.empty() && effect.task != task))
+            continue;
+        const auto holds = [&](const Stimulus& shown) {
+            for (std::size_t list = 0; list < stimulus_lists.size(); ++list)
+                if (!effect_entries_[i][list][static_cast<std::size_t>(shown.*stimulus_lists[list].index)])
+                    return false;
+            return true;
+        };
+        if (!holds(stimulus))
+            continue;
+        leaning.shift += effect.answer_shift;
+        bool is_of_all = true;
+        for (std::size_t place = 0; place < trial.shown_count(); ++place)
+            is_of_all = is_of_all && holds(trial.shown(place).stimulus);
+        if (is_of_all) {
+            leaning.slope *= effect.answer_slope;
+            leaning.odds *= effect.answer_odds;
+        }
+    }
+    return leaning;
+}
+
+double SimulatedAnswers::inclination(const AnswerOffer& offer, const AnswerTruth& truth) const {
+    return truth.observer_sd > 0.0
+               ? truth.observer_sd *
+                     RandomStream(seed_, fmt::format("inclination {} {}", offer.id, offer.item)).normal()
+               : 0.0;
+}
 
 std::optional<double> SimulatedAnswers::level(const Trial& trial, const Stimulus& stimulus,
                                               std::string_view factor) const {
@@ -37,26 +76,31 @@ std::optional<double> SimulatedAnswers::level(const Trial& trial, const Stimulus
     return found->levels[static_cast<std::size_t>(factors_.level_of(*found, trial, stimulus))].number;
 }
 
-int SimulatedAnswers::choose(const AnswerOffer& offer, const Trial& trial, const AnswerTruth& truth,
-                             RandomStream& random) const {
-    const int count = static_cast<int>(offer.values.size());
+int SimulatedAnswers::choose(const AnswerOffer& offer, const std::vector<std::string>& values,
+                             const Trial& trial, const AnswerTruth& truth, RandomStream& random) const {
+    const int count = static_cast<int>(values.size());
     const int by_chance = static_cast<int>(random.below(static_cast<std::uint32_t>(std::max(1, count))));
     if (random.uniform() < truth.lapses)
         return by_chance;
     // Among slots: the first as written in the protocol has the bias, wherever its key is.
-    std::vector<std::optional<double>> of_slot(offer.values.size());
+    std::vector<std::optional<double>> of_slot(values.size());
     for (std::size_t i = 0; i < trial.shown_count() && !truth.by.empty(); ++i) {
         const auto [stimulus, slot] = trial.shown(i);
-        const auto at = std::ranges::find(offer.values, protocol_.slots[static_cast<std::size_t>(slot)].id);
-        if (at != offer.values.end())
-            of_slot[static_cast<std::size_t>(at - offer.values.begin())] = level(trial, stimulus, truth.by);
+        const auto at = std::ranges::find(values, protocol_.slots[static_cast<std::size_t>(slot)].id);
+        const std::optional<double> here = level(trial, stimulus, truth.by);
+        if (at == values.end() || !here)
+            continue;
+        const Leaning leaning = leaning_to(offer.id, trial, stimulus);
+        of_slot[static_cast<std::size_t>(at - values.begin())] =
+            truth.slope * leaning.slope * *here + leaning.shift;
     }
+    const double bias = truth.bias + inclination(offer, truth);
     if (std::ranges::any_of(of_slot, [](const auto& one) { return one.has_value(); })) {
         int best = 0;
         double most = -1e300;
         for (int i = 0; i < count; ++i) {
-            const double judged = truth.slope * of_slot[static_cast<std::size_t>(i)].value_or(0.0) +
-                                  (i == 0 ? truth.bias : 0.0) + random.normal() / std::numbers::sqrt2;
+            const double judged = of_slot[static_cast<std::size_t>(i)].value_or(0.0) + (i == 0 ? bias : 0.0) +
+                                  random.normal() / std::numbers::sqrt2;
             if (judged > most) {
                 most = judged;
                 best = i;
@@ -64,16 +108,18 @@ int SimulatedAnswers::choose(const AnswerOffer& offer, const Trial& trial, const
         }
         return best;
     }
+    const Leaning leaning = leaning_to(offer.id, trial, trial.stimulus);
     if (const auto here = truth.by.empty() ? std::nullopt : level(trial, trial.stimulus, truth.by)) {
-        const double judged =
-            truth.slope * (*here - truth.offset.value_or(0.0)) + truth.bias + random.normal();
+        const double judged = truth.slope * leaning.slope * (*here - truth.offset.value_or(0.0)) +
+                              leaning.shift + bias + random.normal();
         return std::clamp(static_cast<int>(std::lround(0.5 * (count - 1) + judged)), 0, count - 1);
     }
-    const auto correct = std::ranges::find(offer.values, offer.correct);
-    if (correct == offer.values.end())
+    const auto correct = std::ranges::find(values, offer.correct);
+    if (correct == values.end())
         return by_chance;
-    const int right = static_cast<int>(correct - offer.values.begin());
-    if (count < 2 || random.uniform() < truth.share_correct)
+    const int right = static_cast<int>(correct - values.begin());
+    const double odds = leaning.odds * truth.share_correct;
+    if (count < 2 || random.uniform() < odds / (1.0 - truth.share_correct + odds))
         return right;
     return (right + 1 + static_cast<int>(random.below(static_cast<std::uint32_t>(count - 1)))) % count;
 }
@@ -85,8 +131,9 @@ std::optional<double> SimulatedAnswers::judge(const AnswerOffer& offer, const Tr
     const std::optional<double> here =
         truth.by.empty() ? std::nullopt : level(trial, trial.stimulus, truth.by);
     const double middle = here ? 0.0 : 0.5 * (offer.low.value_or(0.0) + offer.high.value_or(0.0));
-    const double judged =
-        truth.offset.value_or(middle) + truth.gain * here.value_or(0.0) + truth.noise * random.normal();
+    const Leaning leaning = leaning_to(offer.id, trial, trial.stimulus);
+    const double judged = truth.offset.value_or(middle) + truth.gain * leaning.slope * here.value_or(0.0) +
+                          leaning.shift + inclination(offer, truth) + truth.noise * random.normal();
     if (!truth.cuts.empty() && !offer.numbers.empty()) {
         const auto below = static_cast<std::size_t>(
             std::ranges::count_if(truth.cuts, [&](double cut) { return cut < judged; }));
@@ -102,6 +149,13 @@ std::optional<double> SimulatedAnswers::judge(const AnswerOffer& offer, const Tr
     if (offer.high)
         number = std::min(number, *offer.high);
     return number;
+}
+
+std::vector<std::string> SimulatedAnswers::values_of(const AnswerOffer& offer, const TaskAnswer* settings) {
+    const auto& written = settings && settings->is_choice() ? settings->choices
+                          : settings                        ? settings->keys
+                                                            : offer.values;
+    return written.size() == offer.values.size() ? written : offer.values;
 }
 
 SimulatedAnswers::Intended SimulatedAnswers::answer(const AnswerOffer& offer, const Trial& trial) const {
@@ -126,11 +180,54 @@ SimulatedAnswers::Intended SimulatedAnswers::answer(const AnswerOffer& offer, co
         const double sd = screen.image_px.y / 8.0;
         given.right_px = middle.x_px - screen.centre().x_px + sd * what.normal();
         given.down_px = middle.y_px - screen.centre().y_px + sd * what.normal();
-    } else if (!offer.values.empty() && offer.numbers.empty())
-        given.choice = choose(offer, trial, truth, what);
-    else
+    } else if (!offer.values.empty() && offer.numbers.empty()) {
+        // Choices go round over the keys: what is meant is one of those that are written in the protocol.
+        const std::vector<std::string> values =
+            values_of(offer, found == task.answers.end() ? nullptr : &*found);
+        const int meant = choose(offer, values, trial, truth, what);
+        given.choice = static_cast<int>(
+            std::ranges::find(offer.values, values[static_cast<std::size_t>(meant)]) - offer.values.begin());
+    } else
         given.number = judge(offer, trial, truth, what);
     return given;
+}
+
+GazeFavour SimulatedAnswers::favour_of(const Trial& lit, const std::vector<std::string>& areas) const {
+    GazeFavour favour;
+    for (const TaskAnswer& answer : protocol_.tasks[static_cast<std::size_t>(lit.task)].answers) {
+        const AnswerTruth& truth = answer.truth;
+        if (!answer.is_choice() || (!truth.look_share && truth.look_area.empty()))
+            continue;
+        const auto slot_of = [&](const std::string& choice) {
+            const auto slot = std::ranges::find(protocol_.slots, choice, &Slot::id);
+            return slot == protocol_.slots.end() ? -1 : static_cast<int>(slot - protocol_.slots.begin());
+        };
+        const auto is_lit = [&](const std::string& choice) {
+            const int slot = slot_of(choice);
+            for (std::size_t place = 0; place < lit.shown_count(); ++place)
+                if (lit.shown(place).slot == slot)
+                    return true;
+            return slot < 0;
+        };
+        if (!std::ranges::all_of(answer.choices, is_lit))
+            continue; // the choice is not made yet, or was
+        AnswerOffer offer;
+        offer.id = answer.id;
+        offer.values = answer.choices;
+        offer.correct = correct_value(protocol_, answer, lit);
+        const int chosen = this->answer(offer, lit).choice;
+        if (truth.look_share) {
+            favour.slot = slot_of(answer.choices[static_cast<std::size_t>(chosen)]);
+            favour.share = *truth.look_share;
+        }
+        const auto area = std::ranges::find(areas, truth.look_area);
+        if (area != areas.end() && chosen == 0) {
+            favour.area = static_cast<int>(area - areas.begin());
+            favour.odds = truth.look_odds;
+        }
+        break;
+    }
+    return favour;
 }
 
 void SimulatedKeys::clear() noexcept {

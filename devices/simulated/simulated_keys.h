@@ -1,15 +1,20 @@
 /// The keys by which a simulated observer answers: what is answered comes of the protocol's planted truth.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "devices/simulated/gaze_plan.h"
 #include "experiment/base/random.h"
 #include "experiment/factors.h"
 #include "experiment/ports/answer_offer.h"
 #include "experiment/ports/observer_input.h"
 #include "experiment/protocol/protocol.h"
+#include "experiment/stimulus_lists.h"
 
 namespace overt {
 
@@ -31,16 +36,33 @@ class SimulatedAnswers {
     };
     Intended answer(const AnswerOffer& offer, const Trial& trial) const;
 
+    /// How the first of the task's choices that says so (AnswerTruth::look_share, look_area) has the observer
+    /// look before it, where what is lit has a stimulus in each slot that can be chosen. `areas`: those that
+    /// gaze is meant for.
+    GazeFavour favour_of(const Trial& lit, const std::vector<std::string>& areas) const;
+
   private:
+    /// What effects of the protocol, and the observer, add to a judgement of a stimulus.
+    struct Leaning {
+        double shift = 0.0, slope = 1.0, odds = 1.0;
+    };
+    Leaning leaning_to(const std::string& answer, const Trial& trial, const Stimulus& stimulus) const;
     std::optional<double> level(const Trial& trial, const Stimulus& stimulus, std::string_view factor) const;
-    int choose(const AnswerOffer& offer, const Trial& trial, const AnswerTruth& truth,
-               RandomStream& random) const;
+    /// What an observer adds to all judgements of an answer.
+    double inclination(const AnswerOffer& offer, const AnswerTruth& truth) const;
+    /// What can be chosen, as the protocol has it; the offer has it by keys.
+    static std::vector<std::string> values_of(const AnswerOffer& offer, const TaskAnswer* settings);
+    /// Index into `values`.
+    int choose(const AnswerOffer& offer, const std::vector<std::string>& values, const Trial& trial,
+               const AnswerTruth& truth, RandomStream& random) const;
     std::optional<double> judge(const AnswerOffer& offer, const Trial& trial, const AnswerTruth& truth,
                                 RandomStream& random) const;
 
     const Protocol& protocol_;
     Factors factors_;
     std::uint64_t seed_;
+    /// By simulated effect of the protocol: for each list, whether it holds for each entry.
+    std::vector<std::array<std::vector<bool>, stimulus_lists.size()>> effect_entries_;
 };
 
 /// Presses planned in advance, that come when their time has come. next() and window_opened() allocate and

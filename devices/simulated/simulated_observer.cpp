@@ -17,6 +17,13 @@ ScreenPoint between(ScreenPoint from, ScreenPoint to, double share) {
     return {from.x_px + share * (to.x_px - from.x_px), from.y_px + share * (to.y_px - from.y_px)};
 }
 
+/// Of a slot among so many that are lit.
+double weight_of(int slot, const GazeFavour& favour, std::size_t count) {
+    if (favour.slot < 0 || count < 2)
+        return 1.0;
+    return slot == favour.slot ? favour.share : (1.0 - favour.share) / static_cast<double>(count - 1);
+}
+
 double share_of(SessionTime time, SessionTime begin, SessionTime end) {
     return to_seconds(time - begin) / to_seconds(end - begin);
 }
@@ -58,11 +65,15 @@ void SimulatedObserver::presentation_begins(const Trial& trial, int show) noexce
     Presentation& presentation = *presentations_[begun_++];
     presentation.trial = trial.index;
     presentation.shown.clear();
-    for (std::size_t i = 0; i < trial.shown_count(); ++i) {
+    const GazeFavour favour = favour_ ? favour_(trial) : GazeFavour{};
+    const std::size_t count = trial.shown_count();
+    for (std::size_t i = 0; i < count; ++i) {
         const auto [stimulus, slot] = trial.shown(i);
+        GazePlan plan = gaze_plan(scene_, seed_, trial.task, stimulus);
+        favour_area(plan, favour);
         presentation.shown.push_back({targets_[scene_.index_of(stimulus)].get(), scene_.screen_of_slot(slot),
-                                      gaze_plan(scene_, seed_, trial.task, stimulus),
-                                      &motions_[static_cast<std::size_t>(stimulus.motion)].turn, slot});
+                                      plan, &motions_[static_cast<std::size_t>(stimulus.motion)].turn, slot,
+                                      weight_of(slot, favour, count)});
     }
     presentation.script.compose(scene_, presentation.shown, settings_, seed_,
                                 script_number(trial.index, show));

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "devices/simulated/eye_movements.h"
@@ -59,6 +61,12 @@ class SimulatedObserver final : public PresentationListener {
   public:
     /// Throws GraphicsError if an object's rays cannot be cast. The scene's meshes must outlive this.
     SimulatedObserver(ObservedScene scene, std::uint64_t seed, const ObserverSettings& settings = {});
+
+    /// How each trial's answer changes where the observer looks before it; without, it does not. Told before
+    /// the first presentation.
+    void let_answers_guide(std::function<GazeFavour(const Trial& lit)> favour) {
+        favour_ = std::move(favour);
+    }
 
     /// Casts some thousand rays, which takes about a millisecond. Where a show follows another directly, room
     /// for it is made as well.
@@ -129,6 +137,7 @@ class SimulatedObserver final : public PresentationListener {
     ObservedScene scene_;
     std::uint64_t seed_;
     ObserverSettings settings_;
+    std::function<GazeFavour(const Trial& lit)> favour_;
     /// A motion as it is seen.
     struct Motion {
         PursuedTurn turn;

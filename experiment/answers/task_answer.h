@@ -79,6 +79,14 @@ struct AnswerTruth {
     double early = 0.0;   ///< with a press before the window, too
     double late = 0.0;    ///< answered after the window closed
     double missing = 0.0; ///< not answered
+    /// Standard deviation over observers of what is on top of the judgement: of choices in standard
+    /// deviations of the judgement, else in units of the answer.
+    double observer_sd = 0.0;
+    // Where they look while they come to a choice.
+    std::optional<double>
+        look_share;         ///< of the fixations, on the slot that will be chosen; nothing: all alike
+    std::string look_area;  ///< looked at more, or less, before the first choice than before others
+    double look_odds = 1.0; ///< times the odds of a fixation on it before the first choice
 };
 
 struct TaskAnswer {

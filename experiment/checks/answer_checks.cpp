@@ -230,6 +230,21 @@ class AnswerChecks {
                                    fmt::format("the levels of \"{}\" are no numbers", truth.by),
                                    "a series makes numbers, and a column may have them");
         }
+        if (truth.look_share &&
+            (!answer_.is_choice() || std::ranges::any_of(answer_.choices, [&](const std::string& choice) {
+                return std::ranges::find(task_.slots, choice) == task_.slots.end();
+            })))
+            examination_.error({path + ".look_share"}, "there is a slot to look at for choices among slots",
+                               "have the task's slots as choices");
+        if (!truth.look_area.empty() &&
+            (!answer_.is_choice() || std::ranges::none_of(simulated_shares(task_), [&](const auto& share) {
+                return share.first == truth.look_area && share.second > 0.0;
+            })))
+            examination_.error({path + ".look_area"},
+                               fmt::format("the task does not say how often \"{}\" is looked at, or this is "
+                                           "no choice",
+                                           truth.look_area),
+                               "write simulated_area_shares for the task");
         if (!truth.cuts.empty() &&
             (!answer_.steps || truth.cuts.size() + 1 != static_cast<std::size_t>(*answer_.steps) ||
              !std::ranges::is_sorted(truth.cuts)))

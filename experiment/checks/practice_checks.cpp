@@ -94,6 +94,26 @@ void check_simulated_shares(ProtocolExamination& examination) {
                                                 most_simulated_areas));
 }
 
+/// That there is what an effect on answers is of.
+template <class Path>
+void check_effect_on_answers(ProtocolExamination& examination, const SimulatedEffect& effect,
+                             const Path& path) {
+    for (const char* key : {"answer_shift", "answer_slope", "answer_odds"})
+        if (effect.answer.empty() && examination.is_written(path(key)))
+            examination.error({path(key)}, fmt::format("\"{}\" without \"answer\" is of nothing", key),
+                              "name the answer");
+    if (effect.answer.empty())
+        return;
+    std::vector<std::string_view> ids;
+    for (const Task& task : examination.protocol.tasks)
+        for (const TaskAnswer& answer : task.answers)
+            if (effect.task.empty() || effect.task == task.id)
+                ids.push_back(answer.id);
+    if (std::ranges::find(ids, effect.answer) == ids.end())
+        examination.error({path("answer")}, fmt::format("there is no answer \"{}\"", effect.answer),
+                          suggest_name(effect.answer, ids));
+}
+
 } // namespace
 
 void check_simulated_effects(ProtocolExamination& examination) {
@@ -117,6 +137,7 @@ void check_simulated_effects(ProtocolExamination& examination) {
         if (!effect.area.empty() && examination.is_written(path("head_odds")))
             examination.error({path("head_odds"), path("area")}, "one effect has the odds of one area",
                               "write a [[simulated_effect]] for each");
+        check_effect_on_answers(examination, effect, path);
         spots += effect.spot_share > 0.0;
         // What can hold in one trial with this effect, this one included.
         shares = 0.0;

@@ -139,6 +139,18 @@ std::vector<Key> answer_truth() {
         {"early", &T::early, range(0, 1), "Share of trials with a press before the window, too."},
         {"late", &T::late, range(0, 1), "Share that is answered after the window has closed."},
         {"missing", &T::missing, range(0, 1), "Share that is not answered."},
+        {"observer_sd", &T::observer_sd, range(0, 1e6),
+         "Standard deviation over observers of what is on top of each one's judgements: of choices by a "
+         "factor in standard deviations of the judgement, of scales and numbers in their own units."},
+        {"look_share", &T::look_share, range(0, 1).left_out("all alike"),
+         "Of choices among slots: share of the fixations on the slot that is going to be chosen, while all "
+         "of "
+         "them are lit."},
+        {"look_area", &T::look_area, identifier().left_out("none"),
+         "Of choices: an area that is looked at more, or less, before the first choice than before others; "
+         "the task has a share for it (`simulated_area_shares`)."},
+        {"look_odds", &T::look_odds, range(0.001, 1000),
+         "How many times the odds of a fixation on `look_area` before the first choice."},
     };
 }
 

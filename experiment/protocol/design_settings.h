@@ -168,6 +168,11 @@ struct SimulatedEffect {
     double spread = 0.0;
     std::string area{};     ///< of area_odds
     double area_odds = 1.0; ///< times the odds of the task's share of the area
+    // On what is answered (AnswerTruth).
+    std::string answer{};      ///< id of an answer; empty: of none
+    double answer_shift = 0.0; ///< on top of the judgement of such stimuli, in its units
+    double answer_slope = 1.0; ///< times the slope, or the gain, in trials that show no others
+    double answer_odds = 1.0;  ///< times the odds of a correct choice that goes by no factor
 };
 /// Effects with a spot that one trial can have.
 inline constexpr int most_simulated_spots = 8;

@@ -29,6 +29,16 @@ std::vector<Key> simulated_effect() {
          "How widely the fixations that go to no spot lie, and so their WSS: places at r times the usual "
          "distance from the object's middle are looked at exp(spread * r^2) times as often as their area "
          "says; 0: by area alone. `overt power --effect wss:…` tells which spread makes a ratio of WSS."},
+        {"answer", &E::answer, identifier().left_out("none"),
+         "Id of the answer that `answer_shift`, `answer_slope` and `answer_odds` are of."},
+        {"answer_shift", &E::answer_shift, range(-1e6, 1e6),
+         "What is on top of the judgement of such a stimulus: of choices by a factor in standard deviations "
+         "of the judgement, so that a threshold moves by -answer_shift / slope; of scales and numbers in "
+         "their own units. Among slots that show such stimuli all alike it changes nothing."},
+        {"answer_slope", &E::answer_slope, range(0.001, 1000),
+         "How many times the `slope`, or the `gain`, of `simulated` in trials that show such stimuli only."},
+        {"answer_odds", &E::answer_odds, range(0.001, 1000),
+         "How many times the odds of `share_correct` in trials that show such stimuli only."},
     };
     add_entry_keys(keys, &E::entries, "any");
     return keys;

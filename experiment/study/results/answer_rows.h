@@ -16,6 +16,7 @@ struct AnsweredStimulus {
     std::vector<std::pair<std::string, std::string>>
         levels;                                          ///< of each factor of stimuli with several levels
     std::vector<std::pair<std::string, double>> numbers; ///< of those whose levels are numbers
+    std::optional<double> until_answer_s; ///< from its onset to the answer; nothing: missed, or never lit
 
     std::optional<double> number(const std::string& factor) const;
 };
@@ -30,6 +31,17 @@ struct StudyAnswer {
     std::optional<bool> is_correct;
     std::optional<double> number, response_s;
     std::vector<AnsweredStimulus> shown;
+    int session = 0; ///< index into StudyResults::sessions
+    int trial = 0;   ///< StudyTrial::number
+    /// Of each factor in which trials differ: those of their own, and those in which all that is shown is
+    /// alike.
+    std::vector<std::pair<std::string, std::string>> levels;
+    std::vector<std::string> choices; ///< that the protocol offers, in its order
+    std::string procedure;            ///< id of that which chose the level; empty: none did
+    int track = 0;                    ///< of the procedures' conditions of the task, from 0
+
+    /// Its level of a factor; empty: it has none.
+    const std::string& level(const std::string& factor) const;
 };
 
 /// What all rows say first: of one observer, or of all (empty).
@@ -45,6 +57,10 @@ struct AnswerSummaryRow {
     Estimate correct; ///< share of those that are right or wrong
     /// Of two choices of which one is right in each trial; log-linear correction.
     std::optional<double> d_prime = {}, d_prime_se = {}, criterion = {};
+    /// How answers come about, by what was shown: "ABX", "same-different", "oddity", "3 alternatives"; and
+    /// the sensitivity by that design; empty: as d_prime has it.
+    std::string design = {};
+    std::optional<double> design_d_prime = {}, design_d_prime_se = {};
     std::optional<double> median_response_s = {}, mean_response_s = {};
     std::optional<double> ex_mu_s = {}, ex_sigma_s = {},
                           ex_tau_s = {}; ///< ex-Gaussian, with 40 times at least
@@ -58,11 +74,19 @@ struct AnswerChoiceRow {
     Estimate share;
 };
 
+/// Answers at a level of a psychometric function.
+struct AnswerCurvePoint {
+    double level = 0.0, trials = 0.0, yes = 0.0;
+    Interval share;               ///< Wilson's interval of yes / trials
+    std::optional<double> fitted; ///< what the function has there
+};
+
 /// A psychometric function over a factor.
 struct AnswerCurveRow {
     AnswerOf of;
     std::string factor;
-    std::string yes; ///< which answers are counted, over which level
+    std::string column, level; ///< of trials of this level of another factor alone; empty: of all
+    std::string yes;           ///< which answers are counted, over which level
     double guess = 0.0;
     int trials = 0, levels = 0;
     Estimate threshold; ///< where F is one half
@@ -70,6 +94,20 @@ struct AnswerCurveRow {
     std::optional<double> deviance = {}, pearson_x2 = {}, deviance_limit = {};
     int degrees = 0, failures = 0; ///< of freedom; samples of the bootstrap without a slope
     std::string note;
+    std::vector<AnswerCurvePoint> points;                             ///< rising; of all observers together
+    std::optional<double> planted_threshold = {}, planted_slope = {}; ///< of simulated observers
+};
+
+/// A trial of a procedure that chooses levels, and where its track came to.
+struct AnswerTrackRow {
+    AnswerOf of;
+    std::string procedure, factor;
+    int track = 0, place = 0; ///< both from 1
+    int trial = 0;            ///< StudyTrial::number
+    double level = 0.0;
+    std::string value; ///< answer; empty: missed
+    std::optional<bool> is_correct = {};
+    bool is_reversal = false; ///< levels turn there
 };
 
 /// A place on a scale made of comparisons.
@@ -83,6 +121,7 @@ struct AnswerScaleRow {
     std::optional<double> sigma = {};      ///< noise of the judgement in units of the scale, of MLDS
     int trials = 0;
     bool is_penalised = false;
+    std::optional<double> planted = {}; ///< of simulated observers
 };
 
 /// Ratings of one level.
@@ -94,6 +133,73 @@ struct AnswerRatingRow {
     std::optional<double> sd = {};
     /// Of whole numbers: the level's place by the cumulative probit model, its first level being 0.
     std::optional<double> place = {}, place_se = {};
+    std::optional<double> planted = {}; ///< mean that simulated observers mean to give
+};
+
+/// Response times of some answers.
+struct AnswerTimeRow {
+    AnswerOf of;
+    std::string which; ///< "all", "correct", "wrong", or a choice
+    int times = 0;
+    Estimate median_s; ///< of all observers the mean of their medians
+    std::optional<double> mean_s = {}, sd_s = {};
+    std::vector<double> quantiles_s = {}; ///< as response_quantiles
+    // By maximum likelihood, with 40 times at least; the better one has the larger likelihood.
+    std::optional<double> ex_mu_s = {}, ex_sigma_s = {}, ex_tau_s = {}, ex_log_likelihood = {};
+    std::optional<double> shift_s = {}, log_mean = {}, log_sd = {}, log_normal_log_likelihood = {};
+};
+inline constexpr double response_quantiles[] = {0.1, 0.3, 0.5, 0.7, 0.9};
+
+/// How often answers are correct by how fast they are.
+struct AnswerSpeedRow {
+    AnswerOf of;
+    int part = 0, parts = 0; ///< fastest: 1, of as many parts of the observer's times
+    int trials = 0;
+    Estimate correct;
+    std::optional<double> mean_response_s = {};
+};
+
+/// Two levels of a factor compared within observers by what was answered.
+struct AnswerDifferenceRow {
+    AnswerOf of;         ///< of all observers
+    std::string measure; ///< "threshold of FACTOR", "share correct", "share of CHOICE", "mean", "d'", …
+    std::string column, a, b;
+    Estimate difference; ///< of a less b: mean over observers
+    /// Flips of the signs of observers' differences; after Holm over the rows of the answer's measure.
+    std::optional<double> p = {}, p_holm = {};
+    int observers = 0;
+    std::vector<double> of_observers = {};
+    std::optional<double> planted = {}; ///< of simulated observers
+};
+
+/// What was looked at in a trial before an answer was given.
+struct AnswerGazeRow {
+    std::string observer, task, answer, item, value;
+    int session = 0, trial = 0;         ///< as StudyAnswer has them
+    std::string slot;                   ///< id
+    std::string area;                   ///< empty: all of the stimulus there
+    std::optional<bool> is_chosen = {}; ///< the slot was the answer; nothing: no slots to choose from
+    double until_s = 0.0;               ///< from the slot's onset to the answer, or to its end before that
+    double dwell_s = 0.0;               ///< time of fixation until then
+    /// Of the time of fixation on all stimuli of the trial; nothing where there is none.
+    std::optional<double> dwell_share = {}, last_second_share = {};
+    int visits = 0;
+    bool is_first = false, is_last = false; ///< the first fixation on any stimulus, and the last one
+    std::optional<double> first_arrival_s = {};
+};
+
+/// Whether where observers look goes with what they answer.
+struct GazeChoiceRow {
+    AnswerOf of;         ///< of an observer, or of all
+    std::string measure; ///< "dwell share", "share of the last second", "first look", "last look"
+    std::string area;    ///< empty: of slots
+    std::string a, b;    ///< answers that are compared; empty: the slot that is chosen with the others
+    Estimate value;      ///< of the chosen slot, or of a less b
+    double chance = 0.0; ///< that it has if looking and answering have nothing to do with each other
+    std::optional<double> p = {}, p_holm = {}; ///< flips of the signs of observers' differences from it
+    int observers = 0, trials = 0;
+    std::vector<double> of_observers = {};
+    std::optional<double> planted = {}; ///< of simulated observers
 };
 
 struct StudyAnswers {
@@ -103,6 +209,12 @@ struct StudyAnswers {
     std::vector<AnswerCurveRow> curves;
     std::vector<AnswerScaleRow> scales;
     std::vector<AnswerRatingRow> ratings;
+    std::vector<AnswerTrackRow> tracks;
+    std::vector<AnswerTimeRow> times;
+    std::vector<AnswerSpeedRow> speeds;
+    std::vector<AnswerDifferenceRow> differences;
+    std::vector<AnswerGazeRow> gaze;
+    std::vector<GazeChoiceRow> gaze_choices;
 };
 
 } // namespace overt

@@ -479,8 +479,17 @@ struct StudyGlance {
     std::vector<std::pair<ExclusionRule, int>> excluded_by{}; ///< others, by the first rule that they break
 };
 
+/// What the report says first: whole sentences.
+struct StudyHeadline {
+    std::string question; ///< what observers were asked
+    std::string design;   ///< what differed, and how often each was shown
+    std::string sample;   ///< N, and who and what was left out
+    std::string result;   ///< the main one, with its interval
+};
+
 struct StudyResults {
     StudyGlance glance;
+    StudyHeadline headline;
     std::vector<StudyParameter> parameters;
     /// What a reader must know, whole sentences: sessions of different protocols, missing maps, one observer.
     std::vector<std::string> remarks;
@@ -502,6 +511,9 @@ struct StudyResults {
     std::vector<DistributionRow> distributions;
     std::vector<PairRow> pairs;
     std::vector<DifferenceMap> differences;
+    /// Where observers looked before one answer less before another: `column` is the answer's id, `a` and `b`
+    /// what was answered, or, among slots, "chosen" and "not chosen".
+    std::vector<DifferenceMap> answer_maps;
     std::vector<MapPredictionRow> predictions;
     std::vector<MapReliabilityRow> reliabilities;
     std::vector<ExposureRow> exposures;
