@@ -15,7 +15,7 @@ using MakeAnswering = std::unique_ptr<Answering>(const AnswerForm& form);
 
 // A file each, or two that are alike.
 MakeAnswering key_answering, choice_answering, scale_answering, number_answering, text_answering,
-    point_answering;
+    point_answering, gauge_answering;
 
 struct AnswerKindRow {
     std::string_view name;
@@ -59,12 +59,18 @@ inline constexpr auto kinds_of<AnswerKind> = std::to_array<AnswerKindRow>({
      false},
     {"text", "words that are typed", text_answering, {"longest", "accept_key"}, true, false},
     {"point",
-     "a place of the stimulus while it is shown, pointed at with the mouse; tables tell the place on the "
-     "object's "
-     "surface",
+     "a place of the stimulus while it is shown, pointed at with the mouse, or looked at when a key is "
+     "pressed; tables tell the place on the object's surface",
      point_answering,
-     {"beside_up_deg"},
+     {"by", "keys", "beside_up_deg"},
      false,
+     true},
+    {"gauge",
+     "a circle with a rod at the place of a probe, turned until it lies on the surface while that is shown; "
+     "tables have its slant and tilt beside the surface's own",
+     gauge_answering,
+     {"probe", "size_deg", "slant_per_px_deg", "key_step_deg", "undo_key", "with", "accept_key"},
+     true,
      true},
     {"spoken", "spoken, and recorded as `[answers]` says; a key goes on", nullptr, {}, false, false},
 });

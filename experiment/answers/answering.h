@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "experiment/answers/task_answer.h"
+#include "experiment/attitude.h"
 #include "experiment/ports/answer_offer.h"
 #include "experiment/ports/answer_view.h"
 #include "experiment/ports/observer_input.h"
@@ -20,6 +21,8 @@ struct AnswerForm {
     int mapping = 0;                      ///< choices begin with this one; of a scale, 1 turns it round
     std::string correct;                  ///< a value; empty: none
     int place = 0;                        ///< which of the trial's it is in turn
+    std::string probe, point = {};        ///< of a gauge: where it stands
+    Attitude start = {};                  ///< of a gauge, drawn
 };
 
 class Answering {
@@ -31,7 +34,8 @@ class Answering {
         none,
         touched, ///< what it looks like changed, and it says nothing yet
         changed, ///< it says something else
-        chosen   ///< likewise, and that is an answer where none has to be accepted
+        chosen,  ///< likewise, and that is an answer where none has to be accepted
+        accepted ///< what it says is to stand, as by the key that accepts
     };
     /// What the observer did, in its window and with it: a press that was not held before, and of the mouse
     /// what began at a place in this step; `place` is where the pointer is. Allocates and throws nothing.
@@ -46,6 +50,10 @@ class Answering {
     virtual std::optional<double> number() const noexcept { return std::nullopt; }
     /// It is given with the mouse on the stimulus itself, whose pointer is seen there.
     virtual bool points() const noexcept { return false; }
+    /// Of a gauge, how it is turned now, which stands on the stimulus; allocates nothing.
+    virtual std::optional<Attitude> attitude() const noexcept { return std::nullopt; }
+    /// It can lean no farther.
+    virtual bool is_at_limit() const noexcept { return false; }
     /// All but the question.
     virtual void draw(AnswerItem& item) const = 0;
     /// How it can be given; all but id, item, kind, correct, and the key that accepts.

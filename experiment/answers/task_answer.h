@@ -48,6 +48,14 @@ template <> inline constexpr auto names_of<ItemOrder> = enum_names<ItemOrder>("f
 enum class MissedAnswer : std::uint8_t { apart, wrong };
 template <> inline constexpr auto names_of<MissedAnswer> = enum_names<MissedAnswer>("apart", "wrong");
 
+/// What tells the place of an answer that is a point.
+enum class PointedBy : std::uint8_t {
+    mouse,   ///< a click on it
+    gaze,    ///< where gaze was when a key was pressed
+    fixation ///< the last fixation that began before
+};
+template <> inline constexpr auto names_of<PointedBy> = enum_names<PointedBy>("mouse", "gaze", "fixation");
+
 /// When presses begin to count.
 struct AnswerOpening {
     enum class From : std::uint8_t {
@@ -72,6 +80,9 @@ struct AnswerTruth {
     // Of scales and numbers: offset + gain x level + noise x normal.
     std::optional<double> offset;
     double gain = 1.0, noise = 0.0;
+    /// Of a gauge, two numbers that are added to the depth's rise to the right and upwards, of which `gain`
+    /// is a factor and `noise` the standard deviation; empty: 0.
+    std::vector<double> shear;
     std::vector<double> cuts; ///< of a scale with steps: as many steps up as cuts lie below that
     // From the window's begin: shift + log-normal.
     double shift_s = 0.25, median_s = 0.6, log_sd = 0.35;
@@ -114,6 +125,13 @@ struct TaskAnswer {
     bool shows_value = false;
     std::string unit;  ///< of a number
     int longest = 500; ///< characters of a text
+    // Of a gauge.
+    std::string probe;             ///< whose place it stands at: an id; empty: the task's only one
+    double size_deg = 0.6;         ///< radius of its circle, seen from the front, and length of its rod
+    double slant_per_px_deg = 1.0; ///< that a drag of the mouse by a pixel gives
+    double key_step_deg = 3.0;     ///< that an arrow leans it
+    std::string undo_key = "backspace";
+    PointedBy by = PointedBy::mouse; ///< of a point
     // The window.
     AnswerOpening opens;
     std::optional<double> limit_s; ///< after it opened

@@ -9,6 +9,7 @@
 
 namespace overt {
 
+using Triples = std::vector<std::array<double, 3>>;
 using Spheres = std::vector<std::array<double, 4>>;
 using Planes = std::vector<std::array<double, 6>>;
 using Boxes = std::vector<std::array<glm::dvec3, 2>>;
@@ -29,6 +30,7 @@ ValueResult read_value(const TomlValue& value, const KeyRule& rule, std::optiona
 ValueResult read_value(const TomlValue& value, const KeyRule& rule, std::vector<double>& out);
 ValueResult read_value(const TomlValue& value, const KeyRule& rule, std::vector<std::string>& out);
 // Shapes in space (value_shapes.cpp).
+ValueResult read_value(const TomlValue& value, const KeyRule& rule, Triples& out);
 ValueResult read_value(const TomlValue& value, const KeyRule& rule, Spheres& out);
 ValueResult read_value(const TomlValue& value, const KeyRule& rule, Planes& out);
 ValueResult read_value(const TomlValue& value, const KeyRule& rule, Boxes& out);

@@ -38,6 +38,7 @@ Json whole(const KeyRule& rule) { return ranged("integer", rule); }
 Json number(const KeyRule& rule) { return ranged("number", rule); }
 Json path(const KeyRule&) { return {{"type", "string"}, {"minLength", 1}}; }
 Json three(const KeyRule& rule) { return list_of(number(rule), 3, 3); }
+Json triples(const KeyRule& rule) { return list_of(list_of(number(rule), 3, 3), 0, 0); }
 Json spheres(const KeyRule& rule) { return list_of(list_of(number(rule), 4, 4), 0, 0); }
 Json planes(const KeyRule& rule) { return list_of(list_of(three(rule), 2, 2), 0, 0); }
 Json named_numbers(const KeyRule& rule) {

@@ -15,6 +15,7 @@ Json whole(const KeyRule& rule);
 Json number(const KeyRule& rule);
 Json path(const KeyRule& rule);
 Json three(const KeyRule& rule);
+Json triples(const KeyRule& rule);
 Json spheres(const KeyRule& rule);
 Json planes(const KeyRule& rule);
 Json named_numbers(const KeyRule& rule);

@@ -19,6 +19,16 @@ std::span<const TomlValue> items_of(const TomlValue& value, int depth) {
 
 } // namespace
 
+ValueResult read_value(const TomlValue& value, const KeyRule& rule, Triples& out) {
+    if (!value.list())
+        return wrong_kind<Triples>(value, rule);
+    for (const TomlValue& item : items_of(value, 1)) {
+        if (ValueResult fault = read_numbers<Triples>(item, rule, 3, out.emplace_back().data()))
+            return fault;
+    }
+    return std::nullopt;
+}
+
 ValueResult read_value(const TomlValue& value, const KeyRule& rule, Spheres& out) {
     if (!value.list())
         return wrong_kind<Spheres>(value, rule);

@@ -79,6 +79,8 @@ constexpr ValueType truth_type = plain<bool>("true or false", schema_of::truth),
                     three_type = plain<std::array<double, 3>>(a_three, schema_of::three),
                     numbers_type = optional<std::vector<double>>("a list of numbers", schema_of::numbers),
                     texts_type = optional<std::vector<std::string>>("a list of texts", schema_of::texts),
+                    triples_type = optional<std::vector<std::array<double, 3>>>(
+                        "three numbers [a, b, c], or a list of such", schema_of::triples),
                     spheres_type = optional<std::vector<std::array<double, 4>>>(
                         "a sphere [x, y, z, radius], or a list of spheres", schema_of::spheres),
                     planes_type = optional<std::vector<std::array<double, 6>>>(
@@ -107,6 +109,7 @@ const ValueType& value_type(TypeTag<std::optional<glm::dvec3>>) { return vector_
 const ValueType& value_type(TypeTag<std::array<double, 3>>) { return three_type; }
 const ValueType& value_type(TypeTag<std::vector<double>>) { return numbers_type; }
 const ValueType& value_type(TypeTag<std::vector<std::string>>) { return texts_type; }
+const ValueType& value_type(TypeTag<std::vector<std::array<double, 3>>>) { return triples_type; }
 const ValueType& value_type(TypeTag<std::vector<std::array<double, 4>>>) { return spheres_type; }
 const ValueType& value_type(TypeTag<std::vector<std::array<double, 6>>>) { return planes_type; }
 const ValueType& value_type(TypeTag<Boxes>) { return boxes_type; }

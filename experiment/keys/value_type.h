@@ -59,6 +59,7 @@ const ValueType& value_type(TypeTag<std::array<double, 3>>);
 const ValueType& value_type(TypeTag<std::vector<double>>); ///< one number is a list of one
 /// One text is a list of one. The rule holds for each.
 const ValueType& value_type(TypeTag<std::vector<std::string>>);
+const ValueType& value_type(TypeTag<std::vector<std::array<double, 3>>>); ///< a list of three numbers each
 const ValueType& value_type(TypeTag<std::vector<std::array<double, 4>>>);
 const ValueType& value_type(TypeTag<std::vector<std::array<double, 6>>>);
 const ValueType& value_type(TypeTag<std::vector<std::array<glm::dvec3, 2>>>); ///< corners of boxes

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "experiment/attitude.h"
+
 namespace overt {
 
 struct AnswerOffer {
@@ -20,6 +22,9 @@ struct AnswerOffer {
     std::string accept_key;        ///< that makes it stand; empty: it stands at once
     std::optional<double> limit_s; ///< for how long presses count
     std::string correct;           ///< a value; empty: nobody knows
+    /// Of a gauge, how it is turned now, and how the surface is where it stands; nothing if nobody knows.
+    std::optional<Attitude> attitude = {}, true_attitude = {};
+    double slant_per_px_deg = 0.0; ///< of a gauge that the mouse turns; 0: keys do
 };
 
 } // namespace overt

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "experiment/attitude.h"
 #include "experiment/base/enum_names.h"
 #include "experiment/ports/observer_input.h"
 #include "experiment/session_time.h"
@@ -21,6 +22,23 @@ enum class AnswerZero : std::uint8_t {
 };
 template <>
 inline constexpr auto names_of<AnswerZero> = enum_names<AnswerZero>("stimulus", "window", "screen");
+
+/// What was set with a gauge figure, beside what is true.
+struct GaugeAnswer {
+    std::string probe, point; ///< the probe's id and the name of its place
+    Attitude start;           ///< drawn
+    Attitude set;             ///< when it was accepted, or when time was up
+    bool is_at_limit = false; ///< it could not be slanted further
+    /// Of the surface at its place in the frame that was lit then; nothing where the object has no mesh.
+    std::optional<Attitude> truth = {};
+    std::optional<int> frame = {};       ///< that was lit then, where it stands
+    std::optional<bool> is_visible = {}; ///< the place was, in that frame
+
+    /// Between the normal that was set and the true one.
+    std::optional<Degrees> deviation() const {
+        return truth ? std::optional(angle_between(set, *truth)) : std::nullopt;
+    }
+};
 
 /// One answer of [[task.answer]], of a scale with several items one of its items. It is a row also where
 /// nothing was answered: then it is missed, which is not the same as wrong.
@@ -46,6 +64,7 @@ struct GivenAnswer {
     int place = 0;   ///< which of the trial's answers and items it was in turn, from 0
     int mapping = 0; ///< by how many places keys, or the sides of a scale, are turned; 0: as written
     int changes = 0; ///< how often it was changed before it stood
+    std::optional<GaugeAnswer> gauge = {}; ///< of a gauge, given or missed
 
     /// The instant that its response time counts from; nothing if the trial did not come to it.
     std::optional<SessionTime> zero_at() const {
@@ -91,8 +110,9 @@ struct AnswerInput {
     std::string id, item; ///< of the answer
     ObserverInput input;
     InputState state = InputState::open;
-    bool has_counted = false;     ///< it changed the answer, or gave it
-    std::optional<double> number; ///< where a scale's marker stood after it
+    bool has_counted = false;              ///< it changed the answer, or gave it
+    std::optional<double> number;          ///< where a scale's marker stood after it
+    std::optional<Attitude> attitude = {}; ///< of a gauge, after it
 };
 
 } // namespace overt

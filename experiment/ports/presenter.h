@@ -10,6 +10,7 @@
 #include "experiment/flip_report.h"
 #include "experiment/ports/answer_view.h"
 #include "experiment/ports/setup_screen.h"
+#include "experiment/ports/stimulus_mark.h"
 #include "experiment/session_time.h"
 #include "experiment/swap_modes.h"
 #include "experiment/trial.h"
@@ -125,6 +126,11 @@ class Presenter {
     virtual FlipReport flip_slots(std::span<const AnimationFrameIndex> frames) noexcept = 0;
     /// The same of the only stimulus.
     FlipReport flip(AnimationFrameIndex frame) noexcept { return flip_slots({&frame, 1}); }
+
+    /// From the next flip on, these stand over the stimuli until they are given anew; over no other screen.
+    /// At most `most_marks`. Allocates and throws nothing.
+    virtual void mark_stimuli(std::span<const StimulusMark> /*marks*/) noexcept {}
+    static constexpr std::size_t most_marks = 8;
 
     /// Raises these digital outputs of the display box, a bit each, with the refresh that the next flip()
     /// lights, for this long; in the modes that carry them, else nothing. Allocates and throws nothing.

@@ -9,6 +9,7 @@
 #include "experiment/ports/attempt_step.h"
 #include "experiment/ports/gaze_yield.h"
 #include "experiment/ports/given_answer.h"
+#include "experiment/ports/shown_probe.h"
 #include "experiment/session_time.h"
 #include "experiment/swap_modes.h"
 #include "experiment/units.h"
@@ -42,6 +43,8 @@ struct TrialOutcome {
     /// meanwhile, in time.
     std::vector<GivenAnswer> given = {};
     std::vector<AnswerInput> inputs = {};
+    /// A row for each probe of each step that showed it, in time.
+    std::vector<ShownProbe> probes = {};
     /// Further trials that do not come, since by this one the criterion of their block was met; indices.
     std::vector<int> left_out = {};
 };

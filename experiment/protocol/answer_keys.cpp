@@ -87,6 +87,21 @@ std::vector<Key> answer() {
         {"shows_value", &A::shows_value, "Whether the marker's value stands beside it."},
         {"unit", &A::unit, left_out("none"), "What stands behind a number."},
         {"longest", &A::longest, range(1, 4000), "Characters of a text."},
+        {"by", &A::by,
+         "Of a point: the place of a click, where gaze was when one of `keys` was pressed, or the last "
+         "fixation that began before."},
+        {"probe", &A::probe, identifier().left_out("the task's only one"),
+         "Of a gauge: the probe whose place it stands at."},
+        {"size_deg", &A::size_deg, range(0.05, 20, "deg"),
+         "Of a gauge: the radius of its circle where that is seen from the front, and the length of its "
+         "rod. It is drawn in the perspective of the camera."},
+        {"slant_per_px_deg", &A::slant_per_px_deg, range(0.01, 20, "deg"),
+         "Of a gauge: by how much the rod leans for a pixel by which the mouse is dragged, in the direction "
+         "of "
+         "the drag."},
+        {"key_step_deg", &A::key_step_deg, range(0.1, 45, "deg"),
+         "Of a gauge: by how much an arrow key leans it."},
+        {"undo_key", &A::undo_key, "Of a gauge: the key that takes back the last drag or press."},
         {"opens", &A::opens,
          left_out("onset where a step with `until = \"answer\"` shows the stimulus, else screen"),
          "When presses begin to count: with the onset of the stimulus, with its offset, with the answer's "
@@ -131,6 +146,10 @@ std::vector<Key> answer_truth() {
          "Of scales and numbers: the judgement at level 0; of words, the level of indifference."},
         {"gain", &T::gain, range(-1e6, 1e6), "How much the judgement grows with a unit of the factor."},
         {"noise", &T::noise, range(0, 1e6), "Standard deviation of the judgement."},
+        {"shear", &T::shear, range(-10, 10),
+         "Of a gauge: what is added to how much the depth rises to the right and upwards. `gain` is a factor "
+         "on "
+         "the true rise, and `noise` stands in it as well."},
         {"cuts", &T::cuts, left_out("the nearest step"),
          "Of a scale with steps: judgements between steps, in rising order, one fewer than steps."},
         {"shift_s", &T::shift_s, range(0, 60, "s"), "Shortest response time, from the window's begin."},

@@ -97,6 +97,9 @@ std::vector<Key> task() {
          "Which trials the task has: a rule, or the path of a table (CSV, TSV) with a row for each; see "
          "[design.md](design.md)."},
         {"repetitions", &T::repetitions, range(1, 1000), "How often each of its trials comes."},
+        {"draw_points", &T::draw_points, range(1, 100000).left_out("all"),
+         "Of a task with `[[task.probe]]`s: so many of the places, or pairs of places, are drawn for each "
+         "observer, the same in all of their stimuli."},
         {"simulated_head_share", &T::simulated_head_share,
          range(0, 1).left_out("0.4; 0 with `simulated_area_shares`"),
          "Share of a simulated observer's fixations that go to the head."},

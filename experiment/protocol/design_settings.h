@@ -13,6 +13,7 @@
 #include "experiment/answers/task_answer.h"
 #include "experiment/base/enum_names.h"
 #include "experiment/base/named_words.h"
+#include "experiment/protocol/point_settings.h"
 #include "experiment/protocol/step_settings.h"
 #include "experiment/protocol/trials_settings.h"
 #include "experiment/stimulus_lists.h"
@@ -43,6 +44,8 @@ struct Task {
     CatchSettings catch_trials = {};
     int repetitions = 1;                  ///< how often each of its trials comes
     std::vector<TaskAnswer> answers = {}; ///< none: the answer is spoken
+    std::vector<ProbeSettings> probes = {};
+    std::optional<int> draw_points = {}; ///< so many of what its probes' points give, drawn for each observer
 };
 
 /// Where simulated observers look for a task: the shares that go to areas, each once, the head first. A task

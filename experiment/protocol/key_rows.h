@@ -20,6 +20,8 @@ std::vector<Key> bake(), frames();
 std::vector<Key> protocol(), schedule(), task();
 // How it is answered (answer_keys.cpp).
 std::vector<Key> answer(), answer_truth();
+// Places on surfaces, and marks there (point_keys.cpp).
+std::vector<Key> points(), probe();
 // Where trials come from (trials_keys.cpp).
 std::vector<Key> trials(), catch_trials(), draw();
 // What chooses their levels (procedure_keys.cpp).

@@ -30,6 +30,7 @@
 #include "experiment/protocol/device_settings.h"
 #include "experiment/protocol/material_kind.h"
 #include "experiment/protocol/output_mode.h"
+#include "experiment/protocol/point_settings.h"
 #include "experiment/protocol/procedure_settings.h"
 #include "experiment/protocol/protocol_sources.h"
 #include "experiment/protocol/sitting_settings.h"
@@ -377,9 +378,10 @@ struct Protocol {
     std::vector<MotionSettings> motions = std::vector<MotionSettings>(1);
     std::vector<ViewSettings> views = std::vector<ViewSettings>(1);
     std::vector<FrameSequenceSettings> frames;
-    std::vector<TrialTable> trial_tables;      ///< of the tasks that name one
-    std::vector<SlotSettings> slot_entries;    ///< as they are written
-    std::vector<Slot> slots = written_out({}); ///< the places that they are; never empty
+    std::vector<PointListSettings> point_lists; ///< of places on the surfaces
+    std::vector<TrialTable> trial_tables;       ///< of the tasks that name one
+    std::vector<SlotSettings> slot_entries;     ///< as they are written
+    std::vector<Slot> slots = written_out({});  ///< the places that they are; never empty
 
     const ObjectSettings& object_of(const Stimulus& of) const {
         return objects.at(static_cast<std::size_t>(of.object));

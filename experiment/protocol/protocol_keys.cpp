@@ -101,6 +101,13 @@ const KeyTable& protocol_keys() {
                "answer is spoken.",
                {{"simulated", &TaskAnswer::truth, answer_truth(),
                  "What simulated observers answer: effects of known size, for a study to find."}}},
+              {"probe", &Task::probes, probe(),
+               "`[[task.probe]]`: a mark at a place of the surface, which it follows while the object turns; "
+               "where "
+               "the place is hidden nothing is drawn, and the record says so. Each trial has one place of "
+               "each "
+               "probe's list: all of them, or as many as `draw_points` says. The place is a factor, by the "
+               "probe's id; see [points.md](points.md)."},
               {"trials", &Task::trials, trials(),
                "A rule that makes the task's trials of the levels of factors. `overt check` says how many it "
                "gives."},
@@ -166,6 +173,10 @@ const KeyTable& protocol_keys() {
                "The same as `areas = { head = { … } }`."}}},
             {"material", &Protocol::materials, material(),
              "What every object is made of in turn. At least one."},
+            {"points", &Protocol::point_lists, points(),
+             "A list of places on the surface of objects, for probes: spread evenly, or given one by one. "
+             "They "
+             "are in the record with triangle, millimetres and part; see [points.md](points.md)."},
             {"slot", &Protocol::slot_entries, slot(),
              "A place on the screen in which a stimulus is shown, or several on a circle or a grid, for "
              "tasks "

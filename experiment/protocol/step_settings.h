@@ -126,6 +126,8 @@ struct StepSettings {
     double right_deg = 0.0, up_deg = 0.0; ///< of a fixation target, from the middle of the screen
     std::optional<int> frame;             ///< `show` shows this one, still; from 0
     Place frame_place;
+    std::optional<std::vector<std::string>> probes; ///< of `show`: ids of those that are drawn; nothing: all
+    Place probes_place;
     double cell_deg = 0.25;       ///< side of a mask's squares
     bool is_scrambled = false;    ///< the mask is the stimulus in squares that change places; else noise
     std::string answered, missed; ///< words of a feedback

@@ -150,6 +150,17 @@ struct RecordedMap {
     Kind kind = Kind::triangles;
 };
 
+/// A place on an object's surface that the protocol's [[points]] name.
+struct RecordedPoint {
+    int object = 0;
+    std::string name; ///< "ID.1"; a level of the factors that probes are
+    std::uint32_t triangle = 0;
+    glm::dvec3 barycentric{0.0};              ///< weights of the triangle's corners, sum 1
+    glm::dvec3 position{0.0};                 ///< in object coordinates, in the object's unit
+    std::optional<std::uint32_t> vertex = {}; ///< of the mesh, where it is one
+    std::string part;                         ///< of the surface
+};
+
 /// One thing that the protocol's [dataset] says, by its key; a list has an entry for each text.
 struct RecordedDatasetEntry {
     std::string key;
@@ -181,6 +192,7 @@ struct SessionHeader {
                            views = {}; ///< none: there is one, with the list's name
     std::vector<RecordedStimulus> stimuli;
     std::vector<RecordedMap> maps;
+    std::vector<RecordedPoint> points = {}; ///< of all objects, list by list
     std::vector<RecordedSlot> slots = {}; ///< as read: one at least, that of the image where none is recorded
 
     const Animation& animation_of(const Stimulus& stimulus) const {

@@ -13,6 +13,7 @@
 #include "experiment/ports/marker_sink.h"
 #include "experiment/ports/presentation_listener.h"
 #include "experiment/ports/presenter.h"
+#include "experiment/ports/probe_view.h"
 #include "experiment/ports/recorded_answer.h"
 #include "experiment/ports/response_panel.h"
 #include "experiment/ports/session_log.h"
@@ -54,6 +55,10 @@ struct SessionPorts {
     /// presentations. Empty, or null given: gaze is never there.
     std::function<std::shared_ptr<const AreaView>(const PlacedStimulus&, const std::string& area)> area_of =
         {};
+    /// Gives a place of the object that a stimulus shows in its slot, by its name; between presentations.
+    /// Empty, or null given: nobody knows where it is.
+    std::function<std::shared_ptr<const ProbeView>(const PlacedStimulus&, const std::string& point)>
+        probe_of = {};
     /// Told of each change of phase, with the trial or -1; not during a presentation. May be empty.
     std::function<void(SessionPhase, int)> on_phase = {};
 };
