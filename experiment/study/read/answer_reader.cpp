@@ -1,7 +1,11 @@
 #include "experiment/study/read/answer_reader.h"
 
 #include <algorithm>
+#include <map>
+#include <string_view>
 
+#include "experiment/base/text_number.h"
+#include "experiment/ports/event_kinds.h"
 #include "experiment/record/read/session_record.h"
 #include "experiment/session_time.h"
 
@@ -29,7 +33,58 @@ AnsweredStimulus answered_stimulus(const SessionHeader& header, const Factors& f
     return stimulus;
 }
 
+/// Levels of the trial's own, and those in which all of its stimuli are alike.
+std::vector<std::pair<std::string, std::string>> levels_of(const Trial& trial,
+                                                           const std::vector<AnsweredStimulus>& shown) {
+    std::vector<std::pair<std::string, std::string>> levels;
+    for (const TrialLevel& own : trial.levels)
+        levels.emplace_back(own.factor, own.level);
+    for (const auto& level : shown.front().levels)
+        if (std::ranges::all_of(shown, [&](const AnsweredStimulus& one) {
+                return std::ranges::find(one.levels, level) != one.levels.end();
+            }))
+            levels.push_back(level);
+    return levels;
+}
+
+/// What a procedure chose for a trial, as the record has it in words: "ID: FACTOR LEVEL, condition N, …".
+struct ChosenByProcedure {
+    std::string procedure, factor;
+    int condition = 1;
+};
+
+std::optional<ChosenByProcedure> chosen_by_procedure(std::string_view words) {
+    constexpr std::string_view before_condition = ", condition ";
+    const std::size_t id = words.find(": "), condition = words.find(before_condition);
+    if (id == std::string_view::npos || condition == std::string_view::npos || condition < id)
+        return std::nullopt;
+    const std::string_view chosen = words.substr(id + 2, condition - id - 2),
+                           rest = words.substr(condition + before_condition.size());
+    const std::size_t blank = chosen.rfind(' ');
+    const std::optional<int> number = number_in<int>(rest.substr(0, rest.find(',')));
+    if (blank == std::string_view::npos || !number)
+        return std::nullopt;
+    return ChosenByProcedure{std::string(words.substr(0, id)), std::string(chosen.substr(0, blank)), *number};
+}
+
+/// By trial, that of its last attempt.
+std::map<int, ChosenByProcedure> procedure_choices(const SessionRecord& record) {
+    std::map<int, ChosenByProcedure> choices;
+    record.read_events([&](const RecordedEvent& event) {
+        if (event.kind == level_chosen_event)
+            if (auto chosen = chosen_by_procedure(event.detail))
+                choices[event.trial] = *std::move(chosen);
+    });
+    return choices;
+}
+
 } // namespace
+
+const std::string& StudyAnswer::level(const std::string& factor) const {
+    static const std::string none;
+    const auto found = std::ranges::find(levels, factor, &std::pair<std::string, std::string>::first);
+    return found != levels.end() ? found->second : none;
+}
 
 std::optional<double> AnsweredStimulus::number(const std::string& factor) const {
     const auto found = std::ranges::find(numbers, factor, &std::pair<std::string, double>::first);
@@ -39,8 +94,8 @@ std::optional<double> AnsweredStimulus::number(const std::string& factor) const 
 std::vector<StudyAnswer> read_answers(std::span<const std::filesystem::path> sessions,
                                       std::span<const std::pair<std::string, std::string>> same_observer) {
     std::vector<StudyAnswer> answers;
-    for (const std::filesystem::path& folder : sessions) {
-        const SessionRecord record(folder);
+    for (std::size_t session = 0; session < sessions.size(); ++session) {
+        const SessionRecord record(sessions[session]);
         const SessionHeader& header = record.header();
         const Factors factors = factors_of(header);
         std::string observer = header.schedule.observer.label;
@@ -48,12 +103,19 @@ std::vector<StudyAnswer> read_answers(std::span<const std::filesystem::path> ses
             std::ranges::find(same_observer, observer, &std::pair<std::string, std::string>::first);
         if (same != same_observer.end())
             observer = same->second;
+        const std::map<int, ChosenByProcedure> procedures = procedure_choices(record);
         for (const TrialRecord& trial : record.trials()) {
             if (!trial.gives_results() || trial.outcome.given.empty())
                 continue;
             std::vector<AnsweredStimulus> shown;
-            for (const PlacedStimulus& one : trial.trial.all_shown())
-                shown.push_back(answered_stimulus(header, factors, trial.trial, one));
+            std::vector<std::optional<SessionTime>> onsets;
+            for (std::size_t i = 0; i < trial.trial.shown_count(); ++i) {
+                shown.push_back(answered_stimulus(header, factors, trial.trial, trial.trial.shown(i)));
+                const SessionTime onset = trial.seen_in(i).outcome.presentation_onset;
+                onsets.push_back(trial.reached(onset) ? std::optional(onset) : std::nullopt);
+            }
+            const auto levels = levels_of(trial.trial, shown);
+            const auto procedure = procedures.find(trial.trial.index);
             for (const GivenAnswer& given : trial.outcome.given) {
                 StudyAnswer& answer = answers.emplace_back();
                 answer.observer = observer;
@@ -69,6 +131,17 @@ std::vector<StudyAnswer> read_answers(std::span<const std::filesystem::path> ses
                 if (const auto time = given.response_time())
                     answer.response_s = to_seconds(*time);
                 answer.shown = shown;
+                for (std::size_t i = 0; i < onsets.size() && given.answered_at; ++i)
+                    if (onsets[i] && *given.answered_at > *onsets[i])
+                        answer.shown[i].until_answer_s = to_seconds(*given.answered_at - *onsets[i]);
+                answer.session = static_cast<int>(session);
+                answer.trial = trial.trial.index + 1;
+                answer.levels = levels;
+                if (procedure != procedures.end()) {
+                    answer.procedure = procedure->second.procedure;
+                    answer.procedure_factor = procedure->second.factor;
+                    answer.track = procedure->second.condition;
+                }
             }
         }
     }

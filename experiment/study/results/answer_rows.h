@@ -16,7 +16,8 @@ struct AnsweredStimulus {
     std::vector<std::pair<std::string, std::string>>
         levels;                                          ///< of each factor of stimuli with several levels
     std::vector<std::pair<std::string, double>> numbers; ///< of those whose levels are numbers
-    std::optional<double> until_answer_s; ///< from its onset to the answer; nothing: missed, or never lit
+    std::optional<double> until_answer_s =
+        {}; ///< from its onset to the answer; nothing: missed, or not lit before
 
     std::optional<double> number(const std::string& factor) const;
 };
@@ -36,9 +37,8 @@ struct StudyAnswer {
     /// Of each factor in which trials differ: those of their own, and those in which all that is shown is
     /// alike.
     std::vector<std::pair<std::string, std::string>> levels;
-    std::vector<std::string> choices; ///< that the protocol offers, in its order
-    std::string procedure;            ///< id of that which chose the level; empty: none did
-    int track = 0;                    ///< of the procedures' conditions of the task, from 0
+    std::string procedure, procedure_factor; ///< that chose the level of a factor; empty: none did
+    int track = 0;                           ///< the condition of the task's that it was of, from 1
 
     /// Its level of a factor; empty: it has none.
     const std::string& level(const std::string& factor) const;
