@@ -199,6 +199,9 @@ class StepReader {
         } else if (key.key == "frame") {
             step.frame_place = key.value.place;
             take(key.value, key.key, step.frame, at_least(0));
+        } else if (key.key == "probes") {
+            step.probes_place = key.value.place;
+            take(key.value, key.key, step.probes.emplace(), identifier());
         }
     }
 

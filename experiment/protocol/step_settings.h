@@ -42,7 +42,7 @@ inline constexpr auto step_kinds = std::to_array<StepKindRow>({
      "a target to be looked at",
      {"for_s", "limit_s", "until", "right_deg", "up_deg"},
      true},
-    {StepKind::show, "show", "the trial's stimulus", {"for_s", "limit_s", "until", "frame"}, true},
+    {StepKind::show, "show", "the trial's stimulus", {"for_s", "limit_s", "until", "frame", "probes"}, true},
     {StepKind::blank, "blank", "the background", {"for_s", "limit_s", "until"}, true},
     {StepKind::mask,
      "mask",
