@@ -22,7 +22,7 @@ const auto marker_devices = for_each_kind<MarkerOutputKind>([]<MarkerOutputKind 
 
 std::unique_ptr<MarkerSink> open_output(const MarkerParts& parts) {
     MarkerPulse pulse;
-    if (row_of(parts.settings.kind).tells_texts)
+    if (row_of(parts.settings.kind).tells_texts || parts.settings.as_text)
         pulse.length = {};
     else
         pulse.length = from_seconds(1e-3 * parts.settings.pulse_ms);

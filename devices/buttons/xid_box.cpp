@@ -15,27 +15,12 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr SessionDuration xid_patience = 200ms, xid_exchange = 30ms, between_bytes = 1ms;
+constexpr SessionDuration xid_exchange = 30ms;
 constexpr int xid_exchanges = 3;
 
 std::uint32_t little_endian(const unsigned char* bytes) noexcept {
     return std::uint32_t{bytes[0]} | std::uint32_t{bytes[1]} << 8 | std::uint32_t{bytes[2]} << 16 |
            std::uint32_t{bytes[3]} << 24;
-}
-
-/// The first port behind a chip that Cedrus uses, or the first such chip that has no port.
-std::string xid_port(const std::string& address) {
-    if (!address.empty())
-        return address;
-    for (const SerialPortInfo& port : serial_ports("/dev", "/sys", "ttyUSB"))
-        if (port.vendor_id == ftdi_vendor_id)
-            return port.path;
-    for (const FtdiChip& chip : ftdi_chips())
-        if (!chip.has_tty)
-            return chip.address();
-    throw DeviceError(
-        "No USB serial port (/dev/ttyUSB*) and no chip without one is such as boxes of Cedrus have: is the "
-        "box plugged in? Name its port with address.");
 }
 
 std::vector<std::string> serial_lines_found() {
@@ -111,69 +96,15 @@ int xid_button(const XidIdentity& identity, int key) noexcept {
     return place == 0 ? key : place;
 }
 
-XidBox::XidBox(const std::string& port, const Opener& open, Clock& clock) : clock_(&clock) {
-    if (!find(port, open))
-        throw DeviceError(
-            fmt::format("No response box that speaks XID answers at {}. Is it switched on, and set to XID "
-                        "(on RB boxes by the switches at the back)?",
-                        port));
-    const auto told = [&](std::string_view command) {
-        const std::string answer = ask(command, 1, xid_patience);
-        return answer.empty() ? '?' : answer[0];
-    };
-    identity_ = {told("_d2"), told("_d3"), told("_d4")};
-    send("e5"); // its clock at zero
+XidBox::XidBox(const std::string& port, const Opener& open, Clock& clock)
+    : clock_(&clock), line_(port, open, clock) {
+    line_.send("e5"); // its clock at zero
     read_clocks();
     flush();
 }
 
-bool XidBox::find(const std::string& port, const Opener& open) {
-    for (const int baud : {115200, 19200, 9600, 57600, 38400}) {
-        line_.reset(); // one at a time
-        line_ = open(port, baud);
-        baud_ = baud;
-        flush();
-        const std::string answer = ask("_c1", 5, xid_patience);
-        if (!answer.starts_with("_xid"))
-            continue;
-        if (answer != "_xid0") {
-            send("c10"); // into the mode in which keys come as packets
-            clock_->wait_until(clock_->now() + between_bytes);
-            flush();
-        }
-        return true;
-    }
-    return false;
-}
-
-void XidBox::send(std::string_view bytes) {
-    // Boxes with the first firmware lose bytes that follow each other closely.
-    for (const char& byte : bytes) {
-        if (!line_->write({&byte, 1}, clock_->now() + xid_patience))
-            throw DeviceError(fmt::format("The response box at {} takes no commands: {}.", line_->name(),
-                                          line_->lost() ? line_->loss() : "time-out"));
-        if (identity_.firmware == '1' || identity_.firmware == '?')
-            clock_->wait_until(clock_->now() + between_bytes);
-    }
-}
-
-std::string XidBox::ask(std::string_view command, std::size_t bytes, SessionDuration patience) {
-    send(command);
-    const SessionTime deadline = clock_->now() + patience;
-    std::string answer;
-    std::array<char, 64> piece;
-    while (answer.size() < bytes && clock_->now() < deadline && !line_->lost()) {
-        const std::size_t count =
-            line_->read(std::span(piece).first(std::min(piece.size(), bytes - answer.size())), deadline);
-        answer.append(piece.data(), count);
-    }
-    return answer;
-}
-
 void XidBox::flush() noexcept {
-    std::array<char, 256> stale;
-    for (int i = 0; i < 1000 && line_->read(stale, clock_->now()) > 0; ++i) {
-    }
+    line_.flush();
     parser_.clear();
 }
 
@@ -181,21 +112,22 @@ void XidBox::read_clocks() {
     for (int i = 0; i < xid_exchanges; ++i) {
         flush(); // a key that comes now would stand before the answer
         const SessionTime before = clock_->now();
-        const std::string answer = ask("_e5", 7, xid_exchange);
+        const std::string answer = line_.ask("_e5", 7, xid_exchange);
         if (answer.size() != 7 || !answer.starts_with("_e5"))
             continue;
         times_.add_exchange(before, little_endian(reinterpret_cast<const unsigned char*>(answer.data()) + 3),
                             clock_->now());
         has_clock_ = true;
     }
-    if (line_->lost())
-        throw DeviceError(fmt::format("The response box at {} is gone: {}.", line_->name(), line_->loss()));
+    if (line_.lost())
+        throw DeviceError(fmt::format("The response box at {} is gone: {}.", line_.name(), line_.loss()));
 }
 
 ButtonBoxDescription XidBox::description() const {
     return {"xid",
-            fmt::format("{}, product {}, model {}, firmware {}, {} baud", line_->name(), identity_.product,
-                        identity_.model, identity_.firmware, baud_),
+            fmt::format("{}, product {}, model {}, firmware {}, {} baud", line_.name(),
+                        line_.identity().product, line_.identity().model, line_.identity().firmware,
+                        line_.baud()),
             has_clock_};
 }
 
@@ -219,11 +151,11 @@ std::size_t XidBox::poll(std::span<ButtonChange> into) noexcept {
                 break;
             if (key->port == 0)
                 into[taken++] =
-                    times_.of(xid_button(identity_, key->key), key->is_down, key->ms, looked_, now);
+                    times_.of(xid_button(line_.identity(), key->key), key->is_down, key->ms, looked_, now);
         }
         if (taken == into.size())
             return taken;
-        const std::size_t count = line_->read(piece, now);
+        const std::size_t count = line_.read(piece, now);
         if (count == 0)
             break;
         parser_.feed(std::span(piece).first(count));

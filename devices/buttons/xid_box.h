@@ -4,15 +4,12 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 
 #include "devices/buttons/box_times.h"
-#include "devices/link/byte_transport.h"
+#include "devices/buttons/xid_line.h"
 #include "experiment/ports/button_box.h"
 #include "experiment/ports/clock.h"
 
@@ -41,13 +38,6 @@ class XidParser {
     std::size_t size_ = 0;
 };
 
-/// Which box it is.
-struct XidIdentity {
-    char product = '?'; ///< 0 Lumina, 2 RB, 5 Riponda …
-    char model = '?';   ///< of RB: 1 530/540, 2 730/740, 3 830/840, 4 834/844
-    char firmware = '?';
-};
-
 /// The number of a button by its place, from 1 at the left, of a key as the box numbers it: the models
 /// differ.
 int xid_button(const XidIdentity& identity, int key) noexcept;
@@ -55,29 +45,22 @@ int xid_button(const XidIdentity& identity, int key) noexcept;
 /// Buttons are numbered by their place, from 1 at the left.
 class XidBox final : public ButtonBox {
   public:
-    /// Opens a port at a speed. Throws DeviceError.
-    using Opener = std::function<std::unique_ptr<ByteTransport>(const std::string& port, int baud)>;
+    using Opener = XidLine::Opener;
 
-    /// Tries the speeds that such boxes can be switched to. `clock` must outlive this. Throws DeviceError if
-    /// no XID box answers.
+    /// `clock` must outlive this. Throws as XidLine's constructor.
     XidBox(const std::string& port, const Opener& open, Clock& clock);
 
     ButtonBoxDescription description() const override;
     void begin() override;
     std::size_t poll(std::span<ButtonChange> into) noexcept override;
-    bool lost() const noexcept override { return line_->lost(); }
+    bool lost() const noexcept override { return line_.lost(); }
 
   private:
-    bool find(const std::string& port, const Opener& open);
-    void send(std::string_view bytes);
-    std::string ask(std::string_view command, std::size_t bytes, SessionDuration patience);
     void flush() noexcept;
     void read_clocks();
 
     Clock* clock_;
-    std::unique_ptr<ByteTransport> line_;
-    int baud_ = 0;
-    XidIdentity identity_;
+    XidLine line_;
     XidParser parser_;
     BoxTimes times_;
     bool has_clock_ = false;

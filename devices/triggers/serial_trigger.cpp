@@ -1,5 +1,9 @@
 #include "devices/triggers/serial_trigger.h"
 
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstring>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -26,14 +30,44 @@ bool SerialTrigger::write(std::uint8_t byte) noexcept {
     return line_->write({bytes, 1}, clock_.now() + writing_time);
 }
 
-std::string SerialTrigger::fault() const {
-    return line_->lost() ? line_->loss() : "the port did not take them in time";
+namespace {
+
+std::string why_not_taken(const ByteTransport& line) {
+    return line.lost() ? line.loss() : "the port did not take them in time";
 }
+
+} // namespace
+
+std::string SerialTrigger::fault() const { return why_not_taken(*line_); }
+
+SerialText::SerialText(std::unique_ptr<ByteTransport> line, const Clock& clock, bool sends_codes)
+    : line_(std::move(line)), clock_(clock), sends_codes_(sends_codes),
+      name_(fmt::format("serial port {}, lines of text", line_->name())) {}
+
+bool SerialText::send(const Marker& marker) noexcept {
+    std::array<char, longest_marker + 1> bytes;
+    std::size_t count = 0;
+    if (sends_codes_) {
+        count = static_cast<std::size_t>(
+            std::to_chars(bytes.data(), bytes.data() + longest_marker, marker.code).ptr - bytes.data());
+    } else {
+        count = std::min(marker.text.size(), longest_marker);
+        std::memcpy(bytes.data(), marker.text.data(), count);
+    }
+    bytes[count++] = '\n';
+    return line_->write({bytes.data(), count}, clock_.now() + writing_time);
+}
+
+std::string SerialText::fault() const { return why_not_taken(*line_); }
 
 template <> MarkerDevice marker_device_of<kind_called<MarkerOutputKind>("serial")>() {
     return {.open = [](const MarkerParts& parts) -> std::unique_ptr<MarkerOutput> {
-                return std::make_unique<SerialTrigger>(
-                    open_serial_line(parts.settings.address, parts.clock, parts.settings.baud), parts.clock);
+                const MarkerOutputSettings& settings = parts.settings;
+                auto line = open_serial_line(settings.address, parts.clock, settings.baud);
+                if (settings.as_text)
+                    return std::make_unique<SerialText>(std::move(line), parts.clock,
+                                                        !settings.codes.empty());
+                return std::make_unique<SerialTrigger>(std::move(line), parts.clock);
             },
             .look_for =
                 [] {

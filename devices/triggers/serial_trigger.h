@@ -31,4 +31,23 @@ class SerialTrigger final : public MarkerOutput {
     std::string name_;
 };
 
+/// A device that takes lines of text: the code in figures, or the marker's text, and a line feed.
+class SerialText final : public MarkerOutput {
+  public:
+    /// `sends_codes`: only markers with a code, in figures; else every marker's text. `clock` must outlive
+    /// it, and be the line's.
+    SerialText(std::unique_ptr<ByteTransport> line, const Clock& clock, bool sends_codes);
+
+    const std::string& name() const noexcept override { return name_; }
+    bool needs_code() const noexcept override { return sends_codes_; }
+    bool send(const Marker& marker) noexcept override;
+    std::string fault() const override;
+
+  private:
+    std::unique_ptr<ByteTransport> line_;
+    const Clock& clock_;
+    bool sends_codes_;
+    std::string name_;
+};
+
 } // namespace overt

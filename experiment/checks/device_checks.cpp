@@ -2,6 +2,7 @@
 #include <set>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "experiment/base/error.h"
 #include "experiment/checks/protocol_checks.h"
@@ -124,13 +125,15 @@ void check_t_lock(ProtocolExamination& examination, std::size_t index) {
             examination.error({path("kind")}, "there is one output of kind t-lock already");
 }
 
-/// "serial and parallel"
+/// "serial, parallel and xid"
 std::string outputs_with(bool MarkerOutputKindRow::*column) {
-    std::string names;
+    std::vector<std::string_view> names;
     for (const MarkerOutputKindRow& kind : kinds_of<MarkerOutputKind>)
         if (kind.*column)
-            names += fmt::format("{}{}", names.empty() ? "" : " and ", kind.name);
-    return names;
+            names.push_back(kind.name);
+    if (names.size() < 2)
+        return names.empty() ? std::string() : std::string(names.front());
+    return fmt::format("{} and {}", fmt::join(names.begin(), names.end() - 1, ", "), names.back());
 }
 
 void check_marker_output(ProtocolExamination& examination, std::size_t index) {
@@ -146,7 +149,7 @@ void check_marker_output(ProtocolExamination& examination, std::size_t index) {
     if (!kind.rides_on_picture && output.offset_ms)
         examination.error({path("offset_ms")}, "only outputs of kind t-lock ride on the picture",
                           "leave it out: others are told when they are sent, and the record says when");
-    if (!kind.tells_texts && output.codes.empty() && output.refresh_codes.empty())
+    if (!kind.tells_texts && !output.as_text && output.codes.empty() && output.refresh_codes.empty())
         examination.error({path("kind")}, "nothing would be marked: \"codes\" are missing",
                           "such as codes = [\"onset 10\", \"response 2\"]");
     if (kind.tells_texts && !(output.codes.empty() && output.condition_codes.empty()))
@@ -162,6 +165,9 @@ void check_marker_output(ProtocolExamination& examination, std::size_t index) {
     if (!kind.has_speed && examination.is_written(path("baud")))
         examination.error({path("baud")},
                           fmt::format("only {} outputs have a speed", outputs_with(&Row::has_speed)));
+    if (!kind.has_speed && output.as_text)
+        examination.error({path("as_text")},
+                          fmt::format("only {} outputs take lines of text", outputs_with(&Row::has_speed)));
     if (!kind.has_library && !output.library.empty())
         examination.error({path("library")}, fmt::format("only outputs of kind {} need a library",
                                                          outputs_with(&Row::has_library)));

@@ -59,6 +59,8 @@ inline constexpr std::string_view tracker_clock_jumped_event =
     "eye tracker's clock jumped";                                            ///< and by how much
 inline constexpr std::string_view tracker_fault_event = "eye tracker fault"; ///< a simulated one that struck
 inline constexpr std::string_view screen_event = "screen";                   ///< a finding about it
+/// What of it is not what it was when the session began: its mode, a compositor, the gamma table, the window.
+inline constexpr std::string_view screen_changed_event = "screen changed";
 /// What a check of the presentation found before the first trial: misses, and the distribution of times.
 inline constexpr std::string_view presentation_check_event = "presentation check";
 inline constexpr std::string_view thread_event = "thread"; ///< how the program's threads are scheduled

@@ -24,6 +24,9 @@ struct TrackerDescription {
     Eye eye = Eye::right;   ///< the one that is measured; of both, the one that the analysis takes
     bool both_eyes = false; ///< each measurement is two samples of the same time, the left eye's first
     std::string model = {}; ///< as the device tells it: product, version, serial number
+    /// What the tracker says of its rate, where that was not taken on trust and sample_rate_hz was measured;
+    /// 0: it says nothing, or sample_rate_hz is what it granted.
+    double told_rate_hz = 0.0;
 };
 
 /// What the tracker, or its operator at the host, says of the recording under way.

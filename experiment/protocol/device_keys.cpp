@@ -27,11 +27,15 @@ std::vector<Key> marker_output() {
     return {
         {"id", &M::id, identifier().required(), "By which the record names it."},
         {"kind", &M::kind, explanation_of_kinds<MarkerOutputKind>()},
-        {"address", &M::address, left_out("/dev/parport0 of `parallel`"),
-         "Of `serial` and `parallel`, the port, such as /dev/ttyUSB1; of `serial` also usb:0403:6001 for a "
-         "chip that has none."},
+        {"address", &M::address, left_out("/dev/parport0 of `parallel`; the first of `xid`"),
+         "Of `serial`, `xid` and `parallel`, the port, such as /dev/ttyUSB1; of `serial` and `xid` also "
+         "usb:0403:6001 for a chip that has none."},
         {"baud", &M::baud, range(1200, 921600),
          "Of `serial`, the speed, with 8 data bits, no parity and 1 stop bit."},
+        {"as_text", &M::as_text,
+         "Of `serial`, for devices that take lines of text: each code in figures, or without `codes` the "
+         "text of "
+         "every event, and a line feed after it. Nothing is taken back."},
         {"pulse_ms", &M::pulse_ms, range(0, 1000, "ms"),
          "For so long a code stays raised; 0: it is not taken back, for boxes that make their pulses by "
          "themselves. Of `t-lock` 24.8 ms at most."},

@@ -152,7 +152,8 @@ struct TrackerSettings {
     std::vector<std::string> channels; ///< what they mean; empty: as the stream tells
     StreamUnit unit = StreamUnit::as_told;
     bool y_is_up = false;
-    std::string eye = "right"; ///< "left", "right" or "both"
+    std::vector<double> missing; ///< numbers that stand for a value that there is not
+    std::string eye = "right";   ///< "left", "right" or "both"
     bool measures_both_eyes() const { return eye == "both"; }
     /// The one that the analysis takes: of both, the right one.
     Eye analysed_eye() const { return eye == "left" ? Eye::left : Eye::right; }

@@ -36,6 +36,12 @@ template <class T> std::vector<Key> tracker_keys() {
         {"unit", member_of<T>(&T::unit), "Of `lsl`, the unit of gaze: pixels, or shares of the screen."},
         {"y_is_up", member_of<T>(&T::y_is_up),
          "Of `lsl`, whether y grows upward from the lower edge of the screen."},
+        {"missing", member_of<T>(&T::missing), left_out("those of programs that are known, and none else"),
+         "Of `lsl`, numbers that stand for a value that there is not, such as `[-32768]`; NaN always does. "
+         "Gaze "
+         "is missing where one of its coordinates is such a number that lies off the screen, or both are "
+         "such "
+         "numbers."},
         {"eye", member_of<T>(&T::eye), one_of(eyes),
          "The eye that is tracked. Of both, the right one is analysed."},
         {"simulated_noise_deg", member_of<T>(&T::simulated_noise_deg), range(0, 10, "deg"),

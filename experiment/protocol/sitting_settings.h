@@ -51,6 +51,8 @@ struct AnswerSettings {
 /// [words]: what the program itself says on the screen.
 struct WordSettings {
     std::string keyboard_lost = "What is typed goes to another window.\nClick on this one to go on.";
+    std::string screen_changed = "The screen is not what it was when the session began.\n"
+                                 "Go on all the same? Otherwise the session ends.";
     std::string recalibrate = "Calibrate the eye tracker anew?\nThe session then goes on where it is.";
     std::string validation = "Go on with this calibration? Otherwise it is done again.";
     std::string validation_poor = "This calibration is poorer than the protocol allows.\n"

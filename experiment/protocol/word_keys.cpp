@@ -5,7 +5,10 @@ namespace overt::key_rows {
 std::vector<Key> words() {
     using W = WordSettings;
     return {
-        {"keyboard_lost", &W::keyboard_lost, "Shown between trials while another window has the keyboard."},
+        {"keyboard_lost", &W::keyboard_lost,
+         "Shown while another window has the keyboard, but not during a presentation."},
+        {"screen_changed", &W::screen_changed,
+         "Asked of the operator between trials, above what has changed of the screen."},
         {"recalibrate", &W::recalibrate, "Asked before the tracker is calibrated anew."},
         {"validation", &W::validation,
          "Asked when the program has calibrated the tracker; mean and largest error follow."},

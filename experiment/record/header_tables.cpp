@@ -43,8 +43,11 @@ constexpr RowColumn<SessionHeader> session_columns[] = {
     column<&Header::graphics, &GraphicsSystem::renderer>("gl_renderer", "likewise"),
     column<&Header::graphics, &GraphicsSystem::version>("gl_version", "likewise"),
     column<&Header::tracker, &TrackerDescription::name>("tracker_name", "name of the eye tracker"),
-    column<&Header::tracker, &TrackerDescription::sample_rate_hz>("tracker_rate_hz",
-                                                                  "its samples to a second, nominal"),
+    column<&Header::tracker, &TrackerDescription::sample_rate_hz>(
+        "tracker_rate_hz", "its samples to a second: granted, or measured "
+                           "where the tracker's word was not taken"),
+    column<&Header::tracker, &TrackerDescription::told_rate_hz>(
+        "tracker_told_rate_hz", "what the tracker says of its rate, where that was measured; else 0", "0"),
     column<&Header::tracker, &TrackerDescription::eye>(
         "tracker_eye", "`left` or `right`; of both, the one that is analysed"),
     column<&Header::tracker, &TrackerDescription::both_eyes>("tracker_both_eyes", "1 if both are measured",

@@ -61,6 +61,11 @@ struct SessionPorts {
         probe_of = {};
     /// Told of each change of phase, with the trial or -1; not during a presentation. May be empty.
     std::function<void(SessionPhase, int)> on_phase = {};
+    /// Gives what of the screen has changed since it was asked last so that what is shown may not be what the
+    /// protocol says, a sentence each. Asked between trials only: it may wait for a server. May be empty.
+    std::function<std::vector<std::string>()> screen_changes = {};
+    /// Refreshes are told by a real display's vertical blanks; else no number of missed ones is given out.
+    bool has_proven_times = true;
 };
 
 } // namespace overt
