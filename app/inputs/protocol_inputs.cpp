@@ -265,6 +265,14 @@ void examine_waited_areas(const Experiment& experiment, Diagnostics& diagnostics
             }
 }
 
+void place_points(Experiment& experiment, Diagnostics& diagnostics) {
+    const Protocol& protocol = experiment.protocol;
+    for (std::size_t list = 0; list < protocol.point_lists.size(); ++list)
+        for (std::size_t i = 0; i < experiment.objects.size(); ++i)
+            examine(protocol, protocol.places.of(fmt::format("points[{}].id", list)), diagnostics,
+                    [&] { add_points(experiment.objects[i], protocol, protocol.point_lists[list], i); });
+}
+
 /// Nothing if there is an error, now or before.
 std::optional<Experiment> look_into(std::optional<Protocol> protocol, const std::filesystem::path& cache,
                                     InputDepth depth, Diagnostics& diagnostics) {
@@ -272,8 +280,10 @@ std::optional<Experiment> look_into(std::optional<Protocol> protocol, const std:
         return std::nullopt;
     Experiment experiment{*std::move(protocol), {}};
     experiment.objects = examine_objects(experiment.protocol, cache, diagnostics);
-    if (!diagnostics.has_errors())
+    if (!diagnostics.has_errors()) {
         examine_waited_areas(experiment, diagnostics);
+        place_points(experiment, diagnostics);
+    }
     examine_simulated_areas(experiment, diagnostics);
     examine_surroundings(experiment.protocol, diagnostics);
     if (depth == InputDepth::everything) {

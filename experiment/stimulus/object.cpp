@@ -196,10 +196,22 @@ bool is_in_picture(const Object& object, int of_view, Degrees angle) {
     return false;
 }
 
+void add_points(Object& object, const Protocol& protocol, const PointListSettings& list, std::size_t index) {
+    if (!is_on_object(protocol, list, index))
+        return;
+    if (!object.has_mesh())
+        throw InputError(fmt::format("object \"{}\" has no mesh, and so no surface with places", object.id));
+    for (ObjectPoint& point : points_on(protocol, list, object.mesh, object.scene()))
+        object.points.push_back(std::move(point));
+}
+
 std::vector<Object> load_objects(const Protocol& protocol, const std::filesystem::path& cache) {
     std::vector<Object> objects;
     for (const ObjectSettings& settings : protocol.objects)
         objects.push_back(load_object(settings, protocol, cache));
+    for (const PointListSettings& list : protocol.point_lists)
+        for (std::size_t i = 0; i < objects.size(); ++i)
+            add_points(objects[i], protocol, list, i);
     return objects;
 }
 

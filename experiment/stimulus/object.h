@@ -12,6 +12,7 @@
 #include "experiment/scene/making/mesh_parts.h"
 #include "experiment/scene/viewing.h"
 #include "experiment/screen_geometry.h"
+#include "experiment/stimulus/object_points.h"
 
 namespace overt {
 
@@ -29,6 +30,7 @@ struct Object {
     ContentHash mesh_hash;  ///< see hash_of_mesh
     glm::dvec3 origin{0.0}; ///< of the mesh's coordinates in those of its file, turned and scaled alike
     std::vector<SceneView> scenes;    ///< by view
+    std::vector<ObjectPoint> points;  ///< of the protocol's lists, list by list
     std::vector<std::string> remarks; ///< on the mesh, for the experimenter
 
     bool has_mesh() const { return !mesh.triangles.empty(); }
@@ -57,11 +59,15 @@ ContentHash hash_of_mesh(const Mesh& mesh);
 Object load_object(const ObjectSettings& settings, const Protocol& protocol,
                    const std::filesystem::path& cache);
 
+/// Finds the places of a list on an object, the `index`-th of the protocol, and adds them; does nothing where
+/// the list is of another. Throws InputError.
+void add_points(Object& object, const Protocol& protocol, const PointListSettings& list, std::size_t index);
+
 /// Whether any of the object can be in a view's picture when it is turned by `angle`. Only for one with a
 /// mesh.
 bool is_in_picture(const Object& object, int view, Degrees angle);
 
-/// All objects of the protocol, in its order.
+/// All objects of the protocol, in its order, with their points.
 std::vector<Object> load_objects(const Protocol& protocol, const std::filesystem::path& cache);
 
 } // namespace overt
