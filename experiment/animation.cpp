@@ -44,11 +44,15 @@ double sine_of(const Animation& motion, AnimationFrameIndex frame) {
 } // namespace
 
 Degrees Animation::angle_of(AnimationFrameIndex frame) const {
+    if (kind == MotionKind::observer)
+        return by_observer.angle_of(frame.value);
     const double turn = kind == MotionKind::turn ? amplitude.value * sine_of(*this, frame) : 0.0;
     return {angle.value + turn};
 }
 
 Pose Animation::pose_of(AnimationFrameIndex frame) const {
+    if (kind == MotionKind::observer)
+        return {angle_of(frame), {0.0}};
     return {angle_of(frame), {light_amplitude.value * sine_of(*this, frame)}};
 }
 
@@ -63,6 +67,10 @@ std::vector<Pose> Animation::pictures() const {
 }
 
 Degrees Animation::largest_turn() const {
+    if (kind == MotionKind::observer) {
+        const double most = std::max(std::abs(by_observer.from.value), std::abs(by_observer.to.value));
+        return {by_observer.is_whole() ? 180.0 : std::min(most, 180.0)};
+    }
     const double from_front = std::abs(std::remainder(angle.value, 360.0));
     return {std::min(from_front + (kind == MotionKind::turn ? std::abs(amplitude.value) : 0.0), 180.0)};
 }
@@ -70,6 +78,8 @@ Degrees Animation::largest_turn() const {
 int Animation::shown_frame_count() const { return static_cast<int>(std::lround(duration_s * frame_rate_hz)); }
 
 int Animation::steps_per_period() const {
+    if (kind == MotionKind::observer)
+        return frame_count;
     const int intervals = std::max(frame_count - 1, 1);
     return playback == Playback::cycle ? intervals : 2 * intervals;
 }
@@ -80,6 +90,8 @@ AnimationFrameIndex Animation::frame_at_step(int step) const {
     const int in_period = step % steps_per_period();
     if (frame_count == 1)
         return {0};
+    if (kind == MotionKind::observer)
+        return {in_period};
     // The closing frame of a cycle is the first of the next.
     return {in_period <= intervals ? in_period : 2 * intervals - in_period};
 }
@@ -110,6 +122,11 @@ PoseTable distinct_poses(const Animation& motion) {
 std::vector<double> seconds_of_poses(const Animation& animation, const PoseTable& poses, int motion) {
     OVERT_EXPECTS(poses.frames_of(motion).size() >= static_cast<std::size_t>(animation.frame_count));
     std::vector<double> seconds(poses.angles.size(), 0.0);
+    if (animation.kind == MotionKind::observer) {
+        for (const PoseIndex pose : poses.frames_of(motion))
+            seconds[static_cast<std::size_t>(pose.value)] += animation.duration_s / animation.frame_count;
+        return seconds;
+    }
     for (int step = 0; step < animation.shown_frame_count(); ++step)
         seconds[static_cast<std::size_t>(poses.pose_of(motion, animation.frame_at_step(step)).value)] +=
             1.0 / animation.frame_rate_hz;
@@ -128,6 +145,11 @@ ShownPictures shown_pictures(const Animation& animation, std::span<const PoseInd
         shown.of_frame.push_back(static_cast<int>(picture - pictures.begin()));
         shown.poses[static_cast<std::size_t>(shown.of_frame.back())] =
             pose_of_frame[static_cast<std::size_t>(frame)];
+    }
+    if (animation.kind == MotionKind::observer) {
+        for (const int picture : shown.of_frame)
+            shown.seconds[static_cast<std::size_t>(picture)] += animation.duration_s / animation.frame_count;
+        return shown;
     }
     for (int step = 0; step < animation.shown_frame_count(); ++step) {
         const auto frame = static_cast<std::size_t>(animation.frame_at_step(step).value);

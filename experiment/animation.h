@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "experiment/base/enum_names.h"
+#include "experiment/observer_turn.h"
 #include "experiment/units.h"
 
 namespace overt {
@@ -36,9 +37,9 @@ enum class WhenLate { drop, stretch };
 template <> inline constexpr auto names_of<WhenLate> = enum_names<WhenLate>("drop", "stretch");
 
 /// What the object does. `turn`: it goes to and fro about the vertical, as a sine. `still`: it keeps its
-/// angle.
-enum class MotionKind : std::uint8_t { turn, still };
-template <> inline constexpr auto names_of<MotionKind> = enum_names<MotionKind>("turn", "still");
+/// angle. `observer`: it stands as the observer turns it.
+enum class MotionKind : std::uint8_t { turn, still, observer };
+template <> inline constexpr auto names_of<MotionKind> = enum_names<MotionKind>("turn", "still", "observer");
 
 /// How object and light stand in a frame, about the vertical and counter-clockwise seen from above. With the
 /// camera of a view it is all that a picture of an object in a material and a light depends on.
@@ -69,8 +70,10 @@ struct Animation {
     MotionKind kind = MotionKind::turn;
     Degrees angle{0.0}; ///< from the front view: the middle of a turn, or where a still object stands
     Degrees light_amplitude{0.0}; ///< the light's turn to each side, in step with the object's
+    ObserverTurn by_observer;     ///< of `observer`, whose frames are its poses
 
-    /// The angle of the object in a frame, counter-clockwise seen from above: `angle`, and of `turn` with
+    /// The angle of the object in a frame, counter-clockwise seen from above: of `observer` that of its pose,
+    /// else `angle`, and of `turn` with
     /// cycle a sin(2 pi k / (n-1)), with ping_pong -a cos(pi k / (n-1)) on top of it. Frames that share a
     /// pose get bit-identical angles.
     Degrees angle_of(AnimationFrameIndex frame) const;
@@ -90,7 +93,7 @@ struct Animation {
     /// How many frames one presentation shows: duration times rate, to the nearest whole frame.
     int shown_frame_count() const;
 
-    /// Which frame is the `step`-th shown (step >= 0).
+    /// Which frame is the `step`-th shown (step >= 0). Of `observer` nobody knows beforehand: all in turn.
     AnimationFrameIndex frame_at_step(int step) const;
 
     /// How many steps until the order of frames repeats.
@@ -122,7 +125,8 @@ struct PoseTable {
 /// Of a protocol with one motion.
 PoseTable distinct_poses(const Animation& motion);
 
-/// How long one presentation of a motion shows each pose as planned, in seconds; by PoseIndex.
+/// How long one presentation of a motion shows each pose as planned, in seconds; by PoseIndex. What the
+/// observer turns is as long in each pose as in any other.
 std::vector<double> seconds_of_poses(const Animation& animation, const PoseTable& poses, int motion);
 
 /// The pictures of a motion: which pose each shows, and how long a presentation shows it as planned.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string_view>
 
 #include "experiment/animation.h"
@@ -71,6 +72,19 @@ struct SlotFlip {
     AnimationFrameIndex shown;   ///< no_frame: the slot was empty
     PoseIndex pose;
     friend constexpr bool operator==(const SlotFlip&, const SlotFlip&) = default;
+};
+
+/// What the observer had moved a slot to, as a flip shows it: for each flip of a show in which a match or a
+/// motion of kind "observer" decides what the slot shows. Frame and pose are in the FlipRecord, or in the
+/// SlotFlip.
+struct SteeredFlip {
+    int trial = 0;
+    int refresh_in_trial = 0; ///< of the flip
+    int place = 0;            ///< among what the trial shows (Trial::shown)
+    int level = -1;           ///< of a match, among its levels from 0; -1: the slot has none
+    /// Of the latest input that the picture contains; nothing: it stands as it began.
+    std::optional<SessionTime> input_at = {};
+    friend constexpr bool operator==(const SteeredFlip&, const SteeredFlip&) = default;
 };
 
 /// The other kind of row: a refresh within the time of the plan that went by with the picture before it.

@@ -22,6 +22,7 @@ class WatchedLog final : public SessionLog {
 
     void flip(const FlipRecord& flip) noexcept override;
     void slot_flip(const SlotFlip& flip) noexcept override { record_.slot_flip(flip); }
+    void steered_flip(const SteeredFlip& flip) noexcept override { record_.steered_flip(flip); }
     void missed(const MissedRefresh& refresh) noexcept override;
     void sample(int trial, const GazeSample& sample) noexcept override;
     void tracker_item(int trial, const TrackerItem& item) noexcept override {

@@ -15,7 +15,7 @@ using MakeAnswering = std::unique_ptr<Answering>(const AnswerForm& form);
 
 // A file each, or two that are alike.
 MakeAnswering key_answering, choice_answering, scale_answering, number_answering, text_answering,
-    point_answering, gauge_answering;
+    point_answering, gauge_answering, match_answering;
 
 struct AnswerKindRow {
     std::string_view name;
@@ -70,6 +70,14 @@ inline constexpr auto kinds_of<AnswerKind> = std::to_array<AnswerKindRow>({
      "tables have its slant and tilt beside the surface's own",
      gauge_answering,
      {"probe", "size_deg", "slant_per_px_deg", "key_step_deg", "undo_key", "with", "accept_key"},
+     true,
+     true},
+    {"match",
+     "what is shown in `slot`, set along a column of numbers while it is shown, until the observer accepts "
+     "it",
+     match_answering,
+     {"slot", "along", "shows", "start", "keys", "coarse_keys", "coarse_steps", "undo_key", "with",
+      "beside_up_deg", "accept_key"},
      true,
      true},
     {"spoken", "spoken, and recorded as `[answers]` says; a key goes on", nullptr, {}, false, false},

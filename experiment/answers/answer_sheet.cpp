@@ -385,6 +385,7 @@ GivenAnswer AnswerSheet::given(const Asked& asked) const {
     given.is_tied = asked.is_tied;
     given.correct = form.correct;
     given.is_missed = !asked.is_given;
+    asked.answering->add_details(given);
     if (given.is_missed) {
         if (settings.missed == MissedAnswer::wrong && !form.correct.empty())
             given.is_correct = false;

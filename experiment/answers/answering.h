@@ -13,6 +13,23 @@
 
 namespace overt {
 
+/// What a match can be set to in one trial: all combinations of the values of its columns.
+struct MatchLevels {
+    struct Axis {
+        std::string along;                    ///< the column
+        std::vector<double> values;           ///< rising
+        int start = 0;                        ///< index of the value that it begins with
+        std::optional<double> reference = {}; ///< of the first other stimulus that has one
+    };
+    std::vector<Axis> axes;        ///< none: it is no match
+    std::vector<Stimulus> stimuli; ///< by level: with two axes the second runs faster
+    int place = 0;                 ///< of the stimulus that is set, in Trial::shown
+    int slot = 0;                  ///< of the protocol
+    int level_of(int first, int second = 0) const {
+        return axes.size() < 2 ? first : first * static_cast<int>(axes[1].values.size()) + second;
+    }
+};
+
 /// An answer as it is asked in one trial.
 struct AnswerForm {
     const TaskAnswer* settings = nullptr; ///< of the protocol, which outlives it
@@ -23,6 +40,7 @@ struct AnswerForm {
     int place = 0;                        ///< which of the trial's it is in turn
     std::string probe, point = {};        ///< of a gauge: where it stands
     Attitude start = {};                  ///< of a gauge, drawn
+    MatchLevels levels = {};              ///< of a match
 };
 
 class Answering {
@@ -54,6 +72,10 @@ class Answering {
     virtual std::optional<Attitude> attitude() const noexcept { return std::nullopt; }
     /// It can lean no farther.
     virtual bool is_at_limit() const noexcept { return false; }
+    /// Of a match: the level that its slot shows; allocates nothing.
+    virtual std::optional<int> level() const noexcept { return std::nullopt; }
+    /// What the record has of it besides value and number; also where it was missed.
+    virtual void add_details(GivenAnswer& /*given*/) const {}
     /// All but the question.
     virtual void draw(AnswerItem& item) const = 0;
     /// How it can be given; all but id, item, kind, correct, and the key that accepts.

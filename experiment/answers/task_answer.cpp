@@ -17,4 +17,17 @@ std::string TaskAnswer::key_of_step(int index) const {
     return steps && *steps <= most_digits ? std::string(1, static_cast<char>('1' + index)) : std::string();
 }
 
+std::vector<std::string> TaskAnswer::match_keys() const {
+    if (!keys.empty())
+        return keys;
+    return along.size() > 1 ? std::vector<std::string>{"left", "right", "down", "up"}
+                            : std::vector<std::string>{"left", "right"};
+}
+
+std::vector<std::string> TaskAnswer::match_coarse_keys() const {
+    if (!coarse_keys.empty() || !keys.empty() || along.size() > 1)
+        return coarse_keys;
+    return {"page down", "page up"};
+}
+
 } // namespace overt

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "experiment/base/enum_names.h"
+#include "experiment/base/named_words.h"
 #include "experiment/ports/given_answer.h"
 
 namespace overt {
@@ -83,6 +84,8 @@ struct AnswerTruth {
     /// Of a gauge, two numbers that are added to the depth's rise to the right and upwards, of which `gain`
     /// is a factor and `noise` the standard deviation; empty: 0.
     std::vector<double> shear;
+    /// Of matches: offset + gain x reference + noise x normal, drawn towards the start by this share.
+    double start_bias = 0.0;
     std::vector<double> cuts; ///< of a scale with steps: as many steps up as cuts lie below that
     // From the window's begin: shift + log-normal.
     double shift_s = 0.25, median_s = 0.6, log_sd = 0.35;
@@ -98,6 +101,18 @@ struct AnswerTruth {
         look_share;         ///< of the fixations, on the slot that will be chosen; nothing: all alike
     std::string look_area;  ///< looked at more, or less, before the first choice than before others
     double look_odds = 1.0; ///< times the odds of a fixation on it before the first choice
+};
+
+/// Where a match begins.
+struct MatchStart {
+    enum class From : std::uint8_t {
+        drawn, ///< each level equally probable, for each trial
+        low,
+        high,
+        values ///< those of `values`, one for each column
+    };
+    From from = From::drawn;
+    std::vector<double> values;
 };
 
 struct TaskAnswer {
@@ -132,6 +147,13 @@ struct TaskAnswer {
     double key_step_deg = 3.0;     ///< that an arrow leans it
     std::string undo_key = "backspace";
     PointedBy by = PointedBy::mouse; ///< of a point
+    // Of a match.
+    std::string slot;               ///< id of the slot whose stimulus is set
+    std::vector<std::string> along; ///< columns with numbers, one or two
+    NamedWords shows;               ///< the entries in a slot that trials leave empty, by list
+    MatchStart start;
+    std::vector<std::string> coarse_keys; ///< empty: see match_keys()
+    int coarse_steps = 5;
     // The window.
     AnswerOpening opens;
     std::optional<double> limit_s; ///< after it opened
@@ -155,6 +177,10 @@ struct TaskAnswer {
     /// That chooses a step: as written, else the digits from 1. Empty: none does.
     std::string key_of_step(int index) const;
     bool is_choice() const { return !choices.empty(); }
+    /// Of a match: for each column the key to less and the key to more, as written, else the arrows.
+    std::vector<std::string> match_keys() const;
+    /// The same by `coarse_steps` levels; where nothing is written, of one column page down and page up.
+    std::vector<std::string> match_coarse_keys() const;
 };
 
 } // namespace overt

@@ -32,6 +32,10 @@ class MemberPlace {
     template <class Struct, class Value, std::size_t count>
     MemberPlace(std::array<Value, count> Struct::*member, std::size_t index)
         : struct_(&as_left_out<Struct>()), member_(&(as_left_out<Struct>().*member).at(index)) {}
+    /// A member of a member that is a struct.
+    template <class Struct, class Inner, class Member>
+    MemberPlace(Inner Struct::*inner, Member Inner::*member)
+        : struct_(&as_left_out<Struct>()), member_(&(as_left_out<Struct>().*inner.*member)) {}
     /// The object as a whole.
     template <class Struct> static MemberPlace whole() {
         return {&as_left_out<Struct>(), &as_left_out<Struct>()};
@@ -77,6 +81,15 @@ struct Key {
     Key(std::string_view name, std::array<Value, count> Struct::*member, std::size_t index,
         const KeyLimits& limits, std::string_view explanation)
         : rule{limits, name, explanation}, type(&value_type(TypeTag<Value>())), place(member, index) {}
+
+    /// Of a member of a member that is a struct.
+    template <class Struct, class Inner, class Value>
+    Key(std::string_view name, Inner Struct::*inner, Value Inner::*member, const KeyLimits& limits,
+        std::string_view explanation)
+        : rule{limits, name, explanation}, type(&value_type(TypeTag<Value>())), place(inner, member) {
+        if (rule.choices.empty())
+            rule.choices = type->names;
+    }
 
     /// The member of an object of the key's struct, if it is a Value; else null.
     template <class Value> const Value* get_if(const void* object) const {

@@ -9,6 +9,16 @@
 
 namespace overt {
 
+/// A column of a match: its values in rising order, and how one goes through them.
+struct OfferedAxis {
+    std::vector<double> values;
+    int start = 0;                    ///< index of the one that it stands at
+    std::optional<double> reference;  ///< the value of the stimulus beside it
+    std::string less, more;           ///< keys, by one value; empty: by the mouse alone
+    std::string much_less, much_more; ///< keys, by `coarse` values; empty: there are none
+    int coarse = 1;
+};
+
 struct AnswerOffer {
     std::string id, item, kind; ///< as in GivenAnswer
     /// Of a choice, or of the steps of a scale: what each means, in the order of `keys`.
@@ -25,6 +35,7 @@ struct AnswerOffer {
     /// Of a gauge, how it is turned now, and how the surface is where it stands; nothing if nobody knows.
     std::optional<Attitude> attitude = {}, true_attitude = {};
     double slant_per_px_deg = 0.0; ///< of a gauge that the mouse turns; 0: keys do
+    std::vector<OfferedAxis> axes; ///< of a match, one for each column
 };
 
 } // namespace overt

@@ -11,6 +11,7 @@
 #include "experiment/base/enum_names.h"
 #include "experiment/ports/observer_input.h"
 #include "experiment/session_time.h"
+#include "experiment/trial.h"
 
 namespace overt {
 
@@ -40,6 +41,27 @@ struct GaugeAnswer {
     }
 };
 
+/// What was set along one column of a match.
+struct MatchSetting {
+    std::string along;                     ///< the column
+    double start = 0.0;                    ///< that the slot began with
+    double final = 0.0;                    ///< that it was left at
+    double low = 0.0, high = 0.0;          ///< the ends of its levels
+    std::optional<double> reference = {};  ///< of the stimulus beside it; nothing: that has no such number
+    int changes = 0;                       ///< of this column, undoing ones too
+    int reversals = 0;                     ///< changes against the direction of the one before
+    int stopped_low = 0, stopped_high = 0; ///< inputs that would have gone beyond an end
+    friend bool operator==(const MatchSetting&, const MatchSetting&) = default;
+};
+
+/// A level of a match: what the slot showed, and which of the columns' values that is.
+struct MatchLevel {
+    int level = 0;
+    Stimulus stimulus;
+    std::vector<double> values; ///< one for each column
+    friend bool operator==(const MatchLevel&, const MatchLevel&) = default;
+};
+
 /// One answer of [[task.answer]], of a scale with several items one of its items. It is a row also where
 /// nothing was answered: then it is missed, which is not the same as wrong.
 struct GivenAnswer {
@@ -65,6 +87,11 @@ struct GivenAnswer {
     int mapping = 0; ///< by how many places keys, or the sides of a scale, are turned; 0: as written
     int changes = 0; ///< how often it was changed before it stood
     std::optional<GaugeAnswer> gauge = {}; ///< of a gauge, given or missed
+
+    // Of a match, also where it was missed.
+    std::vector<MatchSetting> settings = {}; ///< one for each column
+    std::vector<MatchLevel> levels = {};     ///< all that could be set
+    int slot = -1;                           ///< of the protocol, whose stimulus was set
 
     /// The instant that its response time counts from; nothing if the trial did not come to it.
     std::optional<SessionTime> zero_at() const {

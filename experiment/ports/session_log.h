@@ -37,6 +37,8 @@ class SessionLog {
     virtual void flip(const FlipRecord& flip) noexcept = 0;
     /// Comes after the flip that it belongs to.
     virtual void slot_flip(const SlotFlip& /*flip*/) noexcept {}
+    /// Comes after the flip that it belongs to. Allocates, opens and throws nothing, as flip().
+    virtual void steered_flip(const SteeredFlip& /*flip*/) noexcept {}
     /// Comes before the flip that ended it.
     virtual void missed(const MissedRefresh& refresh) noexcept = 0;
     virtual void sample(int trial, const GazeSample& sample) noexcept = 0;

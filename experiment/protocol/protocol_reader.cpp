@@ -53,6 +53,9 @@ std::optional<std::vector<std::string>> files_of(ProtocolExamination& examinatio
 }
 
 /// Titles left out take the ids; paths become independent of the working directory of whoever reads on.
+/// Of one motion.
+constexpr int most_frames = 10000;
+
 void complete(Protocol& protocol) {
     if (protocol.title.empty())
         protocol.title = protocol.name;
@@ -97,6 +100,9 @@ void complete(Protocol& protocol) {
         MotionSettings& motion = protocol.motions[i];
         if (!motion.moves() && !protocol.places.is_written(fmt::format("motion[{}].frame_count", i)))
             motion.frame_count = 1;
+        // What the observer turns has a frame for each pose.
+        if (motion.kind == MotionKind::observer)
+            motion.frame_count = std::clamp(motion.by_observer.pose_count(), 1, most_frames);
     }
     for (std::size_t i = 0; i < protocol.lights.size(); ++i) {
         LightSettings& light = protocol.lights[i];

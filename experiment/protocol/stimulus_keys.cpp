@@ -97,10 +97,13 @@ std::vector<Key> light() {
 std::vector<Key> motion() {
     using M = MotionSettings;
     using A = Animation;
+    using O = ObserverTurn;
+    constexpr O M::*turn = &M::by_observer;
     return entry_keys<M>(
         {
             {"kind", member_of<M>(&A::kind),
-             "The object turns to and fro as a sine, or it stands still; the light may turn with either."},
+             "The object turns to and fro as a sine, or it stands still; the light may turn with either. Or "
+             "the observer turns it, about the vertical from pose to pose; the light stands."},
             {"frame_count", member_of<M>(&A::frame_count), range(1, 10000),
              "Frames of the animation; with `cycle` the last closes the loop, being the first again."},
             {"frame_rate_hz", member_of<M>(&A::frame_rate_hz), range(0.1, 1000, "Hz"),
@@ -126,6 +129,30 @@ std::vector<Key> motion() {
              "time has passed, or it keeps all frames and ends later. Either way the record names each "
              "refresh "
              "that was missed."},
+            {"step_deg", turn, &O::step, range(0.05, 180, "deg"),
+             "Of observer: from one pose to the next. Each pose is a picture that is rendered and kept."},
+            {"from_deg", turn, &O::from, range(-360, 360, "deg"),
+             "Of observer: how far clockwise it can be turned, from the front view; a whole number of steps "
+             "before `to_deg`."},
+            {"to_deg", turn, &O::to, range(-360, 720, "deg"),
+             "Of observer: how far counter-clockwise. 360 deg after `from_deg` it goes all round."},
+            {"start", turn, &O::start, {},
+             "Of observer: whether it comes up in the pose nearest to `angle_deg`, or in one that is drawn for "
+             "each trial. In further steps of a trial it stands as it was left."},
+            {"with", turn, &O::with, {},
+             "Of observer: turned by dragging with the mouse and by its wheel, by held keys, or by either."},
+            {"keys", turn, &O::keys, left_out("left, right"),
+             "Of observer: the key that turns the front to the left, and the one that turns it to the right."},
+            {"speed_deg_s", turn, &O::speed_deg_s, range(1, 1000, "deg/s"),
+             "Of observer: how fast it turns while a key is held. It stops when the key is let go."},
+            {"drag_deg", turn, &O::drag_deg, range(1, 3600, "deg"),
+             "Of observer: how far a drag over the width of its image turns it. The wheel turns it by a pose."},
+            {"simulated_turn_deg", turn, &O::simulated_turn_deg, range(0, 720, "deg"),
+             "Of observer: standard deviation of the turns that a simulated observer makes by its keys, one "
+             "after the other."},
+            {"simulated_pause_s", turn, &O::simulated_pause_s, range(0.01, 60, "s"),
+             "Of observer: for how long a simulated observer looks between two turns, in the median; "
+             "log-normal."},
         },
         true);
 }

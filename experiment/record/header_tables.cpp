@@ -6,7 +6,7 @@ template <> inline constexpr std::array<const char*, 2> stored_words<ClockKind>{
 template <> inline constexpr std::array<const char*, 2> stored_words<Eye>{"left", "right"};
 template <> inline constexpr std::array<const char*, 2> stored_words<Playback>{"cycle", "ping-pong"};
 template <> inline constexpr std::array<const char*, 2> stored_words<WhenLate>{"drop", "stretch"};
-template <> inline constexpr std::array<const char*, 2> stored_words<MotionKind>{"turn", "still"};
+template <> inline constexpr std::array<const char*, 3> stored_words<MotionKind>{"turn", "still", "observer"};
 
 namespace {
 
@@ -114,7 +114,7 @@ constexpr RowColumn<RecordedCharacterisation> light_columns[] = {
 
 /// A motion.
 constexpr RowColumn<Animation> animation_columns[] = {
-    column<&Animation::kind>("kind", "`turn` or `still`"),
+    column<&Animation::kind>("kind", "`turn`, `still`, or `observer`"),
     column<&Animation::frame_count>("frame_count", "its frames"),
     column<&Animation::frame_rate_hz>("frame_rate_hz", "frames to a second, by the protocol"),
     column<&Animation::amplitude>("amplitude_deg", "turn of the object to each side of `angle_deg`"),
@@ -123,6 +123,11 @@ constexpr RowColumn<Animation> animation_columns[] = {
     column<&Animation::playback>("playback", "`cycle` or `ping-pong`"),
     column<&Animation::duration_s>("duration_s", "of one presentation, by the protocol"),
     column<&Animation::when_late>("when_late", "`drop` or `stretch`"),
+    column<&Animation::by_observer, &ObserverTurn::step>(
+        "step_deg", "of `observer`: from one pose to the next, in the order of its frames", "2"),
+    column<&Animation::by_observer, &ObserverTurn::from>("from_deg", "likewise, the angle of the first", "0"),
+    column<&Animation::by_observer, &ObserverTurn::to>(
+        "to_deg", "likewise, how far it can be turned; 360 after the first: all round", "360"),
 };
 
 /// An object, its camera in the first view, and the box by which its maps are coded.

@@ -10,13 +10,14 @@
 #include <string_view>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "experiment/base/error.h"
 #include "experiment/record/sql.h"
 
 namespace overt {
 
-/// The words by which an enumeration of two values stands in a table.
+/// The words by which an enumeration stands in a table, by its values from 0.
 template <class Enum> inline constexpr std::array<const char*, 2> stored_words{};
 
 // How values of each type stand in a table: there and back.
@@ -31,7 +32,7 @@ inline std::int64_t stored(SessionDuration value) { return value.count(); }
 inline std::string stored(std::uint64_t value) { return std::to_string(value); }
 template <class Enum>
 requires std::is_enum_v<Enum>
-const char* stored(Enum value) { return stored_words<Enum>[value == Enum{} ? 0 : 1]; }
+const char* stored(Enum value) { return stored_words<Enum>[static_cast<std::size_t>(value)]; }
 
 inline void read_into(std::uint64_t& value, Query& row) {
     const std::string text = row.text();
@@ -42,7 +43,11 @@ inline void read_into(std::uint64_t& value, Query& row) {
 template <class Enum>
 requires std::is_enum_v<Enum>
 void read_into(Enum& value, Query& row) {
-    value = static_cast<Enum>(row.text() == stored_words<Enum>[0] ? 0 : 1);
+    const std::string text = row.text();
+    std::size_t index = 0;
+    while (index + 1 < stored_words<Enum>.size() && text != stored_words<Enum>[index])
+        ++index;
+    value = static_cast<Enum>(index);
 }
 
 template <class Row> struct RowColumn {
@@ -77,8 +82,8 @@ constexpr auto column(std::string_view name, std::string_view meaning, std::stri
         return {words...,
                 [](std::string_view column_name) -> std::string {
                     if constexpr (std::is_enum_v<Value>)
-                        return fmt::format("TEXT NOT NULL CHECK ({} IN ('{}', '{}'))", column_name,
-                                           stored_words<Value>[0], stored_words<Value>[1]);
+                        return fmt::format("TEXT NOT NULL CHECK ({} IN ('{}'))", column_name,
+                                           fmt::join(stored_words<Value>, "', '"));
                     using Stored = decltype(stored(Value{}));
                     return std::is_floating_point_v<Stored> ? "REAL NOT NULL"
                            : std::is_integral_v<Stored>     ? "INTEGER NOT NULL"

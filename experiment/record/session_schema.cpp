@@ -168,6 +168,13 @@ CREATE TABLE IF NOT EXISTS answer_input (
     has_counted INTEGER NOT NULL CHECK (has_counted IN (0, 1)), number REAL,
     PRIMARY KEY (trial_id, n)
 ) STRICT, WITHOUT ROWID;
+CREATE TABLE IF NOT EXISTS match_setting (
+    trial_id INTEGER NOT NULL, n INTEGER NOT NULL, axis INTEGER NOT NULL, slot INTEGER NOT NULL,
+    along TEXT NOT NULL, start REAL NOT NULL, final REAL NOT NULL, low REAL NOT NULL, high REAL NOT NULL,
+    reference REAL, changes INTEGER NOT NULL, reversals INTEGER NOT NULL, stopped_low INTEGER NOT NULL,
+    stopped_high INTEGER NOT NULL,
+    PRIMARY KEY (trial_id, n, axis)
+) STRICT, WITHOUT ROWID;
 )sql";
 
 const char* const slot_tables_sql = R"sql(
@@ -195,6 +202,16 @@ CREATE TABLE IF NOT EXISTS slot_flip (
     trial_id INTEGER NOT NULL, refresh_in_trial INTEGER NOT NULL, place INTEGER NOT NULL,
     planned INTEGER NOT NULL, shown INTEGER NOT NULL, pose INTEGER NOT NULL,
     PRIMARY KEY (trial_id, refresh_in_trial, place)
+) STRICT, WITHOUT ROWID;
+CREATE TABLE IF NOT EXISTS steered_flip (
+    trial_id INTEGER NOT NULL, refresh_in_trial INTEGER NOT NULL, place INTEGER NOT NULL,
+    level INTEGER, input_ns INTEGER,
+    PRIMARY KEY (trial_id, refresh_in_trial, place)
+) STRICT, WITHOUT ROWID;
+CREATE TABLE IF NOT EXISTS match_level (
+    trial_id INTEGER NOT NULL, n INTEGER NOT NULL, level INTEGER NOT NULL, @stimulus,
+    first REAL NOT NULL, second REAL,
+    PRIMARY KEY (trial_id, n, level)
 ) STRICT, WITHOUT ROWID;
 )sql";
 

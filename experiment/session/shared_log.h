@@ -22,6 +22,9 @@ class SharedLog final : public SessionLog {
     void slot_flip(const SlotFlip& flip) noexcept override {
         in_each([&](SessionLog& log) { log.slot_flip(flip); });
     }
+    void steered_flip(const SteeredFlip& flip) noexcept override {
+        in_each([&](SessionLog& log) { log.steered_flip(flip); });
+    }
     void missed(const MissedRefresh& refresh) noexcept override {
         in_each([&](SessionLog& log) { log.missed(refresh); });
     }

@@ -5,6 +5,7 @@
 
 #include "experiment/base/error.h"
 #include "experiment/base/path_inside.h"
+#include "experiment/record/read/match_rows.h"
 #include "experiment/record/read/session_record.h"
 #include "experiment/record/sql.h"
 
@@ -101,6 +102,10 @@ std::vector<FlipRecord> SessionRecord::flips(const TrialRecord& trial) const {
                         "damaged.",
                         file_.string(), trial.trial.index + 1));
     return rows;
+}
+
+std::vector<SteeredFlip> SessionRecord::steered_flips(const TrialRecord& trial) const {
+    return reading_session(file_, [&] { return read_steered_flips(*database_, trial); });
 }
 
 std::vector<GazeSample> SessionRecord::samples(const TrialRecord& trial) const {
@@ -212,6 +217,24 @@ PageCycle planned_in(const AttemptStep& step, PageCycle motion, int lasted) {
                   step.still_frame ? std::optional(AnimationFrameIndex{*step.still_frame}) : std::nullopt);
 }
 
+/// The plan of what the observer turns is what it was turned to: that of a refresh that was missed comes with
+/// the next flip.
+PageCycle as_turned(std::span<const FlipRecord> flips, int total_refreshes) {
+    PageCycle plan;
+    plan.total_refreshes = total_refreshes;
+    const int first = flips.front().refresh_in_trial;
+    for (const FlipRecord& flip : flips) {
+        if (plan.entries.empty() || plan.entries.back().frame != flip.shown)
+            plan.entries.push_back({flip.shown, flip.pose, 1});
+        plan.entry_of_refresh.resize(static_cast<std::size_t>(flip.refresh_in_trial - first) + 1,
+                                     static_cast<std::uint16_t>(plan.entries.size() - 1));
+    }
+    plan.entry_of_refresh.resize(
+        std::max(plan.entry_of_refresh.size(), static_cast<std::size_t>(std::max(total_refreshes, 1))),
+        static_cast<std::uint16_t>(plan.entries.size() - 1));
+    return plan;
+}
+
 /// The step that flips of this number are of. Those of earlier programs are of the only one that shows.
 const AttemptStep* step_of(const std::vector<AttemptStep>& steps, int number) {
     if (number > 0)
@@ -235,6 +258,8 @@ std::vector<RecordedShow> shows_of(const SessionHeader& header, const TrialRecor
             show.is_lit = step->lights(trial.place);
             show.plan = planned_in(*step, std::move(show.plan),
                                    flips[end - 1].refresh_in_trial - show.first_refresh + 1);
+            if (header.animation_of(trial.trial.stimulus).kind == MotionKind::observer)
+                show.plan = as_turned(flips.subspan(begin, end - begin), show.plan.total_refreshes);
         } else { // of an attempt that was cut off
             show.is_lit = std::ranges::any_of(flips.subspan(begin, end - begin),
                                               [](const FlipRecord& flip) { return flip.shown != no_frame; });

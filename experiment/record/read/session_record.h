@@ -138,6 +138,9 @@ class SessionRecord {
     /// In the order in which they were written. Which refreshes were missed is told by ledger(): the record's
     /// rows of them are what the presenting program knew at once.
     std::vector<FlipRecord> flips(const TrialRecord& trial) const;
+    /// What the observer had moved the slot of a presentation to, by the number of the refresh in the trial;
+    /// none where the observer moved nothing.
+    std::vector<SteeredFlip> steered_flips(const TrialRecord& trial) const;
     std::vector<GazeSample> samples(const TrialRecord& trial) const;
     /// The same in pieces of at most `most` samples, so that memory does not grow with the trial.
     void read_samples(const TrialRecord& trial, std::size_t most,

@@ -63,7 +63,7 @@ struct RowMessage {
 };
 
 /// What the ring carries.
-using Row =
-    std::variant<FlipRecord, SlotFlip, MissedRefresh, SampleRow, TrackerItemRow, ClockPair, RowMessage*>;
+using Row = std::variant<FlipRecord, SlotFlip, SteeredFlip, MissedRefresh, SampleRow, TrackerItemRow,
+                         ClockPair, RowMessage*>;
 
 } // namespace overt

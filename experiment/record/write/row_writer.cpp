@@ -58,6 +58,8 @@ RowWriter::RowWriter(const std::filesystem::path& session_file, const Sitting& s
                    "VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?)"),
       insert_slot_flip_(database_, "INSERT OR REPLACE INTO slot_flip (trial_id, refresh_in_trial, place, "
                                    "planned, shown, pose) VALUES (?,?,?,?,?,?)"),
+      insert_steered_flip_(database_, "INSERT OR REPLACE INTO steered_flip (trial_id, refresh_in_trial, "
+                                      "place, level, input_ns) VALUES (?,?,?,?,?)"),
       insert_missed_(database_,
                      "INSERT OR REPLACE INTO missed_refresh (trial_id, refresh_in_trial, refresh, planned, "
                      "shown, pose, vertical_blank_ns, uncertainty_ns) VALUES (?,?,?,?,?,?,?,?)"),
@@ -178,6 +180,12 @@ void RowWriter::write(const SlotFlip& flip) {
     begin();
     run_statement(insert_slot_flip_, counts_of(flip.trial).trial_id, flip.refresh_in_trial, flip.place,
                   flip.planned.value, flip.shown.value, flip.pose.value);
+}
+
+void RowWriter::write(const SteeredFlip& flip) {
+    begin();
+    run_statement(insert_steered_flip_, counts_of(flip.trial).trial_id, flip.refresh_in_trial, flip.place,
+                  flip.level < 0 ? std::nullopt : std::optional(flip.level), flip.input_at);
 }
 
 void RowWriter::write(const MissedRefresh& refresh) {
@@ -427,6 +435,28 @@ void RowWriter::write(const TrialFinish& finish) {
     commit_to_disk();
 }
 
+/// What could be set, and what was, with the numbers of the answers.
+void RowWriter::write_matches(const TrialOutcome& outcome) {
+    int number = 0;
+    for (const GivenAnswer& given : outcome.given) {
+        ++number;
+        int axis = 0;
+        for (const MatchSetting& set : given.settings)
+            insert_values(database_,
+                          "INTO match_setting (trial_id, n, axis, slot, along, start, final, low, high, "
+                          "reference, changes, reversals, stopped_low, stopped_high)",
+                          trial_counts_.trial_id, number, axis++, given.slot, set.along, set.start, set.final,
+                          set.low, set.high, set.reference, set.changes, set.reversals, set.stopped_low,
+                          set.stopped_high);
+        for (const MatchLevel& level : given.levels)
+            insert_values(database_,
+                          fmt::format("INTO match_level (trial_id, n, level, {}, first, second)",
+                                      stimulus_columns()),
+                          trial_counts_.trial_id, number, level.level, level.stimulus, level.values.front(),
+                          level.values.size() > 1 ? std::optional(level.values[1]) : std::nullopt);
+    }
+}
+
 void RowWriter::write_answers(const TrialOutcome& outcome) {
     int number = 0;
     for (const GivenAnswer& given : outcome.given)
@@ -441,6 +471,7 @@ void RowWriter::write_answers(const TrialOutcome& outcome) {
             given.stimulus_onset, given.window_onset, given.window_end, given.screen_onset,
             given.first_input_at, given.answered_at, given.uncertainty, given.is_tied, given.place,
             given.mapping, given.changes);
+    write_matches(outcome);
     number = 0;
     for (const AnswerInput& taken : outcome.inputs) {
         const ObserverInput& input = taken.input;

@@ -27,6 +27,7 @@ class RowWriter {
     // The transaction begins by itself with the first row.
     void write(const FlipRecord& flip);
     void write(const SlotFlip& flip);
+    void write(const SteeredFlip& flip);
     void write(const MissedRefresh& refresh);
     void write(const SampleRow& row);
     void write(const TrackerItemRow& row);
@@ -64,6 +65,7 @@ class RowWriter {
   private:
     void note_refreshes_of_presentations();
     void write_answers(const TrialOutcome& outcome);
+    void write_matches(const TrialOutcome& outcome);
     /// Of what happened in a trial: the attempt that is running or ended last; nothing outside of trials.
     std::optional<std::int64_t> attempt_of(int trial) const;
     /// The attempt at a trial that was under way at that time. What became of a marker is known a while
@@ -90,7 +92,7 @@ class RowWriter {
 
     SessionLock lock_;
     SQLite::Database database_;
-    SQLite::Statement insert_flip_, insert_slot_flip_, insert_missed_, insert_sample_, insert_clock_pair_,
+    SQLite::Statement insert_flip_, insert_slot_flip_, insert_steered_flip_, insert_missed_, insert_sample_, insert_clock_pair_,
         insert_event_, insert_map_, insert_trial_, finish_trial_;
     int sitting_ = 0;
     int open_trial_ = -1; ///< index of the trial whose rows come in

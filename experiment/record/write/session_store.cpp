@@ -24,6 +24,7 @@ SessionStore::~SessionStore() {
 void SessionStore::flip(const FlipRecord& flip) noexcept { writer_->push(Row(flip)); }
 
 void SessionStore::slot_flip(const SlotFlip& flip) noexcept { writer_->push(Row(flip)); }
+void SessionStore::steered_flip(const SteeredFlip& flip) noexcept { writer_->push(Row(flip)); }
 
 void SessionStore::missed(const MissedRefresh& refresh) noexcept { writer_->push(Row(refresh)); }
 

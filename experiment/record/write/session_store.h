@@ -63,6 +63,7 @@ class SessionStore final : public SessionLog {
 
     void flip(const FlipRecord& flip) noexcept override;
     void slot_flip(const SlotFlip& flip) noexcept override;
+    void steered_flip(const SteeredFlip& flip) noexcept override;
     void missed(const MissedRefresh& refresh) noexcept override;
     void sample(int trial, const GazeSample& sample) noexcept override;
     void tracker_item(int trial, const TrackerItem& item) noexcept override;

@@ -19,6 +19,7 @@ LostRows flips_and_samples(const Row& row) noexcept {
     if (std::holds_alternative<SampleRow>(row))
         return {0, 1};
     return {std::holds_alternative<FlipRecord>(row) || std::holds_alternative<SlotFlip>(row) ||
+                std::holds_alternative<SteeredFlip>(row) ||
                 std::holds_alternative<MissedRefresh>(row),
             0};
 }

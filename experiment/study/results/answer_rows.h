@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "experiment/ports/given_answer.h"
 #include "experiment/statistics/estimate.h"
 
 namespace overt {
@@ -42,6 +43,7 @@ struct StudyAnswer {
 
     /// Its level of a factor; empty: it has none.
     const std::string& level(const std::string& factor) const;
+    std::vector<MatchSetting> settings = {}; ///< of a match, one for each of its columns
 };
 
 /// What all rows say first: of one observer, or of all (empty).
@@ -202,6 +204,28 @@ struct GazeChoiceRow {
     std::optional<double> planted = {}; ///< of simulated observers
 };
 
+/// What was set to look like one level of a reference.
+struct AnswerMatchRow {
+    AnswerOf of;
+    std::string along; ///< the column that was set
+    double reference = 0.0;
+    int settings = 0;
+    Estimate match; ///< mean of the settings
+    std::optional<double> constant_error = {}, sd = {}, just_noticeable = {};
+    double mean_start = 0.0, mean_changes = 0.0, mean_reversals = 0.0;
+    int at_end = 0; ///< settings that were stopped at an end of the levels
+};
+
+/// The line of settings over references.
+struct AnswerMatchLineRow {
+    AnswerOf of;
+    std::string along;
+    int references = 0, settings = 0;
+    Estimate slope, intercept; ///< by least squares
+    /// With errors of the same size in both.
+    std::optional<double> deming_slope = {}, deming_intercept = {};
+};
+
 struct StudyAnswers {
     std::vector<StudyAnswer> given;
     std::vector<AnswerSummaryRow> summaries;
@@ -215,6 +239,8 @@ struct StudyAnswers {
     std::vector<AnswerDifferenceRow> differences;
     std::vector<AnswerGazeRow> gaze;
     std::vector<GazeChoiceRow> gaze_choices;
+    std::vector<AnswerMatchRow> matches;
+    std::vector<AnswerMatchLineRow> match_lines;
 };
 
 } // namespace overt
