@@ -48,13 +48,15 @@ bool begins_any(const std::vector<std::string>& words, std::string_view beginnin
     return std::ranges::any_of(words, [&](const std::string& word) { return word.starts_with(beginning); });
 }
 
-std::optional<LslMeaning> meaning_of_label(std::string_view label) {
+/// `is_on_screen`: that a place is one on the screen is known without its words.
+std::optional<LslMeaning> meaning_of_label(std::string_view label, bool is_on_screen) {
     const std::vector<std::string> words = words_of(label);
     if (has(words, {"confidence"}))
         return LslMeaning::confidence;
     if (begins_any(words, "diameter") || (begins_any(words, "pupil") && !has(words, {"x", "y", "z"})))
         return LslMeaning::pupil;
-    const bool is_gaze = has(words, {"gaze", "por", "pog", "screen", "norm"}) || words.size() == 1;
+    const bool is_gaze =
+        is_on_screen || has(words, {"gaze", "por", "pog", "screen", "norm"}) || words.size() == 1;
     // Points and directions in space are no places on a screen.
     if (!is_gaze || has(words, {"3d", "normal", "normal0", "normal1", "direction", "origin", "velocity"}))
         return std::nullopt;
@@ -79,8 +81,13 @@ std::optional<double> scale_of(StreamUnit unit, const LslChannel& channel, doubl
     if (unit == StreamUnit::px ||
         (unit == StreamUnit::as_told && (told.starts_with("pixel") || told == "px")))
         return 1.0;
-    if (unit == StreamUnit::normalized || (unit == StreamUnit::as_told && told.starts_with("normali")))
+    // App-TobiiPro calls shares of the screen so.
+    const bool tells_shares = told.starts_with("normali") || told == "screencoords";
+    if (unit == StreamUnit::normalized || (unit == StreamUnit::as_told && tells_shares))
         return screen_px;
+    const bool tells_percent = told.starts_with("percent") || told == "%";
+    if (unit == StreamUnit::percent || (unit == StreamUnit::as_told && tells_percent))
+        return 0.01 * screen_px;
     return std::nullopt;
 }
 
@@ -108,7 +115,7 @@ std::size_t channel_of(const LslAssignment& assignment, const std::vector<LslCha
 
 LslAssignment parse_lsl_assignment(std::string_view text) {
     constexpr std::string_view meanings[lsl_meanings] = {"x",     "y",     "confidence", "pupil",
-                                                         "eye-x", "eye-y", "eye-z"};
+                                                         "eye-x", "eye-y", "eye-z",      "valid"};
     std::string_view rest = text;
     const auto next_word = [&rest] {
         rest.remove_prefix(std::min(rest.find_first_not_of(' '), rest.size()));
@@ -155,7 +162,9 @@ std::optional<LslMeaning> lsl_meaning(const LslChannel& channel) {
             return LslMeaning::position_y;
         return type.ends_with('z') ? std::optional(LslMeaning::position_z) : std::nullopt;
     }
-    return type.empty() || type == "gaze" ? meaning_of_label(channel.label) : std::nullopt;
+    // What is no type of a channel, but of the whole stream: its label has to tell.
+    const bool is_of_stream = type.empty() || type == "gaze" || type == "screen" || type.starts_with("eye");
+    return is_of_stream ? meaning_of_label(channel.label, type == "screen") : std::nullopt;
 }
 
 std::optional<Eye> lsl_eye(const LslChannel& channel) {
@@ -178,7 +187,7 @@ std::optional<Eye> lsl_eye(const LslChannel& channel) {
 LslGazeLayout::LslGazeLayout(const std::vector<LslChannel>& channels, const LslLayoutSettings& settings,
                              const TrackerWish& wish, const std::string& stream)
     : screen_px_(wish.screen.screen_px), scale_(1.0), y_is_up_(settings.y_is_up),
-      least_confidence_(settings.least_confidence), eye_(wish.eye) {
+      least_confidence_(settings.least_confidence), missing_(settings.missing), eye_(wish.eye) {
     const auto assign = [&](LslMeaning meaning, std::optional<Eye> eye, std::size_t channel) {
         const Side side = !eye ? neither : *eye == Eye::left ? left : right;
         std::optional<std::size_t>& place = places_[side][static_cast<std::size_t>(meaning)];
@@ -213,7 +222,7 @@ LslGazeLayout::LslGazeLayout(const std::vector<LslChannel>& channels, const LslL
                                 scale_y = scale_of(settings.unit, y, screen_px_.y);
     if (!scale_x || !scale_y)
         throw DeviceError(fmt::format("The stream {} tells gaze in \"{}\", which is neither pixels nor "
-                                      "normalized; name the unit.",
+                                      "normalized nor percent; name the unit.",
                                       stream, x.unit));
     scale_ = {*scale_x, *scale_y};
 }
@@ -221,6 +230,23 @@ LslGazeLayout::LslGazeLayout(const std::vector<LslChannel>& channels, const LslL
 bool LslGazeLayout::has_gaze(Side side) const noexcept {
     return places_[side][static_cast<std::size_t>(LslMeaning::screen_x)] &&
            places_[side][static_cast<std::size_t>(LslMeaning::screen_y)];
+}
+
+bool LslGazeLayout::is_missing(double value) const noexcept {
+    return std::ranges::find(missing_, value) != missing_.end();
+}
+
+std::optional<ScreenPoint> LslGazeLayout::gaze_in(std::span<const double> values, Side side) const noexcept {
+    const std::optional<double> x = value(values, side, LslMeaning::screen_x),
+                                y = value(values, side, LslMeaning::screen_y);
+    if (!x || !y || (is_missing(*x) && is_missing(*y)))
+        return std::nullopt;
+    const glm::dvec2 place_px(*x * scale_.x, *y * scale_.y);
+    const auto is_off = [](double at_px, double size_px) { return at_px < 0.0 || at_px > size_px; };
+    if ((is_missing(*x) && is_off(place_px.x, screen_px_.x)) ||
+        (is_missing(*y) && is_off(place_px.y, screen_px_.y)))
+        return std::nullopt;
+    return ScreenPoint{place_px.x, y_is_up_ ? screen_px_.y - place_px.y : place_px.y};
 }
 
 std::optional<double> LslGazeLayout::value(std::span<const double> values, Side side,
@@ -242,25 +268,27 @@ void LslGazeLayout::put_eye(std::span<const double> values, Eye eye, TrackerTime
     GazeSample sample;
     sample.sampled_at = at;
     sample.eye = eye;
-    const std::optional<double> x = value(values, gazing, LslMeaning::screen_x),
-                                y = value(values, gazing, LslMeaning::screen_y),
-                                confidence = told(LslMeaning::confidence), pupil = told(LslMeaning::pupil);
-    if (x && y && confidence.value_or(1.0) >= least_confidence_) {
-        const double down_px = *y * scale_.y;
-        sample.gaze = ScreenPoint{*x * scale_.x, y_is_up_ ? screen_px_.y - down_px : down_px};
-    }
-    sample.pupil_area = static_cast<float>(pupil.value_or(0.0));
+    const std::optional<double> confidence = told(LslMeaning::confidence), pupil = told(LslMeaning::pupil);
+    // Of the channels that gaze is taken from: another eye's are none of its business.
+    const bool tells_validity = places_[gazing][static_cast<std::size_t>(LslMeaning::validity)].has_value();
+    const bool is_valid = !tells_validity || value(values, gazing, LslMeaning::validity).value_or(0.0) != 0.0;
+    if (is_valid && confidence.value_or(1.0) >= least_confidence_)
+        sample.gaze = gaze_in(values, gazing);
+    if (pupil && !is_missing(*pupil))
+        sample.pupil_area = static_cast<float>(*pupil);
     sink.put(sample);
     const std::optional<double> at_x = told(LslMeaning::position_x), at_y = told(LslMeaning::position_y),
                                 at_z = told(LslMeaning::position_z);
-    if (!confidence && !(at_x && at_y && at_z))
+    const bool has_place =
+        at_x && at_y && at_z && !(is_missing(*at_x) && is_missing(*at_y) && is_missing(*at_z));
+    if (!confidence && !has_place)
         return;
     SampleDetail detail;
     detail.sampled_at = at;
     detail.eye = eye;
     if (confidence)
         detail.confidence = static_cast<float>(*confidence);
-    if (at_x && at_y && at_z)
+    if (has_place)
         detail.eye_mm = glm::vec3(glm::dvec3(*at_x, *at_y, *at_z) * position_mm_);
     sink.put(detail);
 }

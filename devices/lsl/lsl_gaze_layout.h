@@ -30,9 +30,10 @@ enum class LslMeaning : std::uint8_t {
     pupil,
     position_x,
     position_y,
-    position_z
+    position_z,
+    validity ///< 0: what the eye is told to look at is none
 };
-inline constexpr std::size_t lsl_meanings = 7;
+inline constexpr std::size_t lsl_meanings = 8;
 
 /// A channel that the protocol assigns: for streams that tell nothing of their channels, or not this way.
 struct LslAssignment {
@@ -42,8 +43,8 @@ struct LslAssignment {
 };
 
 /// From what an experimenter writes: eye, meaning and channel, such as "left x 3" or "right pupil
-/// PupilRight"; the eye may be left out. Meanings: x, y, confidence, pupil, eye-x, eye-y, eye-z. Throws
-/// InputError for anything else.
+/// PupilRight"; the eye may be left out. Meanings: x, y, confidence, pupil, eye-x, eye-y, eye-z, valid.
+/// Throws InputError for anything else.
 LslAssignment parse_lsl_assignment(std::string_view text);
 
 struct LslLayoutSettings {
@@ -51,6 +52,10 @@ struct LslLayoutSettings {
     StreamUnit unit = StreamUnit::as_told;
     bool y_is_up = false;          ///< else the origin is the top left corner
     double least_confidence = 0.0; ///< gaze of less confidence is lost
+    /// Numbers that stand for a value that there is not, besides those that are none. Gaze is missing where
+    /// one of its coordinates is such a number that lies off the screen, or both are such numbers: 0 alone is
+    /// a place at the screen's edge.
+    std::vector<double> missing = {};
 };
 
 /// Where in a sample each value stands.
@@ -64,8 +69,8 @@ class LslGazeLayout {
     bool measures_both_eyes() const noexcept { return both_eyes_; }
     Eye eye() const noexcept { return eye_; }
 
-    /// Puts the samples of one measurement, the left eye's first. Values that are no finite number are
-    /// missing. Allocates and throws nothing.
+    /// Puts the samples of one measurement, the left eye's first. Values that are no finite number, or one of
+    /// LslLayoutSettings::missing, are missing. Allocates and throws nothing.
     void take(std::span<const double> values, TrackerTime at, TrackerItemSink& sink) const noexcept;
 
   private:
@@ -74,6 +79,8 @@ class LslGazeLayout {
 
     std::optional<double> value(std::span<const double> values, Side side, LslMeaning meaning) const noexcept;
     bool has_gaze(Side side) const noexcept;
+    std::optional<ScreenPoint> gaze_in(std::span<const double> values, Side side) const noexcept;
+    bool is_missing(double value) const noexcept;
     void put_eye(std::span<const double> values, Eye eye, TrackerTime at,
                  TrackerItemSink& sink) const noexcept;
 
@@ -82,6 +89,7 @@ class LslGazeLayout {
     double position_mm_ = 1.0; ///< a place of the eye's unit
     bool y_is_up_;
     double least_confidence_;
+    std::vector<double> missing_;
     Eye eye_;
     bool both_eyes_ = false;
 };

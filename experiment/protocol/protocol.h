@@ -123,9 +123,9 @@ enum class TrackedPoint : std::uint8_t {
 template <> inline constexpr auto names_of<TrackedPoint> = enum_names<TrackedPoint>("eyes", "best");
 
 /// The unit in which a stream tells gaze.
-enum class StreamUnit : std::uint8_t { as_told, px, normalized };
+enum class StreamUnit : std::uint8_t { as_told, px, normalized, percent };
 template <>
-inline constexpr auto names_of<StreamUnit> = enum_names<StreamUnit>("as-told", "px", "normalized");
+inline constexpr auto names_of<StreamUnit> = enum_names<StreamUnit>("as-told", "px", "normalized", "percent");
 
 /// What becomes of a trial whose drift check failed.
 enum class DriftPolicy : std::uint8_t {

@@ -14,7 +14,9 @@ template <class T> std::vector<Key> tracker_keys() {
         {"rate_hz", member_of<T>(&T::rate_hz), range(10, 10000, "Hz"), "Gaze samples per second."},
         {"address", member_of<T>(&T::address), left_out("what is usual for the kind"),
          "Where the tracker is. `eyelink`: address of its host, or `dummy` to try the library without one. "
-         "`opengaze` and `pupil`: host or host:port. `lsl`: name of the stream. `tobii`: its address "
+         "`opengaze` and `pupil`: host or host:port. `lsl`: name of the stream, or what else tells it, such "
+         "as "
+         "`source_id=…, host=…, uid=…, type=…`. `tobii`: its address "
          "(tet-tcp://…) or serial number. `hid`: /dev/hidrawN, or vendor:product. `replay`: a session's "
          "folder, or an EyeLink recording (.asc)."},
         {"library", member_of<T>(&T::library), left_out("where the system looks"),
@@ -32,8 +34,9 @@ template <class T> std::vector<Key> tracker_keys() {
         {"channels", member_of<T>(&T::channels), left_out("what the stream tells"),
          "Of `lsl`, what the stream's channels mean: eye (or none), meaning, and the channel's label or its "
          "number from 1, such as `[\"left x 1\", \"left y 2\", \"right pupil PupilRight\"]`. Meanings are x, "
-         "y, confidence, pupil, eye-x, eye-y, eye-z."},
-        {"unit", member_of<T>(&T::unit), "Of `lsl`, the unit of gaze: pixels, or shares of the screen."},
+         "y, confidence, pupil, eye-x, eye-y, eye-z, valid (0: there is no gaze)."},
+        {"unit", member_of<T>(&T::unit),
+         "Of `lsl`, the unit of gaze: pixels, or shares of the screen, of one or of a hundred."},
         {"y_is_up", member_of<T>(&T::y_is_up),
          "Of `lsl`, whether y grows upward from the lower edge of the screen."},
         {"missing", member_of<T>(&T::missing), left_out("those of programs that are known, and none else"),
