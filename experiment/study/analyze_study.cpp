@@ -12,6 +12,7 @@
 
 #include "experiment/base/counted.h"
 #include "experiment/base/parallel.h"
+#include "experiment/study/answer_gaze.h"
 #include "experiment/study/answer_results.h"
 #include "experiment/study/area_pairs.h"
 #include "experiment/study/area_shares.h"
@@ -26,7 +27,6 @@
 #include "experiment/study/methods/methods_text.h"
 #include "experiment/study/methods/reporting.h"
 #include "experiment/study/point_distributions.h"
-#include "experiment/study/read/answer_reader.h"
 #include "experiment/study/results/study_observers.h"
 #include "experiment/study/screen_area_looks.h"
 #include "experiment/study/study_maps.h"
@@ -201,6 +201,9 @@ void reckon_on_surfaces(ReadStudy& study, const StudyOptions& options, const Stu
     progress("differences", 0, 1);
     results.differences = difference_maps(results, maps, study.levels, options);
     remark_on_differences(results, options);
+    results.answers.gaze = answer_gaze(results);
+    results.answers.gaze_choices = gaze_choices(results, options);
+    results.answer_maps = answer_maps(results, maps, options);
     progress("differences", 1, 1);
     progress("metrics", 0, 1);
     results.predictions = map_predictions(results, maps, options);
@@ -216,9 +219,7 @@ void reckon_on_surfaces(ReadStudy& study, const StudyOptions& options, const Stu
 
 StudyResults analyze_study(std::span<const std::filesystem::path> sessions, const SurfaceFor& surface_for,
                            const StudyOptions& options, const StudyProgress& progress) {
-    ReadStudy study = read_study(sessions, surface_for, options, progress);
-    study.results.answers.given = read_answers(sessions, options.same_observer);
-    return analyze_study(std::move(study), options, progress);
+    return analyze_study(read_study(sessions, surface_for, options, progress), options, progress);
 }
 
 StudyResults analyze_study(ReadStudy study, const StudyOptions& options, const StudyProgress& progress) {

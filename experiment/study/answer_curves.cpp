@@ -1,107 +1,55 @@
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include <fmt/format.h>
 
-#include "experiment/fits/psychometric_fit.h"
+#include "experiment/base/parallel.h"
 #include "experiment/statistics/bootstrap.h"
+#include "experiment/statistics/proportion.h"
+#include "experiment/study/answer_counts.h"
+#include "experiment/study/answer_differences.h"
 #include "experiment/study/answer_results.h"
 
 namespace overt {
 
 namespace {
 
-/// The counts that a curve is fitted to.
-struct CurveCounts {
-    std::string factor, yes;
-    bool is_forced = false; ///< at its worst the answer is a guess between two slots
-    std::vector<LevelCount> trials;
+/// A curve that is to be fitted.
+struct CurveJob {
+    AnswerOf of;
+    std::string column, level;
+    CurveCounts counts;
 };
 
-/// All levels of a factor in a slot.
-std::set<double> numbers_in(const std::vector<const StudyAnswer*>& answers, const std::string& factor) {
-    std::set<double> numbers;
-    for (const StudyAnswer* one : answers)
-        for (const AnsweredStimulus& shown : one->shown)
-            if (const auto number = shown.number(factor))
-                numbers.insert(*number);
-    return numbers;
-}
-
-/// A level that each pair has in one of its slots or in both: a standard.
-std::optional<double> standard_of(const std::vector<const StudyAnswer*>& answers, const std::string& factor) {
-    std::set<double> common = numbers_in(answers, factor);
-    for (const StudyAnswer* one : answers)
-        std::erase_if(common, [&](double level) {
-            return std::ranges::none_of(
-                one->shown, [&](const AnsweredStimulus& shown) { return shown.number(factor) == level; });
-        });
-    return common.size() == 1 ? std::optional(*common.begin()) : std::nullopt;
-}
-
-CurveCounts counts_of_pairs(const std::vector<const StudyAnswer*>& answers, const std::string& factor) {
-    CurveCounts counts;
-    counts.factor = factor;
-    const std::optional<double> standard = standard_of(answers, factor);
-    counts.yes = standard ? fmt::format("the slot without the standard {:.6g}, over its level", *standard)
-                          : "the first slot, over its level less the other's";
-    bool is_above = false, is_below = false;
-    for (const StudyAnswer* one : answers) {
-        const auto first = one->shown[0].number(factor), second = one->shown[1].number(factor);
-        const bool is_slot = one->value == one->shown[0].slot || one->value == one->shown[1].slot;
-        if (one->is_missed || !first || !second || !is_slot)
-            continue;
-        // Where both show the standard, either is as good: half a trial each.
-        if (standard && *first == *second) {
-            counts.trials.push_back({*first, 1.0, 0.5});
-            continue;
-        }
-        const std::size_t test = standard && *first == *standard ? 1 : 0;
-        const double level = standard ? one->shown[test].number(factor).value() : *first - *second;
-        is_above |= standard && level > *standard;
-        is_below |= standard && level < *standard;
-        counts.trials.push_back({level, 1.0, one->value == one->shown[test].slot ? 1.0 : 0.0});
+std::vector<AnswerCurvePoint> points_of(std::span<const LevelCount> levels, const PsychometricFit* fit,
+                                        double confidence) {
+    std::vector<AnswerCurvePoint> points;
+    for (const LevelCount& one : levels) {
+        AnswerCurvePoint& point = points.emplace_back();
+        point.level = one.level;
+        point.trials = one.trials;
+        point.yes = one.yes;
+        point.share = wilson_interval(one.yes, one.trials, confidence).value_or(Interval{0.0, 1.0});
+        if (fit)
+            point.fitted = fit->share_at(one.level);
     }
-    counts.is_forced = is_above != is_below;
-    return counts;
+    return points;
 }
 
-std::vector<CurveCounts> counts_of_one(const std::vector<const StudyAnswer*>& answers,
-                                       const std::string& factor) {
-    std::set<std::string> choices;
-    for (const StudyAnswer* one : answers)
-        if (!one->is_missed && !one->number && one->kind != "text" && one->kind != "spoken")
-            choices.insert(one->value);
-    std::vector<CurveCounts> all;
-    for (const std::string& choice : choices) {
-        CurveCounts& counts =
-            all.emplace_back(CurveCounts{factor, fmt::format("\"{}\", over the level", choice), false, {}});
-        for (const StudyAnswer* one : answers)
-            if (const auto level = one->shown[0].number(factor); level && !one->is_missed)
-                counts.trials.push_back({*level, 1.0, one->value == choice ? 1.0 : 0.0});
-    }
-    if (choices.size() < 2)
-        all.clear();
-    if (choices.size() == 2)
-        all.pop_back(); // the other one's is its mirror image
-    return all;
-}
-
-AnswerCurveRow fitted(const AnswerOf& of, const CurveCounts& counts, const StudyOptions& options) {
+AnswerCurveRow fitted(const CurveJob& job, const StudyOptions& options) {
     AnswerCurveRow row;
-    row.of = of;
-    row.factor = counts.factor;
-    row.yes = counts.yes;
-    row.trials = static_cast<int>(counts.trials.size());
-    PsychometricModel model;
-    if (counts.is_forced) {
-        model.guess.value = row.guess = 0.5;
-        model.lapse = {0.02, true};
-    }
-    const std::vector<LevelCount> levels = counts_by_level(counts.trials);
+    row.of = job.of;
+    row.factor = job.counts.factor;
+    row.column = job.column;
+    row.level = job.level;
+    row.yes = job.counts.yes;
+    row.trials = static_cast<int>(job.counts.trials.size());
+    row.guess = job.counts.is_forced ? 0.5 : 0.0;
+    const std::vector<LevelCount> levels = counts_by_level(job.counts.trials);
     row.levels = static_cast<int>(levels.size());
-    const std::optional<PsychometricFit> fit =
-        row.levels < 3 ? std::nullopt : fit_psychometric(levels, model);
+    const std::optional<PsychometricFit> fit = fit_curve(job.counts);
+    row.points = points_of(levels, fit && fit->has_slope ? &*fit : nullptr, options.confidence);
     if (!fit || !fit->has_slope) {
         row.note = fit ? fit->note : "fewer than three levels";
         row.threshold = Estimate::none(row.note);
@@ -111,7 +59,7 @@ AnswerCurveRow fitted(const AnswerOf& of, const CurveCounts& counts, const Study
     row.slope = fit->beta.value;
     row.slope_se = fit->beta.se_observed;
     row.threshold_se = fit->alpha.se_observed;
-    if (counts.is_forced)
+    if (job.counts.is_forced)
         row.lapse = fit->lapse.value;
     row.deviance = fit->deviance;
     row.pearson_x2 = fit->pearson_x2;
@@ -124,58 +72,95 @@ AnswerCurveRow fitted(const AnswerOf& of, const CurveCounts& counts, const Study
     row.failures = intervals.failures;
     row.deviance_limit = intervals.deviance_limit;
     row.threshold = Estimate::of(fit->alpha.value, intervals.alpha);
+    if (!sound_threshold(*fit, levels))
+        row.note += (row.note.empty() ? "" : "; ") + std::string("the threshold lies far beyond the levels");
+    return row;
+}
+
+void add_curve_jobs(std::vector<CurveJob>& jobs, const AnswerOf& of, const AnswerList& given) {
+    for (const std::string& factor : curve_factors(given)) {
+        for (CurveCounts& counts : curve_counts(given, factor))
+            jobs.push_back({of, "", "", std::move(counts)});
+        for (const ComparedColumn& column : compared_columns(given)) {
+            // Levels of another factor with a function each.
+            std::vector<CurveJob> of_column;
+            std::set<std::string> with_curve;
+            for (const std::string& level : column.levels) {
+                const AnswerList own = answers_in(given, column.name, level);
+                if (!curve_factors(own).contains(factor))
+                    continue;
+                for (CurveCounts& counts : curve_counts(own, factor)) {
+                    of_column.push_back({of, column.name, level, std::move(counts)});
+                    with_curve.insert(level);
+                }
+            }
+            if (with_curve.size() > 1)
+                std::ranges::move(of_column, std::back_inserter(jobs));
+        }
+    }
+}
+
+/// Over observers: means of thresholds, slopes and lapse rates; the counts of all.
+AnswerCurveRow curve_of_all(const std::vector<const AnswerCurveRow*>& own, const StudyOptions& options) {
+    AnswerCurveRow row;
+    row.of = own.front()->of;
+    row.of.observer.clear();
+    row.factor = own.front()->factor;
+    row.column = own.front()->column;
+    row.level = own.front()->level;
+    row.yes = own.front()->yes;
+    row.guess = own.front()->guess;
+    std::vector<double> thresholds;
+    double slopes = 0.0, lapses = 0.0;
+    std::vector<LevelCount> counts;
+    for (const AnswerCurveRow* one : own) {
+        row.trials += one->trials;
+        for (const AnswerCurvePoint& point : one->points)
+            counts.push_back({point.level, point.trials, point.yes});
+        double reach = one->points.empty() ? 0.0 : one->points.back().level - one->points.front().level;
+        if (!one->threshold.value || *one->threshold.value < one->points.front().level - reach ||
+            *one->threshold.value > one->points.back().level + reach)
+            continue;
+        thresholds.push_back(*one->threshold.value);
+        slopes += one->slope.value_or(0.0);
+        lapses += one->lapse.value_or(0.0);
+    }
+    const std::vector<LevelCount> levels = counts_by_level(counts);
+    row.levels = static_cast<int>(levels.size());
+    row.points = points_of(levels, nullptr, options.confidence);
+    row.threshold = estimated_mean(thresholds, options.bootstrap(), "no observer has a threshold");
+    const auto observers = static_cast<double>(thresholds.size());
+    if (!thresholds.empty()) {
+        row.slope = slopes / observers;
+        if (row.guess > 0.0)
+            row.lapse = lapses / observers;
+    }
+    row.note = fmt::format("mean of {} of {} observers", thresholds.size(), own.size());
     return row;
 }
 
 } // namespace
 
 std::vector<AnswerCurveRow> answer_curves(const AnswersBy& answers, const StudyOptions& options) {
-    std::vector<AnswerCurveRow> rows;
-    for (const auto& [of, given] : answers) {
-        if (of.observer.empty())
-            continue;
-        std::set<std::string> factors;
-        const std::size_t slots = given.front()->shown.size();
-        const bool is_alike =
-            std::ranges::all_of(given, [&](const StudyAnswer* one) { return one->shown.size() == slots; });
-        if (!is_alike || slots > 2)
-            continue;
-        for (const auto& [factor, number] : given.front()->shown.front().numbers)
-            if (numbers_in(given, factor).size() >= 3)
-                factors.insert(factor);
-        for (const std::string& factor : factors) {
-            if (slots == 1) {
-                for (const CurveCounts& counts : counts_of_one(given, factor))
-                    rows.push_back(fitted(of, counts, options));
-            } else if (const CurveCounts counts = counts_of_pairs(given, factor); !counts.trials.empty()) {
-                rows.push_back(fitted(of, counts, options));
-            }
-        }
-    }
-    // Over observers: the mean of their thresholds.
-    std::map<std::tuple<AnswerOf, std::string, std::string>, std::vector<const AnswerCurveRow*>> same;
+    std::vector<CurveJob> jobs;
+    for (const auto& [of, given] : answers)
+        if (!of.observer.empty())
+            add_curve_jobs(jobs, of, given);
+    std::vector<AnswerCurveRow> rows(jobs.size());
+    parallel_for(static_cast<int>(jobs.size()), [&](int i) {
+        rows[static_cast<std::size_t>(i)] = fitted(jobs[static_cast<std::size_t>(i)], options);
+    });
+    std::map<std::tuple<AnswerOf, std::string, std::string, std::string, std::string>,
+             std::vector<const AnswerCurveRow*>>
+        same;
     for (const AnswerCurveRow& row : rows) {
         AnswerOf of = row.of;
         of.observer.clear();
-        same[{of, row.factor, row.yes}].push_back(&row);
+        same[{of, row.factor, row.yes, row.column, row.level}].push_back(&row);
     }
     std::vector<AnswerCurveRow> all;
-    for (const auto& [key, own] : same) {
-        AnswerCurveRow& row = all.emplace_back();
-        row.of = std::get<0>(key);
-        row.factor = own.front()->factor;
-        row.yes = own.front()->yes;
-        row.guess = own.front()->guess;
-        std::vector<double> thresholds;
-        for (const AnswerCurveRow* one : own) {
-            row.trials += one->trials;
-            row.levels = std::max(row.levels, one->levels);
-            if (one->threshold.value)
-                thresholds.push_back(*one->threshold.value);
-        }
-        row.threshold = estimated_mean(thresholds, options.bootstrap(), "no observer has a threshold");
-        row.note = fmt::format("mean of {} of {} observers", thresholds.size(), own.size());
-    }
+    for (const auto& [key, own] : same)
+        all.push_back(curve_of_all(own, options));
     rows.insert(rows.begin(), all.begin(), all.end());
     return rows;
 }

@@ -23,7 +23,7 @@ std::vector<AnswerChoiceRow> answer_choices(const AnswersBy& answers, const Stud
 /// functions by maximum likelihood. With one level that the other never falls below (or never exceeds) and
 /// slots to choose from, the guess rate is one half and lapses up to 6 % are free; else both are 0. Of one
 /// observer the interval is by the bootstrap over trials in their levels, of all it is that of the observers'
-/// mean.
+/// mean. Besides, those of each level of each other factor in which trials differ (compared_columns).
 std::vector<AnswerCurveRow> answer_curves(const AnswersBy& answers, const StudyOptions& options);
 
 /// Of choices between two slots whose stimuli differ in one list: Bradley-Terry and Thurstone's Case V, with
@@ -35,7 +35,19 @@ std::vector<AnswerScaleRow> answer_scales(const AnswersBy& answers, const StudyO
 /// Means of scales and numbers, by each factor's levels and over all.
 std::vector<AnswerRatingRow> answer_ratings(const AnswersBy& answers, const StudyOptions& options);
 
-/// All of these.
+/// Of tasks whose levels a procedure chose: each trial in the order of its track.
+std::vector<AnswerTrackRow> answer_tracks(std::span<const StudyAnswer> answers);
+
+/// Distributions of response times: of all answers, of correct and of wrong ones where there are both, and of
+/// each choice where nothing is correct; ex-Gaussian and shifted log-normal by maximum likelihood.
+std::vector<AnswerTimeRow> answer_times(const AnswersBy& answers, const StudyOptions& options);
+
+/// Correct answers by how fast they came (the conditional accuracy function): an observer's times in five
+/// parts of equally many, from the fastest on; of all observers the mean of theirs. Where something is
+/// correct, with ten times for each part at least.
+std::vector<AnswerSpeedRow> answer_speeds(const AnswersBy& answers, const StudyOptions& options);
+
+/// All of these, and the differences between levels (answer_differences.h).
 void reckon_answers(StudyAnswers& answers, const StudyOptions& options);
 
 } // namespace overt

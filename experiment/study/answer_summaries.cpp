@@ -3,51 +3,16 @@
 #include <set>
 #include <span>
 
-#include "experiment/fits/detection.h"
 #include "experiment/fits/rating_scale_fit.h"
-#include "experiment/fits/response_time_fit.h"
 #include "experiment/statistics/bootstrap.h"
 #include "experiment/statistics/proportion.h"
+#include "experiment/study/answer_designs.h"
+#include "experiment/study/answer_differences.h"
 #include "experiment/study/answer_results.h"
 
 namespace overt {
 
 namespace {
-
-constexpr std::size_t least_times_for_shape = 40;
-
-/// d' and criterion where two answers are right by turns; the first in the order of words is taken for the
-/// signal.
-void add_sensitivity(AnswerSummaryRow& row, const std::vector<const StudyAnswer*>& answers) {
-    std::set<std::string> right, slots;
-    for (const StudyAnswer* one : answers) {
-        if (!one->correct.empty())
-            right.insert(one->correct);
-        for (const AnsweredStimulus& shown : one->shown)
-            slots.insert(shown.slot);
-    }
-    if (right.size() != 2)
-        return;
-    const std::string& signal = *right.begin();
-    DetectionCounts counts;
-    for (const StudyAnswer* one : answers) {
-        if (one->is_missed || one->correct.empty())
-            continue;
-        const bool says_signal = one->value == signal;
-        double& count = one->correct == signal
-                            ? (says_signal ? counts.hits : counts.misses)
-                            : (says_signal ? counts.false_alarms : counts.correct_rejections);
-        count += 1.0;
-    }
-    if (counts.hits + counts.misses < 1.0 || counts.false_alarms + counts.correct_rejections < 1.0)
-        return;
-    const bool is_of_slots = std::ranges::includes(slots, right);
-    const DetectionEstimate found = is_of_slots ? two_alternatives(counts, ShareCorrection::log_linear)
-                                                : yes_no(counts, ShareCorrection::log_linear);
-    row.d_prime = found.d_prime;
-    row.d_prime_se = found.se;
-    row.criterion = found.criterion;
-}
 
 /// Places of the levels of each factor on a continuous quality, where the ratings are steps of a scale.
 void add_rating_places(std::span<AnswerRatingRow> rows,
@@ -115,7 +80,18 @@ std::vector<AnswerSummaryRow> answer_summaries(const AnswersBy& answers, const S
         row.correct = judged > 0.0
                           ? Estimate::of(right / judged, wilson_interval(right, judged, options.confidence))
                           : Estimate::none("nothing is correct or wrong");
-        add_sensitivity(row, given);
+        if (const auto found = d_prime_of(given)) {
+            row.d_prime = found->d_prime;
+            row.d_prime_se = found->se;
+            row.criterion = found->criterion;
+        }
+        if (const auto design = answer_design(given)) {
+            row.design = design->name();
+            if (const auto found = d_prime_by(*design, given)) {
+                row.design_d_prime = found->d_prime;
+                row.design_d_prime_se = found->se;
+            }
+        }
         if (times.empty())
             continue;
         std::ranges::sort(times);
@@ -123,13 +99,6 @@ std::vector<AnswerSummaryRow> answer_summaries(const AnswersBy& answers, const S
         row.mean_response_s = 0.0;
         for (const double time : times)
             *row.mean_response_s += time / static_cast<double>(times.size());
-        if (times.size() < least_times_for_shape)
-            continue;
-        if (const auto fit = fit_ex_gaussian(times)) {
-            row.ex_mu_s = fit->mu;
-            row.ex_sigma_s = fit->sigma;
-            row.ex_tau_s = fit->tau;
-        }
     }
     return rows;
 }
@@ -204,6 +173,10 @@ void reckon_answers(StudyAnswers& answers, const StudyOptions& options) {
     answers.curves = answer_curves(by, options);
     answers.scales = answer_scales(by, options);
     answers.ratings = answer_ratings(by, options);
+    answers.tracks = answer_tracks(answers.given);
+    answers.times = answer_times(by, options);
+    answers.speeds = answer_speeds(by, options);
+    answers.differences = answer_differences(by, options);
 }
 
 } // namespace overt

@@ -39,9 +39,24 @@ struct LevelDifferences {
     std::vector<std::vector<SurfaceWeight>> sums{2}; ///< of the first level and of the second
 };
 
-LevelDifferences observer_differences(const StudyResults& results, const StudyGroup& group,
-                                      const DifferenceMap& of, const FixationMaps& maps) {
+LevelDifferences observer_differences(const std::vector<ComparedFixations>& observers,
+                                      const FixationMaps& maps) {
     LevelDifferences found;
+    for (const auto& [a, b] : observers) {
+        const std::vector<double> share_a = share_of_time(maps, a), share_b = share_of_time(maps, b);
+        std::vector<float>& difference = found.of_observers.emplace_back();
+        for (std::size_t v = 0; v < share_a.size(); ++v)
+            difference.push_back(static_cast<float>(share_a[v] - share_b[v]));
+        add_shares(found.sums[0], a);
+        add_shares(found.sums[1], b);
+    }
+    return found;
+}
+
+/// Those of a group who saw the object in both levels.
+std::vector<ComparedFixations> compared_in(const StudyResults& results, const StudyGroup& group,
+                                           const DifferenceMap& of) {
+    std::vector<ComparedFixations> compared;
     for (const auto& [observer, trials] : by_observer(results, group.trials)) {
         std::vector<int> in_a, in_b;
         for (const int trial : trials) {
@@ -51,18 +66,11 @@ LevelDifferences observer_differences(const StudyResults& results, const StudyGr
             else if (level == of.b)
                 in_b.push_back(trial);
         }
-        const Fixations a = fixations_on(results, in_a, of.object),
-                        b = fixations_on(results, in_b, of.object);
-        if (a.empty() || b.empty())
-            continue;
-        const std::vector<double> share_a = share_of_time(maps, a), share_b = share_of_time(maps, b);
-        std::vector<float>& difference = found.of_observers.emplace_back();
-        for (std::size_t v = 0; v < share_a.size(); ++v)
-            difference.push_back(static_cast<float>(share_a[v] - share_b[v]));
-        add_shares(found.sums[0], a);
-        add_shares(found.sums[1], b);
+        ComparedFixations own{fixations_on(results, in_a, of.object), fixations_on(results, in_b, of.object)};
+        if (!own.a.empty() && !own.b.empty())
+            compared.push_back(std::move(own));
     }
-    return found;
+    return compared;
 }
 
 DifferenceMap::Cluster cluster_of(const Cluster& found, const FixationMaps& maps,
@@ -114,6 +122,23 @@ void test_differences(DifferenceMap& of, const LevelDifferences& differences, co
 
 } // namespace
 
+void find_difference(DifferenceMap& of, const std::vector<ComparedFixations>& observers,
+                     const FixationMaps& maps, const StudyOptions& options, const std::string& of_one) {
+    of.observers = static_cast<int>(observers.size());
+    if (of.observers == 1)
+        of.absent = of_one;
+    else
+        test_differences(of, observer_differences(observers, maps), maps, options);
+}
+
+void correct_over_maps(std::vector<DifferenceMap>& maps) {
+    const auto tested = static_cast<double>(
+        std::ranges::count_if(maps, [](const DifferenceMap& map) { return map.absent.empty(); }));
+    for (DifferenceMap& map : maps)
+        for (DifferenceMap::Cluster& cluster : map.clusters)
+            cluster.p_of_all = std::min(1.0, cluster.p * tested);
+}
+
 std::vector<DifferenceMap> difference_maps(const StudyResults& results, const ObjectFixationMaps& maps,
                                            const LevelLists& levels, const StudyOptions& options) {
     std::vector<DifferenceMap> rows;
@@ -134,26 +159,18 @@ std::vector<DifferenceMap> difference_maps(const StudyResults& results, const Ob
                     row.column = options.compare;
                     row.a = compared[a];
                     row.b = compared[b];
-                    const LevelDifferences differences =
-                        observer_differences(results, group, row, *maps[object]);
-                    row.observers = static_cast<int>(differences.of_observers.size());
-                    if (row.observers == 0)
+                    const std::vector<ComparedFixations> compared_fixations =
+                        compared_in(results, group, row);
+                    if (compared_fixations.empty())
                         continue;
-                    if (row.observers == 1)
-                        row.absent = "one observer alone saw it in both levels";
-                    else
-                        test_differences(row, differences, *maps[object], options);
+                    find_difference(row, compared_fixations, *maps[object], options,
+                                    "one observer alone saw it in both levels");
                     rows.push_back(std::move(row));
                 }
             }
         }
     }
-    const auto tested = static_cast<double>(
-        std::ranges::count_if(rows, [](const DifferenceMap& row) { return row.absent.empty(); }));
-    for (DifferenceMap& row : rows) {
-        for (DifferenceMap::Cluster& cluster : row.clusters)
-            cluster.p_of_all = std::min(1.0, cluster.p * tested);
-    }
+    correct_over_maps(rows);
     return rows;
 }
 

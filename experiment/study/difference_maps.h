@@ -7,6 +7,19 @@
 
 namespace overt {
 
+/// An observer's fixations on an object in two conditions; neither empty.
+struct ComparedFixations {
+    Fixations a, b;
+};
+
+/// Fills in what `of` says of the difference of these observers, one at least: each one's share of the time
+/// of fixation per mm^2 in a less that in b, and its clusters. With one observer it is absent for the reason.
+void find_difference(DifferenceMap& of, const std::vector<ComparedFixations>& observers,
+                     const FixationMaps& maps, const StudyOptions& options, const std::string& of_one);
+
+/// Sets `p_of_all` of all clusters: corrected over the maps that have been tested.
+void correct_over_maps(std::vector<DifferenceMap>& maps);
+
 /// For each pair of levels, within each group of the other columns of `--by` and for all of these together,
 /// on each object that some observer saw in both levels. Each observer gives one map of differences: the
 /// share of the time of fixation per mm^2 in a less that in b. Where they differ from 0 is tested by clusters

@@ -14,6 +14,7 @@
 #include "experiment/maps/coordinate_maps.h"
 #include "experiment/record/no_stimulus.h"
 #include "experiment/record/preview_file.h"
+#include "experiment/study/read/answer_reader.h"
 #include "experiment/study/read/area_evidence.h"
 #include "experiment/study/read/exposure.h"
 #include "experiment/study/read/gaze_quality.h"
@@ -45,6 +46,7 @@ class StudyReader {
             add_evidence(object);
         }
         collect();
+        read_given_answers();
         return std::move(study_);
     }
 
@@ -70,11 +72,19 @@ class StudyReader {
             add_evidence(object);
         }
         collect();
+        read_given_answers();
         return std::move(study_);
     }
 
   private:
     StudyResults& results() { return study_.results; }
+
+    void read_given_answers() {
+        std::vector<std::filesystem::path> sessions;
+        for (const OpenSession& one : open_)
+            sessions.push_back(one.path);
+        results().answers.given = read_answers(sessions, options_.same_observer);
+    }
 
     void begin_reading() {
         for (std::size_t i = 0; i < open_.size(); ++i) {

@@ -64,8 +64,6 @@ struct AnswerSummaryRow {
     std::string design = {};
     std::optional<double> design_d_prime = {}, design_d_prime_se = {};
     std::optional<double> median_response_s = {}, mean_response_s = {};
-    std::optional<double> ex_mu_s = {}, ex_sigma_s = {},
-                          ex_tau_s = {}; ///< ex-Gaussian, with 40 times at least
 };
 
 /// How often a choice was made.

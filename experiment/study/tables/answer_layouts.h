@@ -9,6 +9,19 @@ namespace overt {
 RowLayout<AnswerSummaryRow> answers_layout();
 RowLayout<AnswerChoiceRow> answer_choices_layout();
 RowLayout<AnswerCurveRow> psychometric_functions_layout();
+
+/// A point of a curve.
+struct AnswerPointRow {
+    const AnswerCurveRow& curve;
+    const AnswerCurvePoint& point;
+};
+RowLayout<AnswerPointRow> psychometric_points_layout();
+RowLayout<AnswerTrackRow> procedure_tracks_layout();
+RowLayout<AnswerTimeRow> response_times_layout();
+RowLayout<AnswerSpeedRow> speed_and_accuracy_layout();
+RowLayout<AnswerDifferenceRow> answer_differences_layout();
+RowLayout<AnswerGazeRow> answer_gaze_layout();
+RowLayout<GazeChoiceRow> gaze_choices_layout();
 RowLayout<AnswerScaleRow> answer_scales_layout();
 RowLayout<AnswerRatingRow> ratings_layout();
 

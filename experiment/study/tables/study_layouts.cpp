@@ -237,18 +237,17 @@ RowLayout<PairRow> pairs_layout(const StudyResults& results) {
     return to;
 }
 
-RowLayout<ClusterRow> clusters_layout(const StudyResults& results) {
+namespace {
+
+RowLayout<ClusterRow> cluster_columns(const StudyResults& results, StudyLayout<ClusterRow> to,
+                                      const std::vector<std::string>& keys, const char* compared) {
     using Cluster = DifferenceMap::Cluster;
     const auto centroid = [](int axis) {
         return of_cluster([axis](const Cluster& cluster) { return cluster.centroid_mm[axis]; });
     };
-    StudyLayout<ClusterRow> to(
-        "difference_clusters",
-        "Clusters of vertices where two levels differ within observers, corrected over the "
-        "surface by the largest cluster of permutations.");
-    to.keys(others_of(results.by, {"object"}), of_difference(&DifferenceMap::keys));
+    to.keys(keys, of_difference(&DifferenceMap::keys));
     to.object(results, of_difference(&DifferenceMap::object), "The object");
-    to.text("compared", "The column whose levels are compared", of_difference(&DifferenceMap::column));
+    to.text("compared", compared, of_difference(&DifferenceMap::column));
     to.text("a", "First level", of_difference(&DifferenceMap::a));
     to.text("b", "Second level", of_difference(&DifferenceMap::b));
     to.count("observers", "Observers", of_difference(&DifferenceMap::observers));
@@ -274,6 +273,27 @@ RowLayout<ClusterRow> clusters_layout(const StudyResults& results) {
               of_tested(&DifferenceMap::least_p));
     to.text("absent", "Why there is no map; n/a: there is one", of_difference(&DifferenceMap::absent));
     return to;
+}
+
+} // namespace
+
+RowLayout<ClusterRow> clusters_layout(const StudyResults& results) {
+    return cluster_columns(results,
+                           {"difference_clusters",
+                            "Clusters of vertices where two levels differ within observers, corrected over "
+                            "the surface by the largest cluster of permutations."},
+                           others_of(results.by, {"object"}), "The column whose levels are compared");
+}
+
+RowLayout<ClusterRow> answer_clusters_layout(const StudyResults& results) {
+    return cluster_columns(
+        results,
+        {"answer_map_clusters",
+         "Clusters of vertices at which gaze before one answer differs from gaze before another within "
+         "observers, corrected over the surface by the largest cluster of permutations."},
+        {"task"},
+        "The answer; its choices are a and b, or, where these are slots, the stimuli that were "
+        "chosen and the others");
 }
 
 RowLayout<TimeCourseRow> time_course_layout(const StudyResults& results) {

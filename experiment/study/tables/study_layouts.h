@@ -35,6 +35,7 @@ struct ClusterRow {
     int number = 0;                        ///< from 1, the largest first
 };
 RowLayout<ClusterRow> clusters_layout(const StudyResults& results);
+RowLayout<ClusterRow> answer_clusters_layout(const StudyResults& results);
 
 /// One of a trial or of a session.
 struct QualityRow {

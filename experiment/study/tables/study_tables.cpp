@@ -56,15 +56,19 @@ template <class Visit> void for_each_table(const StudyResults& results, const Vi
     all(exposure_layout(results), results.exposures, false);
     all(map_predictions_layout(results), results.predictions, false);
     all(map_reliability_layout(results), results.reliabilities, false);
-    visit(clusters_layout(results), !results.differences.empty(), [&](const auto& take) {
-        for (const DifferenceMap& map : results.differences) {
-            int number = 0;
-            for (const DifferenceMap::Cluster& cluster : map.clusters)
-                take(ClusterRow{map, &cluster, ++number});
-            if (number == 0)
-                take(ClusterRow{map, nullptr, 0});
-        }
-    });
+    const auto clusters = [&](const auto& layout, const std::vector<DifferenceMap>& maps) {
+        visit(layout, !maps.empty(), [&](const auto& take) {
+            for (const DifferenceMap& map : maps) {
+                int number = 0;
+                for (const DifferenceMap::Cluster& cluster : map.clusters)
+                    take(ClusterRow{map, &cluster, ++number});
+                if (number == 0)
+                    take(ClusterRow{map, nullptr, 0});
+            }
+        });
+    };
+    clusters(clusters_layout(results), results.differences);
+    clusters(answer_clusters_layout(results), results.answer_maps);
     visit(quality_layout(), true, [&](const auto& take) {
         for (std::size_t i = 0; i < results.sessions.size(); ++i) {
             for (const StudyTrial& trial : results.trials) {
@@ -77,6 +81,17 @@ template <class Visit> void for_each_table(const StudyResults& results, const Vi
     all(answers_layout(), results.answers.summaries, false);
     all(answer_choices_layout(), results.answers.choices, false);
     all(psychometric_functions_layout(), results.answers.curves, false);
+    visit(psychometric_points_layout(), !results.answers.curves.empty(), [&](const auto& take) {
+        for (const AnswerCurveRow& curve : results.answers.curves)
+            for (const AnswerCurvePoint& point : curve.points)
+                take(AnswerPointRow{curve, point});
+    });
+    all(procedure_tracks_layout(), results.answers.tracks, false);
+    all(response_times_layout(), results.answers.times, false);
+    all(speed_and_accuracy_layout(), results.answers.speeds, false);
+    all(answer_differences_layout(), results.answers.differences, false);
+    all(answer_gaze_layout(), results.answers.gaze, false);
+    all(gaze_choices_layout(), results.answers.gaze_choices, false);
     all(answer_scales_layout(), results.answers.scales, false);
     all(ratings_layout(), results.answers.ratings, false);
     all(reporting_layout(), results.reporting, true);
