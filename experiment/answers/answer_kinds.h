@@ -69,7 +69,7 @@ inline constexpr auto kinds_of<AnswerKind> = std::to_array<AnswerKindRow>({
      "a circle with a rod at the place of a probe, turned until it lies on the surface while that is shown; "
      "tables have its slant and tilt beside the surface's own",
      gauge_answering,
-     {"probe", "size_deg", "slant_per_px_deg", "key_step_deg", "undo_key", "with", "accept_key"},
+     {"probe", "size_deg", "slant_per_px_deg", "key_step_deg", "undo_key", "accept_key"},
      true,
      true},
     {"match",

@@ -12,6 +12,9 @@ namespace {
 /// More than a person does in a trial; kept ready so that none is lost or waited for.
 constexpr std::size_t most_inputs = 4096;
 
+/// Moves of the mouse within it are one in the record.
+constexpr SessionDuration shortest_move = std::chrono::milliseconds(4);
+
 using InputKind = ObserverInput::Kind;
 
 bool is_equal_value(const std::string& value, const std::string& correct) {
@@ -218,6 +221,8 @@ bool AnswerSheet::let_answer(Taken& taken, const AnswerPlace& place) noexcept {
         asked.first_input_at = taken.input.at;
     if (effect == Answering::Effect::touched)
         return true;
+    if (effect == Answering::Effect::accepted)
+        return accept(asked, taken.input);
     ++asked.changes;
     asked.is_done = asked.is_given = false;
     if (effect == Answering::Effect::chosen && !asked.settings().accepts_by_key()) {
@@ -288,12 +293,20 @@ void AnswerSheet::look_for_tie(const ObserverInput& input) noexcept {
 }
 
 void AnswerSheet::note(const Taken& taken) noexcept {
+    // A mouse tells its moves up to 8000 times a second: what the screen cannot show apart is one.
+    if (taken.input.kind == InputKind::pointer_moved && !taken_.empty()) {
+        const Taken& last = taken_.back();
+        if (last.input.kind == InputKind::pointer_moved && last.asked == taken.asked &&
+            last.state == taken.state && taken.input.at - last.input.at < shortest_move)
+            taken_.pop_back();
+    }
     if (taken_.size() == taken_.capacity()) {
         ++lost_inputs_;
         return;
     }
     taken_.push_back(taken);
     taken_.back().number = asked_[taken.asked].answering->number();
+    taken_.back().attitude = asked_[taken.asked].answering->attitude();
 }
 
 std::optional<SessionTime> AnswerSheet::is_over_at(SessionTime now) const noexcept {
@@ -342,6 +355,13 @@ AnswerView AnswerSheet::view(const std::string& accept) const {
     if (is_accepted)
         view.accept = accept;
     return view;
+}
+
+const Answering* AnswerSheet::gauge() const noexcept {
+    for (const Asked& asked : asked_)
+        if (asked.page == page_ && !asked.is_done && asked.answering->attitude())
+            return asked.answering.get();
+    return nullptr;
 }
 
 std::vector<AnswerOffer> AnswerSheet::offers() const {
@@ -411,7 +431,8 @@ void AnswerSheet::add_to(std::vector<GivenAnswer>& given_answers, std::vector<An
                           .input = taken.input,
                           .state = taken.state,
                           .has_counted = taken.has_counted,
-                          .number = taken.number});
+                          .number = taken.number,
+                          .attitude = taken.attitude});
 }
 
 } // namespace overt

@@ -84,6 +84,8 @@ class AnswerSheet {
     bool points() const noexcept {
         return std::ranges::any_of(asked_, [](const Asked& asked) { return asked.answering->points(); });
     }
+    /// Of a gauge that is asked now, where it stands and how it is turned; null: none is.
+    const Answering* gauge() const noexcept;
     /// What is still to be answered on this page.
     std::vector<AnswerOffer> offers() const;
     /// When presses began to count for what keys go to now; nothing: they do not yet.
@@ -116,6 +118,7 @@ class AnswerSheet {
         InputState state = InputState::open;
         bool has_counted = false;
         std::optional<double> number = {};
+        std::optional<Attitude> attitude = {};
     };
     AnswerOpening::From opens_from(const Asked& asked) const noexcept;
     void open_by(AnswerOpening::From from, SessionTime at) noexcept;

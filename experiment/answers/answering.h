@@ -70,8 +70,6 @@ class Answering {
     virtual bool points() const noexcept { return false; }
     /// Of a gauge, how it is turned now, which stands on the stimulus; allocates nothing.
     virtual std::optional<Attitude> attitude() const noexcept { return std::nullopt; }
-    /// It can lean no farther.
-    virtual bool is_at_limit() const noexcept { return false; }
     /// Of a match: the level that its slot shows; allocates nothing.
     virtual std::optional<int> level() const noexcept { return std::nullopt; }
     /// What the record has of it besides value and number; also where it was missed.

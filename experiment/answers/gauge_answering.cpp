@@ -23,15 +23,13 @@ class GaugeAnswering final : public Answering {
 
     Effect take(const ObserverInput& input, const AnswerPlace&) noexcept override {
         using Kind = ObserverInput::Kind;
-        const bool by_keys = settings().with != AnsweredWith::mouse,
-                   by_mouse = settings().with != AnsweredWith::keys;
         switch (input.kind) {
         case Kind::key_down:
             if (input.key.view() == settings().undo_key)
                 return undo();
-            return by_keys ? lean_by_key(input.key.view()) : Effect::none;
+            return lean_by_key(input.key.view());
         case Kind::pointer_down:
-            if (!by_mouse || input.button == 2)
+            if (input.button == 2)
                 return Effect::none;
             if (input.button == 3)
                 return has_value() ? Effect::accepted : Effect::none;
@@ -66,13 +64,19 @@ class GaugeAnswering final : public Answering {
         const double tilt = to_degrees(Radians{std::atan2(lean_.y, lean_.x)}).value;
         return Attitude{{glm::length(lean_)}, {tilt < 0.0 ? tilt + 360.0 : tilt}};
     }
-    bool is_at_limit() const noexcept override { return glm::length(lean_) >= most_slant_deg - 1e-9; }
-    bool points() const noexcept override { return settings().with != AnsweredWith::keys; }
+    void add_details(GivenAnswer& given) const override {
+        given.gauge = GaugeAnswer{.probe = form_.probe,
+                                  .point = form_.point,
+                                  .start = form_.start,
+                                  .set = *attitude(),
+                                  .is_at_limit = glm::length(lean_) >= most_slant_deg - 1e-9};
+    }
+    bool points() const noexcept override { return true; }
     void draw(AnswerItem& item) const override { item.kind = AnswerItem::Kind::keys; }
     void offer(AnswerOffer& offer) const override {
         offer.attitude = attitude();
         offer.step = settings().key_step_deg;
-        offer.slant_per_px_deg = settings().with == AnsweredWith::keys ? 0.0 : settings().slant_per_px_deg;
+        offer.slant_per_px_deg = settings().slant_per_px_deg;
     }
 
   private:

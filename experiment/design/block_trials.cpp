@@ -8,6 +8,7 @@
 #include "experiment/design/drawn_lists.h"
 #include "experiment/design/latin_square.h"
 #include "experiment/design/observer_groups.h"
+#include "experiment/design/point_trials.h"
 #include "experiment/design/schedule.h"
 #include "experiment/design/task_trials.h"
 #include "experiment/protocol/entry_ids.h"
@@ -77,14 +78,18 @@ struct ForObserver {
 std::vector<Trial> trials_in(const Protocol& protocol, int block, const BlockScope& scope, int row,
                              const ForObserver& observer) {
     std::vector<Trial> trials;
+    const auto add_trials = [&](std::vector<Trial> of_task, int task) {
+        for (Trial& trial :
+             with_points(protocol, std::move(of_task), task, block, observer.number, observer.seed))
+            trials.push_back(std::move(trial));
+    };
     for (const int task : scope.tasks) {
         if (protocol.tasks[static_cast<std::size_t>(task)].trials.has_own_trials()) {
-            for (Trial& trial :
-                 own_trials(protocol, task, block, stimuli_in(scope), observer.number, observer.seed))
-                trials.push_back(std::move(trial));
+            add_trials(own_trials(protocol, task, block, stimuli_in(scope), observer.number, observer.seed),
+                       task);
             continue;
         }
-        const std::size_t first = trials.size();
+        std::vector<Trial> of_task;
         const TaskCoverage own = protocol.tasks[static_cast<std::size_t>(task)].stimuli;
         const bool is_rotated = rotates(protocol, block, task);
         // A rotated task's cells are numbered by its place among the rotated tasks, whatever block it is in.
@@ -106,13 +111,12 @@ std::vector<Trial> trials_in(const Protocol& protocol, int block, const BlockSco
         for (const Stimulus& stimulus : stimuli_in(scope)) {
             if (!is_rotated || entry_of_object[static_cast<std::size_t>(stimulus.object)] ==
                                    stimulus.*stimulus_lists[list].index)
-                trials.push_back({count_of(trials), task, stimulus, block});
+                of_task.push_back({0, task, stimulus, block});
         }
-        std::for_each(trials.begin() + static_cast<std::ptrdiff_t>(first), trials.end(),
-                      [&](Trial& trial) { fill_slots(protocol, trial); });
-        const std::vector<Trial> once(trials.begin() + static_cast<std::ptrdiff_t>(first), trials.end());
-        for (int i = 1; i < protocol.tasks[static_cast<std::size_t>(task)].repetitions; ++i)
-            trials.insert(trials.end(), once.begin(), once.end());
+        for (Trial& trial : of_task)
+            fill_slots(protocol, trial);
+        for (int i = 0; i < protocol.tasks[static_cast<std::size_t>(task)].repetitions; ++i)
+            add_trials(of_task, task);
     }
     for (const int task : scope.tasks)
         for (Trial& trial :

@@ -6,6 +6,7 @@
 
 #include "experiment/base/error.h"
 #include "experiment/design/block_plan.h"
+#include "experiment/design/point_trials.h"
 
 namespace overt {
 
@@ -54,6 +55,7 @@ void TrialQueue::begin_block(int block) {
         Trial trial{static_cast<int>(i), index_of(protocol_.tasks, practice.task),
                     practised(protocol_, practice), block};
         fill_slots(protocol_, trial);
+        trial.levels = first_points(protocol_, trial.task);
         before_.push_back({SessionStep::Kind::practice, trial, 1, block});
     }
 }

@@ -15,6 +15,8 @@ class OwnLevelsOf {
         for (const int table : {settings.trials.table, settings.catch_trials.table})
             if (table >= 0)
                 add_table(protocol_.trial_tables[static_cast<std::size_t>(table)]);
+        for (const ProbeSettings& probe : settings.probes)
+            add_probe(probe);
         if (settings.trials.rule)
             add_rule(task, settings.trials, row_of(*settings.trials.rule));
     }
@@ -28,6 +30,11 @@ class OwnLevelsOf {
                 add(of.factor, of.level);
             add(correct_answer, row.correct);
         }
+    }
+    void add_probe(const ProbeSettings& probe) {
+        for (const PointListSettings& list : protocol_.point_lists)
+            for (int i = 0; list.id == probe.points && i < list.count(); ++i)
+                add(probe.id, list.name_of(i));
     }
     void add_rule(int task, const TrialsSettings& trials, const TrialRuleRow& rule) {
         for (const std::string_view answer : rule.answers)
