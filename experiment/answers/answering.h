@@ -38,7 +38,7 @@ struct AnswerForm {
     int mapping = 0;                      ///< choices begin with this one; of a scale, 1 turns it round
     std::string correct;                  ///< a value; empty: none
     int place = 0;                        ///< which of the trial's it is in turn
-    std::string probe, point = {};        ///< of a gauge: where it stands
+    std::string probe = {}, point = {};   ///< of a gauge: where it stands
     Attitude start = {};                  ///< of a gauge, drawn
     MatchLevels levels = {};              ///< of a match
 };

@@ -102,6 +102,8 @@ class AnswerChecks {
             keys.emplace_back("keys", key);
         if (answer_.accepts_by_key())
             keys.emplace_back("accept_key", answer_.accept_key);
+        if (has("undo_key"))
+            keys.emplace_back("undo_key", answer_.undo_key);
         for (std::size_t i = 0; i < keys.size(); ++i) {
             const auto& [path, key] = keys[i];
             const auto earlier = std::find_if(keys.begin(), keys.begin() + static_cast<std::ptrdiff_t>(i),
@@ -245,6 +247,9 @@ class AnswerChecks {
                                            "no choice",
                                            truth.look_area),
                                "write simulated_area_shares for the task");
+        if (!truth.shear.empty() && (truth.shear.size() != 2 || !has("probe")))
+            examination_.error({path + ".shear"},
+                               "shear is two numbers, of a gauge: to the right and upwards");
         if (!truth.cuts.empty() &&
             (!answer_.steps || truth.cuts.size() + 1 != static_cast<std::size_t>(*answer_.steps) ||
              !std::ranges::is_sorted(truth.cuts)))
@@ -333,6 +338,14 @@ class AskingChecks {
                                   answer.id, name_of(answer.kind)),
                       "ask for it in a step { answer = … }; keys, choices, and scales of steps with accept = "
                       "\"at-once\" can end a stimulus");
+            else if (name_of(answer.kind) == "gauge" && answers_waited_for(step).size() > 1)
+                error(
+                    step.answers_place,
+                    fmt::format("the gauge \"{}\" takes the mouse and the arrows, and cannot be set together "
+                                "with other answers",
+                                answer.id),
+                    "give each a step of its own: { answer = [...] } behind the step that shows the "
+                    "stimulus");
             else if (answer.with == AnsweredWith::mouse && !answer.beside_up_deg)
                 error(step.answers_place,
                       fmt::format("\"{}\" is given with the mouse, and nothing to click on is on the screen",
@@ -344,8 +357,11 @@ class AskingChecks {
     void check_points() {
         for (std::size_t i = 0; i < task_.answers.size(); ++i) {
             const TaskAnswer& answer = task_.answers[i];
-            if (name_of(answer.kind) != "point")
+            const bool is_gauge = row_of(answer.kind).has_key("probe");
+            if (name_of(answer.kind) != "point" && !is_gauge)
                 continue;
+            if (is_gauge)
+                check_probe(answer, fmt::format("task[{}].answer[{}]", number_, i));
             const bool is_there = std::ranges::any_of(task_.steps, [&](const StepSettings& step) {
                 const std::vector<TaskAnswer> awaited = answers_waited_for(step);
                 return step.kind == StepKind::show && step.ends_by_answer &&
@@ -354,9 +370,29 @@ class AskingChecks {
             if (!is_there)
                 examination_.error(
                     {fmt::format("task[{}].answer[{}].kind", number_, i)},
-                    fmt::format("nothing is shown while \"{}\" is pointed at", answer.id),
+                    fmt::format("nothing is shown while \"{}\" is {}", answer.id,
+                                is_gauge ? "set" : "pointed at"),
                     "have a step of the task that shows the stimulus wait for it: until = \"answer\"");
         }
+    }
+
+    void check_probe(const TaskAnswer& answer, const std::string& path) {
+        std::vector<std::string_view> ids;
+        for (const ProbeSettings& probe : task_.probes)
+            ids.push_back(probe.id);
+        if (task_.probes.empty())
+            examination_.error({path + ".kind"},
+                               fmt::format("the gauge \"{}\" has no place to stand at", answer.id),
+                               "add a [[task.probe]] with the id of [[points]]");
+        else if (answer.probe.empty() && task_.probes.size() > 1)
+            examination_.error(
+                {path + ".kind"},
+                fmt::format("task {} has {} probes, and \"{}\" says at which it stands nowhere", task_.id,
+                            task_.probes.size(), answer.id),
+                fmt::format("write probe = \"{}\"", task_.probes.front().id));
+        else if (!probe_of(task_, answer))
+            examination_.error({path + ".probe"}, fmt::format("there is no probe \"{}\"", answer.probe),
+                               suggest_name(answer.probe, ids));
     }
 
     /// Of the next step that asks, or all.

@@ -64,12 +64,15 @@ std::optional<Protocol> read_text(std::string_view text, const std::filesystem::
         check_steps(examination);
         check_answers(examination);
         check_slots(examination);
+        check_points(examination);
         if (diagnostics.error_count() == errors_before + errors_in_tables(protocol, diagnostics))
             check_trials(examination);
         check_procedures(examination);
         check_bake(examination);
         if (look_at_files)
             check_files(examination);
+        if (diagnostics.error_count() == errors_before)
+            check_points_on_objects(examination);
         if (diagnostics.error_count() == errors_before)
             check_slot_memory(examination);
         if (diagnostics.error_count() == errors_before)

@@ -52,6 +52,10 @@ void check_steps(ProtocolExamination& examination);
 void check_answers(ProtocolExamination& examination);
 /// Places on the screen, and in which of them each task shows its stimuli.
 void check_slots(ProtocolExamination& examination);
+/// Lists of places on surfaces, and probes there; after check_slots(), before trials are put together.
+void check_points(ProtocolExamination& examination);
+/// Whether the objects that are shown have the places. Of a protocol that is sound otherwise.
+void check_points_on_objects(ProtocolExamination& examination);
 /// After take_characterisation().
 void check_bake(ProtocolExamination& examination);
 

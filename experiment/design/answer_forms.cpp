@@ -1,6 +1,7 @@
 #include "experiment/design/answer_forms.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <span>
@@ -47,7 +48,26 @@ std::vector<std::string> items_of(const AskedTrial& asked, const TaskAnswer& ans
     return items;
 }
 
+/// A gauge stands in any direction at first, none of them more often, and never nearly as steep as it gets.
+constexpr Degrees steepest_start{60.0};
+
+Attitude drawn_start(const AskedTrial& asked, const TaskAnswer& answer) {
+    RandomStream stream(asked.seed,
+                        fmt::format("{}gauge start {}", asked.is_practice ? "practice " : "", answer.id),
+                        static_cast<std::uint64_t>(asked.trial.index));
+    // Normals evenly over the cap: their z is uniform.
+    const double z = stream.uniform(std::cos(to_radians(steepest_start).value), 1.0);
+    return {to_degrees(Radians{std::acos(z)}), Degrees{stream.uniform(0.0, 360.0)}};
+}
+
 } // namespace
+
+const ProbeSettings* probe_of(const Task& task, const TaskAnswer& answer) {
+    if (answer.probe.empty())
+        return task.probes.empty() ? nullptr : &task.probes.front();
+    const auto found = std::ranges::find(task.probes, answer.probe, &ProbeSettings::id);
+    return found == task.probes.end() ? nullptr : &*found;
+}
 
 int mappings_of(const TaskAnswer& answer) {
     return row_of(answer.kind).has_key("direction")
@@ -103,13 +123,21 @@ std::vector<AnswerForm> answer_forms(const AskedTrial& asked, const std::vector<
     std::vector<AnswerForm> forms;
     for (const int index : answers) {
         const TaskAnswer& answer = task.answers[static_cast<std::size_t>(index)];
-        for (const std::string& item : items_of(asked, answer))
+        for (const std::string& item : items_of(asked, answer)) {
             forms.push_back({.settings = &answer,
                              .item = item,
                              .labels = labels_of(asked.protocol, answer),
                              .mapping = mapping_of(asked, answer),
                              .correct = correct_value(asked.protocol, answer, asked.trial),
                              .place = first_place++});
+            if (!row_of(answer.kind).has_key("probe"))
+                continue;
+            if (const ProbeSettings* const probe = probe_of(task, answer)) {
+                forms.back().probe = probe->id;
+                forms.back().point = own_level(asked.trial, probe->id);
+            }
+            forms.back().start = drawn_start(asked, answer);
+        }
     }
     return forms;
 }

@@ -27,6 +27,9 @@ struct AskedTrial {
 std::vector<AnswerForm> answer_forms(const AskedTrial& asked, const std::vector<int>& answers,
                                      int first_place);
 
+/// The probe at which a gauge stands; null if there is none.
+const ProbeSettings* probe_of(const Task& task, const TaskAnswer& answer);
+
 /// How many ways round the keys of an answer can be: its choices, or the two sides of a scale.
 int mappings_of(const TaskAnswer& answer);
 

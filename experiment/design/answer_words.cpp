@@ -33,6 +33,14 @@ std::string choices_in_words(const Protocol& protocol, const TaskAnswer& answer)
     return text;
 }
 
+std::string gauge_in_words(const Task& task, const TaskAnswer& answer) {
+    const ProbeSettings* const probe = probe_of(task, answer);
+    return fmt::format(
+        "leaned by drags of the mouse ({:g} deg a pixel) or arrows ({:g} deg) at probe {}; {} takes "
+        "back; a click with the right button accepts",
+        answer.slant_per_px_deg, answer.key_step_deg, probe ? probe->id : "", answer.undo_key);
+}
+
 std::string range_in_words(const TaskAnswer& answer) {
     std::string text;
     if (answer.steps) {
@@ -117,9 +125,10 @@ std::string describe_answers(const Protocol& protocol, const Task& task) {
         const auto sheet = std::ranges::find_if(plan.sheets, [&](const PlannedSheet& one) {
             return std::ranges::find(one.answers, static_cast<int>(i)) != one.answers.end();
         });
-        std::string how = kind.has_key("choices") ? choices_in_words(protocol, answer)
-                          : kind.has_key("min")   ? range_in_words(answer)
-                                                  : fmt::format("up to {} characters", answer.longest);
+        std::string how = kind.has_key("probe")     ? gauge_in_words(task, answer)
+                          : kind.has_key("choices") ? choices_in_words(protocol, answer)
+                          : kind.has_key("min")     ? range_in_words(answer)
+                                                    : fmt::format("up to {} characters", answer.longest);
         if (answer.accepts_by_key())
             how += fmt::format("; {} accepts it", answer.accept_key);
         text += fmt::format("    {}\n", how);
