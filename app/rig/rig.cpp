@@ -75,7 +75,8 @@ Rig::Rig(const Protocol& protocol, std::span<const Object> objects, const RigReq
       screen_findings_(display_.is_real() ? examine_screen(*display_.window(), protocol)
                                           : std::vector<ScreenFinding>()),
       library_(display_.context(), protocol, objects, cache),
-      areas_(protocol, objects, library_.cache().poses()) {
+      areas_(protocol, objects, library_.cache().poses()),
+      points_(protocol, objects, library_.cache().poses()) {
     if (!display_.is_real())
         return;
     const std::vector<ScreenFinding>& quiet = quiet_desktop_.emplace(display_.window()->native()).findings();

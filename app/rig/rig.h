@@ -9,6 +9,7 @@
 #include "app/rig/answer_equipment.h"
 #include "app/rig/open_display.h"
 #include "app/rig/seen_areas.h"
+#include "app/rig/seen_points.h"
 #include "app/rig/undrawn_frames.h"
 #include "experiment/ports/eye_tracker.h"
 #include "experiment/ports/presentation_listener.h"
@@ -126,6 +127,10 @@ class Rig {
     std::shared_ptr<const AreaView> area_of(const PlacedStimulus& stimulus, const std::string& area) {
         return areas_.area_of(stimulus, area);
     }
+    /// A place of it; see SeenPoints.
+    std::shared_ptr<const ProbeView> point_of(const PlacedStimulus& stimulus, const std::string& point) {
+        return points_.point_of(stimulus, point);
+    }
     LiveMaps* live_maps() { return live_maps_.get(); } ///< null unless maps_are_live()
 
   private:
@@ -140,6 +145,7 @@ class Rig {
     std::optional<QuietDesktop> quiet_desktop_; ///< on a real screen
     StimulusLibrary library_;
     SeenAreas areas_;
+    SeenPoints points_;
     std::unique_ptr<UndrawnFrames> undrawn_; ///< in its place, if stimuli are not drawn
     std::unique_ptr<PagePresenter> presenter_;
     std::unique_ptr<LiveMaps> live_maps_;

@@ -60,6 +60,10 @@ class WatchedSitting {
             .on_camera = [this](const CameraImage& image) { show(image); },
             .area_of = [this](const PlacedStimulus& stimulus,
                               const std::string& area) { return equipment_.rig().area_of(stimulus, area); },
+            .probe_of =
+                [this](const PlacedStimulus& stimulus, const std::string& point) {
+                    return equipment_.rig().point_of(stimulus, point);
+                },
             .on_phase = [this](SessionPhase phase, int trial) { enter(phase, trial); }};
     }
 
