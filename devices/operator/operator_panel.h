@@ -24,6 +24,7 @@ class OperatorPanel final : public ResponsePanel {
 
     void await(Awaited what, SessionTime since, const Trial* trial) override;
     void offer(const std::vector<AnswerOffer>& answers) override { answering_->offer(answers); }
+    void offer_turning(const TurningOffer& turning) override { answering_->offer_turning(turning); }
     void window_opened(SessionTime at) noexcept override { answering_->window_opened(at); }
     std::optional<SetupKey> next_setup_key() override { return answering_->next_setup_key(); }
     std::optional<ObserverInput> next_input() noexcept override { return answering_->next_input(); }

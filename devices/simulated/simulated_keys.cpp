@@ -158,6 +158,23 @@ std::vector<std::string> SimulatedAnswers::values_of(const AnswerOffer& offer, c
     return written.size() == offer.values.size() ? written : offer.values;
 }
 
+std::vector<int> SimulatedAnswers::match(const AnswerOffer& offer, const Trial& trial,
+                                         const AnswerTruth& truth, RandomStream& random) const {
+    const Leaning leaning = leaning_to(offer.id, trial, trial.stimulus);
+    std::vector<int> at;
+    for (const OfferedAxis& axis : offer.axes) {
+        const double middle = 0.5 * (axis.values.front() + axis.values.back());
+        double wanted = truth.offset.value_or(axis.reference ? 0.0 : middle) +
+                        truth.gain * leaning.slope * axis.reference.value_or(0.0) + leaning.shift +
+                        inclination(offer, truth) + truth.noise * random.normal();
+        wanted += truth.start_bias * (axis.values[static_cast<std::size_t>(axis.start)] - wanted);
+        const auto nearest =
+            std::ranges::min_element(axis.values, {}, [&](double value) { return std::abs(value - wanted); });
+        at.push_back(static_cast<int>(nearest - axis.values.begin()));
+    }
+    return at;
+}
+
 SimulatedAnswers::Intended SimulatedAnswers::answer(const AnswerOffer& offer, const Trial& trial) const {
     const Task& task = protocol_.tasks[static_cast<std::size_t>(trial.task)];
     const auto found = std::ranges::find(task.answers, offer.id, &TaskAnswer::id);
@@ -173,7 +190,9 @@ SimulatedAnswers::Intended SimulatedAnswers::answer(const AnswerOffer& offer, co
     given.is_late = when.uniform() < truth.late && offer.limit_s.has_value();
     if (given.is_late)
         given.after = from_seconds(*offer.limit_s + late_by_s);
-    if (offer.kind == "point") {
+    if (!offer.axes.empty()) {
+        given.at = match(offer, trial, truth, what);
+    } else if (offer.kind == "point") {
         const ScreenGeometry screen =
             slot_geometry(protocol_, protocol_.slots[static_cast<std::size_t>(trial.shown(0).slot)]);
         const ScreenPoint middle = screen.screen_from_image(0.5 * glm::dvec2(screen.image_px));
@@ -297,6 +316,26 @@ void SimulatedKeys::move_to(const AnswerOffer& offer, double number, SessionDura
         go(at < target ? up : down);
 }
 
+/// Column by column, first by coarse steps. By keys alone.
+void SimulatedKeys::set(const AnswerOffer& offer, const std::vector<int>& at, SessionDuration& after) {
+    for (std::size_t i = 0; i < offer.axes.size(); ++i) {
+        const OfferedAxis& axis = offer.axes[i];
+        int here = axis.start;
+        const auto go = [&](std::string_view key, int by) {
+            press(planned_, key, after);
+            after += between_keys;
+            here += by;
+        };
+        const bool rises = at[i] > here;
+        if (axis.less.empty())
+            continue;
+        while (!axis.much_less.empty() && axis.coarse > 0 && std::abs(at[i] - here) >= axis.coarse)
+            go(rises ? axis.much_more : axis.much_less, rises ? axis.coarse : -axis.coarse);
+        while (here != at[i])
+            go(rises ? axis.more : axis.less, rises ? 1 : -1);
+    }
+}
+
 void SimulatedKeys::plan(const SimulatedAnswers& answers, const std::vector<AnswerOffer>& offers,
                          const Trial& trial) {
     early_.clear();
@@ -311,7 +350,9 @@ void SimulatedKeys::plan(const SimulatedAnswers& answers, const std::vector<Answ
             press(early_, offer.keys.front(), early_after);
         if (given.is_missing)
             continue;
-        if (offer.kind == "point") {
+        if (!offer.axes.empty()) {
+            set(offer, given.at, after);
+        } else if (offer.kind == "point") {
             point_at(given.right_px, given.down_px, after);
         } else if (!offer.values.empty() && offer.numbers.empty()) {
             if (static_cast<std::size_t>(given.choice) >= offer.keys.size())

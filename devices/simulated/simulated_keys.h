@@ -33,8 +33,10 @@ class SimulatedAnswers {
         /// Of a point, from the middle of the screen: normally distributed about the middle of the first
         /// image that is shown, with an eighth of its height for standard deviation.
         double right_px = 0.0, down_px = 0.0;
+        std::vector<int> at = {}; ///< of a match: index of the value that is set, for each column
     };
     Intended answer(const AnswerOffer& offer, const Trial& trial) const;
+    std::uint64_t seed() const { return seed_; }
 
     /// How the first of the task's choices that says so (AnswerTruth::look_share, look_area) has the observer
     /// look before it, where what is lit has a stimulus in each slot that can be chosen. `areas`: those that
@@ -55,6 +57,9 @@ class SimulatedAnswers {
     /// Index into `values`.
     int choose(const AnswerOffer& offer, const std::vector<std::string>& values, const Trial& trial,
                const AnswerTruth& truth, RandomStream& random) const;
+    /// The values that are set to match: see AnswerTruth.
+    std::vector<int> match(const AnswerOffer& offer, const Trial& trial, const AnswerTruth& truth,
+                           RandomStream& random) const;
     std::optional<double> judge(const AnswerOffer& offer, const Trial& trial, const AnswerTruth& truth,
                                 RandomStream& random) const;
 
@@ -85,6 +90,7 @@ class SimulatedKeys {
     void press(std::vector<PlannedInput>& to, std::string_view key, SessionDuration after);
     void point_at(double right_px, double down_px, SessionDuration after);
     void move_to(const AnswerOffer& offer, double number, SessionDuration& after);
+    void set(const AnswerOffer& offer, const std::vector<int>& at, SessionDuration& after);
     void type(const std::string& text, SessionDuration& after);
 
     std::vector<PlannedInput> early_, planned_;

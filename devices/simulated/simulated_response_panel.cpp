@@ -70,10 +70,17 @@ void SimulatedResponsePanel::offer(const std::vector<AnswerOffer>& answers) {
         keys_.plan(*answers_, offers_, *asked_in_);
 }
 
+void SimulatedResponsePanel::offer_turning(const TurningOffer& turning) {
+    if (answers_ && asked_in_)
+        turns_.plan(answers_->seed(), *asked_in_, turning);
+}
+
 void SimulatedResponsePanel::entered(SessionPhase phase, int trial) noexcept {
     own_decisions_ = 0;
     if (phase == SessionPhase::trial)
         asked_in_ = nullptr; // the one before is over
+    if (phase == SessionPhase::trial)
+        turns_.clear();
     pressed_on_.entered(phase, trial);
     if (phase == SessionPhase::pause && !resumes_at_)
         resumes_at_ = clock_->now() + operators_pause;
@@ -155,8 +162,10 @@ std::optional<ObserverInput> SimulatedResponsePanel::next_input() noexcept {
         if (one.is_answering && one.inputs_told < one.scripted.inputs.size() && next_at(one) <= now &&
             (!earliest || next_at(one) < next_at(*earliest)))
             earliest = &one;
-    if (!earliest)
-        return keys_.next(now);
+    if (!earliest) {
+        const std::optional<ObserverInput> turn = turns_.next(now);
+        return turn ? turn : keys_.next(now);
+    }
     ObserverInput input = earliest->scripted.inputs[earliest->inputs_told].input;
     input.at = next_at(*earliest);
     ++earliest->inputs_told;

@@ -9,6 +9,7 @@
 #include "devices/simulated/operator_script.h"
 #include "devices/simulated/simulated_keys.h"
 #include "devices/simulated/simulated_observer.h"
+#include "devices/simulated/simulated_turns.h"
 #include "experiment/ports/clock.h"
 #include "experiment/ports/pressed_on.h"
 #include "experiment/ports/response_panel.h"
@@ -30,6 +31,7 @@ class SimulatedResponsePanel final : public ResponsePanel {
     void await(Awaited what, SessionTime since, const Trial* trial) override;
     std::optional<ResponsePress> poll() noexcept override;
     void offer(const std::vector<AnswerOffer>& answers) override;
+    void offer_turning(const TurningOffer& turning) override;
     void window_opened(SessionTime at) noexcept override { keys_.window_opened(at); }
     /// What the script has the observer do, at its own times; else what the planted truth has it press.
     std::optional<ObserverInput> next_input() noexcept override;
@@ -65,6 +67,7 @@ class SimulatedResponsePanel final : public ResponsePanel {
     const SimulatedObserver* observer_;
     const SimulatedAnswers* answers_;
     SimulatedKeys keys_;
+    SimulatedTurns turns_;
     std::vector<AnswerOffer> offers_;
     const Trial* asked_in_ = nullptr;
     std::vector<Operator> operators_;

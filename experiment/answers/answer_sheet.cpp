@@ -224,6 +224,7 @@ bool AnswerSheet::let_answer(Taken& taken, const AnswerPlace& place) noexcept {
     if (effect == Answering::Effect::accepted)
         return accept(asked, taken.input);
     ++asked.changes;
+    asked.changed_at = taken.input.at;
     asked.is_done = asked.is_given = false;
     if (effect == Answering::Effect::chosen && !asked.settings().accepts_by_key()) {
         give(asked, taken.input);
@@ -382,6 +383,15 @@ std::vector<AnswerOffer> AnswerSheet::offers() const {
         asked.answering->offer(offer);
     }
     return offers;
+}
+
+std::optional<AnswerSheet::SetLevel> AnswerSheet::level_of(int place) const noexcept {
+    for (const Asked& asked : asked_) {
+        const std::optional<int> level = asked.answering->level();
+        if (level && asked.answering->form().levels.place == place)
+            return SetLevel{*level, asked.changed_at};
+    }
+    return std::nullopt;
 }
 
 std::optional<SessionTime> AnswerSheet::opened_at() const noexcept {

@@ -95,6 +95,14 @@ class AnswerSheet {
     /// Rows of all that was asked, in turn; and of all inputs.
     void add_to(std::vector<GivenAnswer>& given, std::vector<AnswerInput>& inputs) const;
 
+    /// Of a match that sets what this place of the trial shows: its level, and when the input came that set
+    /// it. Nothing: none does.
+    struct SetLevel {
+        int level = 0;
+        std::optional<SessionTime> input_at = {};
+    };
+    std::optional<SetLevel> level_of(int place) const noexcept;
+
     /// Inputs that found no room.
     int lost_inputs() const noexcept { return lost_inputs_; }
 
@@ -104,6 +112,7 @@ class AnswerSheet {
         int page = 0;
         AnswerWindow window;
         std::optional<SessionTime> screen_onset, first_input_at, answered_at;
+        std::optional<SessionTime> changed_at; ///< the last that changed it
         SessionDuration uncertainty{};
         ShortName key, device; ///< of what gave it
         bool is_done = false;  ///< it is given, or was passed over

@@ -10,6 +10,7 @@
 
 #include "experiment/answers/answer_kinds.h"
 #include "experiment/base/random.h"
+#include "experiment/design/match_levels.h"
 #include "experiment/factors.h"
 
 namespace overt {
@@ -58,6 +59,33 @@ Attitude drawn_start(const AskedTrial& asked, const TaskAnswer& answer) {
     // Normals evenly over the cap: their z is uniform.
     const double z = stream.uniform(std::cos(to_radians(steepest_start).value), 1.0);
     return {to_degrees(Radians{std::acos(z)}), Degrees{stream.uniform(0.0, 360.0)}};
+}
+
+/// A match's levels, and where it begins in this trial.
+MatchLevels levels_with_starts(const AskedTrial& asked, const TaskAnswer& answer) {
+    MatchLevels levels = match_levels(asked.protocol, answer, asked.trial);
+    RandomStream stream(asked.seed,
+                        fmt::format("{}match start {}", asked.is_practice ? "practice " : "", answer.id),
+                        static_cast<std::uint64_t>(asked.trial.index));
+    for (std::size_t i = 0; i < levels.axes.size(); ++i) {
+        MatchLevels::Axis& axis = levels.axes[i];
+        const auto count = static_cast<int>(axis.values.size());
+        switch (answer.start.from) {
+        case MatchStart::From::drawn:
+            axis.start = static_cast<int>(stream.below(static_cast<std::uint32_t>(count)));
+            break;
+        case MatchStart::From::low:
+            axis.start = 0;
+            break;
+        case MatchStart::From::high:
+            axis.start = count - 1;
+            break;
+        case MatchStart::From::values:
+            axis.start = level_at(axis.values, answer.start.values.at(i)).value_or(0);
+            break;
+        }
+    }
+    return levels;
 }
 
 } // namespace
@@ -130,6 +158,8 @@ std::vector<AnswerForm> answer_forms(const AskedTrial& asked, const std::vector<
                              .mapping = mapping_of(asked, answer),
                              .correct = correct_value(asked.protocol, answer, asked.trial),
                              .place = first_place++});
+            if (is_match(answer))
+                forms.back().levels = levels_with_starts(asked, answer);
             if (!row_of(answer.kind).has_key("probe"))
                 continue;
             if (const ProbeSettings* const probe = probe_of(task, answer)) {

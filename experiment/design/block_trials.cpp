@@ -7,6 +7,7 @@
 #include "experiment/design/block_plan.h"
 #include "experiment/design/drawn_lists.h"
 #include "experiment/design/latin_square.h"
+#include "experiment/design/match_levels.h"
 #include "experiment/design/observer_groups.h"
 #include "experiment/design/point_trials.h"
 #include "experiment/design/schedule.h"
@@ -188,6 +189,7 @@ void fill_slots(const Protocol& protocol, Trial& trial) {
     trial.beside.clear();
     for (std::size_t i = 1; i < slots.size(); ++i)
         trial.beside.push_back({trial.stimulus, slots[i]});
+    fill_matched_slots(protocol, trial);
 }
 
 int most_stimuli_at_once(const Protocol& protocol) {

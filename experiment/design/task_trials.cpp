@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "experiment/base/random.h"
+#include "experiment/design/match_levels.h"
 #include "experiment/design/rules/trial_rules.h"
 
 namespace overt {
@@ -225,6 +226,7 @@ std::vector<Trial> own_trials(const Protocol& protocol, int task, int block,
     for (Trial& trial : trials) {
         trial.task = task;
         trial.block = block;
+        fill_matched_slots(protocol, trial);
     }
     return trials;
 }
@@ -254,6 +256,7 @@ std::vector<Trial> catch_trials(const Protocol& protocol, int task, int block,
         checks.back().task = task;
         checks.back().block = block;
         checks.back().role = TrialRole::catch_trial;
+        fill_matched_slots(protocol, checks.back());
     }
     return checks;
 }

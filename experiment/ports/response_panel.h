@@ -11,6 +11,7 @@
 #include "experiment/ports/observer_input.h"
 #include "experiment/ports/session_phase.h"
 #include "experiment/ports/setup_screen.h"
+#include "experiment/ports/turning_offer.h"
 #include "experiment/session_time.h"
 #include "experiment/trial.h"
 
@@ -88,6 +89,8 @@ class ResponsePanel {
     /// called in presentations, so it allocates and throws nothing.
     virtual void offer(const std::vector<AnswerOffer>& /*answers*/) {}
     virtual void window_opened(SessionTime /*at*/) noexcept {}
+    /// An object can be turned, for such an observer; after await_answer().
+    virtual void offer_turning(const TurningOffer& /*turning*/) {}
     void await_setup(SessionTime since) { await(Awaited::setup, since, nullptr); }
     virtual std::optional<SetupKey> next_setup_key() { return std::nullopt; }
     /// While an answer is awaited, the next of what the observer did, in the order of each device. Poll

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "experiment/design/match_levels.h"
 #include "experiment/ports/answer_offer.h"
 #include "experiment/ports/event_kinds.h"
 #include "experiment/session/session_screens.h"
@@ -14,9 +15,12 @@ namespace overt {
 AnswerAsking::AnswerAsking(SessionState& state, OperatorControl& control, const Schedule& schedule)
     : state_(state), control_(control), schedule_(schedule), ranks_(ranks_in_tasks(schedule.trials)) {}
 
-void AnswerAsking::begin_trial(const Trial& trial, const TrialPlan& plan, bool is_practice) {
+void AnswerAsking::begin_trial(const Trial& trial, const TrialPlan& plan, ObjectTurning& turning,
+                               bool is_practice) {
     trial_ = &trial;
     plan_ = &plan;
+    turning_ = &turning;
+    turned_shows_ = 0;
     sheets_.clear();
     current_ = nullptr;
     is_awaiting_ = has_screen_ = is_drawing_due_ = false;
@@ -62,38 +66,68 @@ void AnswerAsking::go_to(AnswerSheet& sheet) {
 
 void AnswerAsking::begin_watched_step(std::size_t number, SessionTime since, bool goes_elsewhere) {
     step_since_ = since;
-    if (!asks())
+    if (!asks() && !turning_->is_active())
         return;
-    go_to(sheet_of(number));
+    if (asks())
+        go_to(sheet_of(number));
     put_beside(number);
     if (goes_elsewhere) {
         is_awaiting_ = false;
         return;
     }
-    if (is_awaiting_)
+    if (!is_awaiting_) {
+        state_.ports.panel.offer(current_ ? current_->offers() : std::vector<AnswerOffer>());
+        state_.ports.panel.await_answer(since, trial_);
+        is_awaiting_ = true;
+        tell_opening();
+    }
+    offer_turning(number, since);
+}
+
+/// To those who do not see what can be turned in this step.
+void AnswerAsking::offer_turning(std::size_t number, SessionTime since) {
+    if (!turning_->is_active())
         return;
-    state_.ports.panel.offer(current_->offers());
-    state_.ports.panel.await_answer(since, trial_);
-    is_awaiting_ = true;
-    tell_opening();
+    const double lasts_s = plan_->steps[number].drawn_s.value_or(state_.protocol.screens.response_max_s);
+    for (const TurningOffer& offer : turning_->offers(turned_shows_, since, lasts_s))
+        state_.ports.panel.offer_turning(offer);
+    ++turned_shows_;
+}
+
+std::optional<AnswerSheet::SetLevel> AnswerAsking::level_of(int place) const noexcept {
+    for (const std::unique_ptr<AnswerSheet>& sheet : sheets_)
+        if (const std::optional<AnswerSheet::SetLevel> level = sheet->level_of(place))
+            return level;
+    return std::nullopt;
 }
 
 /// What the step waits for stands with its stimulus, where the protocol has a place for it.
 void AnswerAsking::put_beside(std::size_t number) {
     const PlannedStep& step = plan_->steps[number];
     take_away();
-    if (step.kind != StepKind::show || !step.ends_by_answer() || step.sheet < 0 || current_->is_complete())
+    const bool waits =
+        step.kind == StepKind::show && step.ends_by_answer() && step.sheet >= 0 && !current_->is_complete();
+    if (!waits) {
+        if (!turning_->shows_pointer())
+            return;
+        AnswerView pointer;
+        pointer.shows_pointer = true;
+        state_.ports.presenter.put_beside_stimuli(&pointer);
+        stands_beside_ = true;
         return;
+    }
     const Task& task = state_.protocol.tasks[static_cast<std::size_t>(trial_->task)];
     const PlannedSheet& sheet = plan_->sheets[static_cast<std::size_t>(step.sheet)];
     std::optional<double> up_deg;
     for (const int answer : sheet.answers)
         if (!up_deg)
             up_deg = task.answers[static_cast<std::size_t>(answer)].beside_up_deg;
-    if (!up_deg && !current_->points())
+    const bool is_turned = turning_->shows_pointer();
+    if (!up_deg && !current_->points() && !is_turned)
         return;
     AnswerView view = current_->view(state_.protocol.words.go_on);
     view.up_deg = up_deg;
+    view.shows_pointer = view.shows_pointer || is_turned;
     if (!up_deg) { // the mouse's pointer alone
         view.items.clear();
         view.accept.clear();
@@ -133,7 +167,7 @@ void AnswerAsking::stimulus_gone(SessionTime offset) noexcept {
 
 /// In the order of time, whatever device they come from.
 void AnswerAsking::look() noexcept {
-    if (!is_awaiting_ || !current_)
+    if (!is_awaiting_)
         return;
     std::size_t count = 0;
     while (count < batch_.size()) {
@@ -147,6 +181,8 @@ void AnswerAsking::look() noexcept {
     }
     for (std::size_t i = 0; i < count; ++i) {
         const ObserverInput& input = batch_[i];
+        if (turning_->take(input) || !current_)
+            continue;
         const bool points = input.kind == ObserverInput::Kind::pointer_down ||
                             input.kind == ObserverInput::Kind::pointer_moved ||
                             input.kind == ObserverInput::Kind::pointer_up;
@@ -198,7 +234,7 @@ OperatorControl::Press AnswerAsking::ask(std::size_t number, const std::optional
     is_drawing_due_ = false;
     current_->screen_lit(onset);
     if (next)
-        ports.presenter.expect_slots(next->all_shown());
+        ports.presenter.expect_slots(loaded_for(state_.protocol, *next));
     SessionTime looked = onset;
     Waiting waiting{.screen = screen(),
                     .onset = onset,
@@ -270,6 +306,10 @@ void AnswerAsking::finish(TrialOutcome& outcome) {
             state_.note(answer_recording_event,
                         fmt::format("{} inputs in one trial found no room", sheet->lost_inputs()));
     }
+    turning_->add_to(outcome.inputs);
+    if (turning_->lost_inputs() > 0)
+        state_.note(answer_recording_event,
+                    fmt::format("{} inputs that turned an object found no room", turning_->lost_inputs()));
     for (const GivenAnswer& given : outcome.given) {
         if (given.is_missed)
             continue;

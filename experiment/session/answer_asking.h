@@ -10,6 +10,7 @@
 #include "experiment/answers/answer_sheet.h"
 #include "experiment/design/answer_forms.h"
 #include "experiment/design/trial_plan.h"
+#include "experiment/session/object_turning.h"
 #include "experiment/session/operator_control.h"
 
 namespace overt {
@@ -19,8 +20,9 @@ class AnswerAsking {
     /// All must outlive this. Of the schedule: who observes, the seed, and the order of its trials.
     AnswerAsking(SessionState& state, OperatorControl& control, const Schedule& schedule);
 
-    /// Forgets the trial before. Both must outlive the trial.
-    void begin_trial(const Trial& trial, const TrialPlan& plan, bool is_practice);
+    /// Forgets the trial before. All must outlive the trial. `turning`: objects that inputs turn before they
+    /// answer anything.
+    void begin_trial(const Trial& trial, const TrialPlan& plan, ObjectTurning& turning, bool is_practice);
     /// Something is asked by inputs.
     bool asks() const noexcept { return !sheets_.empty(); }
 
@@ -35,6 +37,8 @@ class AnswerAsking {
     void stimulus_lit(std::size_t number, SessionTime onset) noexcept;
     /// Nothing of it is any more.
     void stimulus_gone(SessionTime offset) noexcept;
+    /// What a match sets this place of the trial to; nothing: none does.
+    std::optional<AnswerSheet::SetLevel> level_of(int place) const noexcept;
     /// The answers that this step waits for were given since it began.
     bool has_ended(std::size_t number) const noexcept;
     /// They had been given before it began: a screen that only waits for them is passed over.
@@ -60,6 +64,7 @@ class AnswerAsking {
     Screen screen() const;
     void note_answer() noexcept;
     void put_beside(std::size_t number);
+    void offer_turning(std::size_t number, SessionTime since);
     void take_away();
 
     SessionState& state_;
@@ -68,6 +73,8 @@ class AnswerAsking {
     std::vector<int> ranks_;
     const Trial* trial_ = nullptr;
     const TrialPlan* plan_ = nullptr;
+    ObjectTurning* turning_ = nullptr;
+    int turned_shows_ = 0;
     std::vector<std::unique_ptr<AnswerSheet>> sheets_; ///< as the plan has them
     AnswerSheet* current_ = nullptr;                   ///< that inputs go to
     bool is_awaiting_ = false;                         ///< inputs are told

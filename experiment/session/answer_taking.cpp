@@ -1,5 +1,6 @@
 #include "experiment/session/answer_taking.h"
 
+#include "experiment/design/match_levels.h"
 #include "experiment/ports/event_kinds.h"
 #include "experiment/session/answer_check.h"
 #include "experiment/session/level_watch.h"
@@ -32,7 +33,7 @@ OperatorControl::How AnswerTaking::take(const Trial& trial, const std::optional<
     if (recording)
         recording->response_screen_lit(outcome.response_screen_onset);
     if (next)
-        ports.presenter.expect_slots(next->all_shown());
+        ports.presenter.expect_slots(loaded_for(state_.protocol, *next));
     Waiting waiting{.screen = screen,
                     .onset = outcome.response_screen_onset,
                     .min_s = screens.response_min_s,

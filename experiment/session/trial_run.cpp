@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "experiment/base/counted.h"
+#include "experiment/design/match_levels.h"
 #include "experiment/ports/event_kinds.h"
 #include "experiment/ports/trial_mark.h"
 #include "experiment/protocol/all_stimuli.h"
@@ -30,8 +31,8 @@ TrialRun::TrialRun(SessionState& state, OperatorControl& control, const ScreenPo
                    const Schedule& schedule)
     : state_(state), control_(control), drift_checks_(state, control, screen_centre),
       answers_(state, control), asking_(state, control, schedule), seed_(schedule.seed),
-      cycles_(page_cycles(state.protocol)), shown_(cycles_.front()), ledger_(shown_, WhenLate::drop),
-      watch_(screen_geometry_of(state.protocol), state.protocol.display) {
+      cycles_(page_cycles(state.protocol)), poses_(poses_of(state.protocol)), shown_(cycles_.front()),
+      ledger_(shown_, WhenLate::drop), watch_(screen_geometry_of(state.protocol), state.protocol.display) {
     for (UsedTracker& used : state.trackers())
         feeds_.push_back({used, TrackerFeed(used.tracker), {}});
 }
@@ -43,7 +44,10 @@ TrialRun::Attempt TrialRun::run(const Trial& trial, const std::optional<Trial>& 
     state_.write_down();
     state_.markers.begin_trial(trial, is_practice);
     state_.enter(SessionPhase::trial, is_practice ? -1 : trial.index);
-    state_.ports.presenter.load_slots(trial.all_shown());
+    first_levels_.clear();
+    const std::vector<PlacedStimulus> loaded = loaded_for(state_.protocol, trial, &first_levels_);
+    loaded_count_ = loaded.size();
+    state_.ports.presenter.load_slots(loaded);
     state_.log().trial_started(trial, state_.now());
     // Practice has numbers of its own.
     mark(MarkedEvent::trial, state_.now(),
@@ -51,7 +55,8 @@ TrialRun::Attempt TrialRun::run(const Trial& trial, const std::optional<Trial>& 
     const Clock::Disturbance before = state_.ports.clock.disturbance();
     Running running{.trial = trial, .next = next, .is_practice = is_practice, .attempt = attempt};
     running.plan = plan_trial(state_.protocol, seed_, trial, is_practice);
-    asking_.begin_trial(trial, running.plan, is_practice);
+    turning_.begin_trial(state_.protocol, trial, seed_, is_practice);
+    asking_.begin_trial(trial, running.plan, turning_, is_practice);
     run_steps(running);
     asking_.finish(attempt.outcome);
     note_disturbance(before);
@@ -77,7 +82,11 @@ void TrialRun::begin_show(Running& running, std::size_t number) {
     const Trial& trial = running.trial;
     lit_ = trial.only(step.places);
     const auto cycle_of = [&](const Stimulus& stimulus) {
-        return cut_to(cycles_[static_cast<std::size_t>(stimulus.motion)], step.refreshes, step.still());
+        const bool is_turned = state_.protocol.motion_of(stimulus).kind == MotionKind::observer;
+        // What the observer turns shows one frame, whichever that is now.
+        const std::optional<AnimationFrameIndex> only =
+            is_turned && !step.still() ? std::optional(AnimationFrameIndex{0}) : step.still();
+        return cut_to(cycles_[static_cast<std::size_t>(stimulus.motion)], step.refreshes, only);
     };
     shown_ = cycle_of(lit_.stimulus);
     for (PresentationListener* listener : state_.ports.listeners)
@@ -85,7 +94,8 @@ void TrialRun::begin_show(Running& running, std::size_t number) {
     std::vector<PageCycle> beside;
     for (const PlacedStimulus& further : lit_.beside)
         beside.push_back(cycle_of(further.stimulus));
-    slots_.begin(trial.index, trial.shown_count(), step.places, std::move(beside));
+    slots_.begin(trial.index, loaded_count_, step.places, std::move(beside));
+    begin_steering(step);
     if (!has_shown_)
         state_.ports.presenter.take_swap_modes(); // those before are not the presentation's
     await_end(running, number, state_.now());
@@ -95,6 +105,63 @@ void TrialRun::begin_show(Running& running, std::size_t number) {
     ledger_.begin(trial.index, static_cast<int>(running.attempt.outcome.steps.size()), first_flip_);
     marked_frame_ = no_frame;
     state_.markers.begin_presentation(onset_text_);
+}
+
+void TrialRun::begin_steering(const PlannedStep& step) {
+    steered_.clear();
+    turning_.begin_show(step.still() ? std::vector<int>() : step.places);
+    const Task& task = state_.protocol.tasks[static_cast<std::size_t>(lit_.task)];
+    for (std::size_t i = 0; i < step.places.size(); ++i) {
+        const int place = step.places[i];
+        Steered steered{.lit = i, .first_level = 0, .next = {.trial = lit_.index, .place = place}};
+        std::size_t match = 0;
+        for (const TaskAnswer& answer : task.answers) {
+            if (!is_match(answer))
+                continue;
+            if (slots_named(state_.protocol, {answer.slot}) == std::vector{lit_.shown(i).slot})
+                steered.first_level = first_levels_[match];
+            ++match;
+        }
+        const bool is_set = steered.first_level > 0 && asking_.level_of(place);
+        const bool is_turned =
+            !step.still() && state_.protocol.motion_of(lit_.shown(i).stimulus).kind == MotionKind::observer;
+        if (is_set || is_turned)
+            steered_.push_back(steered);
+    }
+}
+
+/// Before a flip: what of it the observer has moved by now.
+void TrialRun::steer() noexcept {
+    if (steered_.empty())
+        return;
+    turning_.go_to(state_.now());
+    for (Steered& steered : steered_) {
+        SteeredFlip& next = steered.next;
+        next.input_at.reset();
+        if (const auto set = asking_.level_of(next.place); set && steered.first_level > 0) {
+            next.level = set->level;
+            next.input_at = set->input_at;
+            slots_.show_as(steered.lit, steered.first_level + static_cast<std::size_t>(set->level));
+        }
+        const std::optional<ObjectTurning::Shown> pose = turning_.pose_of(next.place);
+        if (!pose || !turning_.is_active())
+            continue;
+        if (pose->input_at && (!next.input_at || *pose->input_at > *next.input_at))
+            next.input_at = pose->input_at;
+        const Stimulus& stimulus = lit_.shown(steered.lit).stimulus;
+        const PageCycleEntry entry{pose->frame, poses_.pose_of(stimulus.motion, pose->frame), 1};
+        if (steered.lit == 0)
+            shown_.entries.front() = entry;
+        else
+            slots_.turn_to(steered.lit, entry);
+    }
+}
+
+void TrialRun::note_steered(const FlipRecord& flip) noexcept {
+    for (Steered& steered : steered_) {
+        steered.next.refresh_in_trial = flip.refresh_in_trial;
+        state_.log().steered_flip(steered.next);
+    }
 }
 
 /// Records what was shown at each refresh up to this flip, and tells those who follow it.
@@ -107,6 +174,7 @@ void TrialRun::note_flip(const FlipRecord& flip) noexcept {
     const std::span<const SlotFlip> rows = slots_.enter(flip, refresh);
     for (const SlotFlip& of_slot : rows)
         log.slot_flip(of_slot);
+    note_steered(flip);
     mark_flip(flip);
     state_.markers.flipped(flip, refresh);
     watch_.flipped(flip, rows);
@@ -127,6 +195,7 @@ void TrialRun::note_show(Running& running, std::size_t number) {
     const PlannedStep& step = running.plan.steps[number];
     TrialOutcome& outcome = running.attempt.outcome;
     has_shown_ = true;
+    turning_.end_show();
     if (ledger_.shown_refreshes() > 0) {
         if (shows_++ == 0)
             outcome.presentation_onset = ledger_.onset();
@@ -162,7 +231,8 @@ void TrialRun::present(Running& running, std::size_t number) {
         take_items(trial.index);
         if (watch_.has_come())
             break;
-        // Show the frame that the plan has next, and learn when it was lit.
+        // Show the frame that the plan has next, or that the observer moved to, and learn when it was lit.
+        steer();
         state_.markers.before_flip(ledger_.next_refresh(), ledger_.next().frame, presenter);
         note_flip(
             ledger_.enter(presenter.flip_slots(slots_.frames(ledger_.next().frame, ledger_.next_refresh()))));

@@ -11,6 +11,7 @@
 #include "experiment/session/answer_taking.h"
 #include "experiment/session/drift_checks.h"
 #include "experiment/session/gaze_watch.h"
+#include "experiment/session/object_turning.h"
 #include "experiment/session/step_screens.h"
 #include "experiment/session/tracker_feed.h"
 #include "experiment/timing/refresh_ledger.h"
@@ -73,6 +74,10 @@ class TrialRun {
     void note_lost_trackers();
     void present(Running& running, std::size_t number);
     void begin_show(Running& running, std::size_t number);
+    /// Finds what of a show the observer moves. Each attempt at its flips.
+    void begin_steering(const PlannedStep& step);
+    void steer() noexcept;
+    void note_steered(const FlipRecord& flip) noexcept;
     void note_flip(const FlipRecord& flip) noexcept;
     void note_show(Running& running, std::size_t number);
     void act_on_pressed_keys(Attempt& attempt);
@@ -93,10 +98,12 @@ class TrialRun {
     DriftChecks drift_checks_;
     AnswerTaking answers_;
     AnswerAsking asking_;
+    ObjectTurning turning_;
     std::uint64_t seed_;            ///< of the session, from which steps are drawn
     std::vector<PageCycle> cycles_; ///< by motion
-    PageCycle shown_;               ///< what the step that shows stimuli lights, of the first of them
-    Trial lit_;                     ///< the trial with what that step lights
+    PoseTable poses_;
+    PageCycle shown_; ///< what the step that shows stimuli lights, of the first of them
+    Trial lit_;       ///< the trial with what that step lights
     RefreshLedger ledger_;
     GazeWatch watch_;
     int shows_ = 0;                          ///< of this attempt, of which flips were recorded
@@ -107,7 +114,16 @@ class TrialRun {
     bool was_next_pressed_ = false;          ///< it came
     int gaze_checks_ = 0;                    ///< drift checks in this attempt because gaze did not come
     SlotCycles slots_;
-    std::vector<Screen> held_; ///< what the watched steps that show no stimulus show, by step
+    /// A place that is lit and that the observer moves.
+    struct Steered {
+        std::size_t lit = 0;         ///< which of the places that are lit
+        std::size_t first_level = 0; ///< of what is loaded; of a match
+        SteeredFlip next;            ///< what the next flip shows
+    };
+    std::vector<Steered> steered_;
+    std::size_t loaded_count_ = 1;
+    std::vector<std::size_t> first_levels_; ///< of each match of the task, where its levels are loaded
+    std::vector<Screen> held_;              ///< what the watched steps that show no stimulus show, by step
     /// Of one tracker of the session.
     struct Feed {
         UsedTracker& used;

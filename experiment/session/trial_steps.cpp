@@ -212,6 +212,7 @@ void TrialRun::take_answer(Running& running, std::size_t number) {
         ask_answers(running, number);
         return;
     }
+    asking_.interrupted();
     TrialOutcome& outcome = running.attempt.outcome;
     add_row(running, step);
     const OperatorControl::How how =

@@ -1,5 +1,6 @@
 #include "experiment/timing/slot_cycles.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace overt {
@@ -12,23 +13,30 @@ const PageCycleEntry& entry_in_turn(const PageCycle& cycle, int refresh) noexcep
 
 } // namespace
 
-void SlotCycles::begin(int trial, std::size_t shown_count, std::vector<int> places,
+void SlotCycles::begin(int trial, std::size_t loaded_count, std::vector<int> places,
                        std::vector<PageCycle> beside) {
     places_ = std::move(places);
     beside_ = std::move(beside);
-    frames_.assign(shown_count, no_frame);
+    frames_.assign(loaded_count, no_frame);
+    lit_as_.assign(places_.begin(), places_.end());
     rows_.clear();
     for (const int place : places_)
         if (place > 0)
             rows_.push_back({trial, 0, place, no_frame, no_frame, {}});
 }
 
+void SlotCycles::turn_to(std::size_t i, const PageCycleEntry& entry) noexcept {
+    PageCycle& cycle = beside_[i - 1];
+    std::ranges::fill(cycle.entries, entry);
+}
+
 std::span<const AnimationFrameIndex> SlotCycles::frames(AnimationFrameIndex lead, int refresh) noexcept {
-    frames_[static_cast<std::size_t>(places_.front())] = lead;
+    std::ranges::fill(frames_, no_frame);
+    frames_[lit_as_.front()] = lead;
     SlotFlip* row = rows_.data() + (is_first_lit() ? 0 : 1);
     for (std::size_t i = 0; i < beside_.size(); ++i, ++row) {
         const PageCycleEntry& entry = entry_in_turn(beside_[i], refresh);
-        frames_[static_cast<std::size_t>(places_[i + 1])] = entry.frame;
+        frames_[lit_as_[i + 1]] = entry.frame;
         row->shown = entry.frame;
         row->pose = entry.pose;
     }

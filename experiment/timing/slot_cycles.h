@@ -14,10 +14,16 @@ namespace overt {
 /// own. One thread; after begin() it allocates and throws nothing.
 class SlotCycles {
   public:
-    /// Begins a show of a trial that has `shown_count` stimuli. `places`: those that it lights
+    /// Begins a show of a trial of which `loaded_count` stimuli stand ready. `places`: those that it lights
     /// (Trial::shown), rising, one at least; the first is the lead. `beside`: the cycles of the others, in
     /// their order; one that ends before the ledger's begins again.
-    void begin(int trial, std::size_t shown_count, std::vector<int> places, std::vector<PageCycle> beside);
+    void begin(int trial, std::size_t loaded_count, std::vector<int> places, std::vector<PageCycle> beside);
+
+    /// From now on the place that is lit as the i-th, the lead being the 0th, shows another of what is
+    /// loaded: in the same pose, at the same place on the screen. Until then it shows itself.
+    void show_as(std::size_t i, std::size_t loaded) noexcept { lit_as_[i] = loaded; }
+    /// From now on this is what the i-th shows, i > 0, whatever its cycle says.
+    void turn_to(std::size_t i, const PageCycleEntry& entry) noexcept;
 
     /// What a flip is to show, of all that the trial has: `lead`, and beside it the frames of this refresh of
     /// the plan, from 0.
@@ -37,6 +43,7 @@ class SlotCycles {
     std::vector<int> places_{0};
     std::vector<PageCycle> beside_;
     std::vector<AnimationFrameIndex> frames_{AnimationFrameIndex{}};
+    std::vector<std::size_t> lit_as_{0}; ///< of each place that is lit, which of what is loaded
     std::vector<SlotFlip> rows_;
 };
 

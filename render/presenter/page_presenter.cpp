@@ -182,8 +182,27 @@ void PagePresenter::put_page(InSlot& slot, int page) noexcept {
         blit(context_->gl(), page_target_, picture_, {0, 0}, slot.patch_px, size);
     }
     slot.page_on_canvas = page;
-    if (page >= 0)
-        slot.last_page = page;
+    if (page < 0)
+        return;
+    slot.last_page = page;
+    slot.last_lit = ++pages_put_;
+}
+
+bool PagePresenter::comes_up(std::size_t index) const noexcept {
+    if (!is_stimulus_on_canvas_)
+        return true;
+    for (std::size_t i = 0; i < in_slots_.size(); ++i)
+        if (shown_[i].slot == shown_[index].slot && in_slots_[i].page_on_canvas >= 0)
+            return false;
+    return true;
+}
+
+const PagePresenter::InSlot& PagePresenter::lit_last_with(std::size_t index) const {
+    std::size_t last = index;
+    for (std::size_t i = 0; i < in_slots_.size(); ++i)
+        if (shown_[i].slot == shown_[index].slot && in_slots_[i].last_lit > in_slots_[last].last_lit)
+            last = i;
+    return in_slots_[last];
 }
 
 void PagePresenter::put_masks(const Screen& screen) {
@@ -196,7 +215,7 @@ void PagePresenter::put_masks(const Screen& screen) {
         if (screen.kind == Screen::Kind::noise)
             put_on(picture_, draw_noise(screen, at, place).picture, at.image_origin_px);
         else if (is_loaded && loaded_)
-            put_scrambled(in_slots_[index], at.image_origin_px, screen, place);
+            put_scrambled(lit_last_with(index), at.image_origin_px, screen, place);
     }
 }
 
@@ -324,8 +343,7 @@ FlipReport PagePresenter::flip_slots(std::span<const AnimationFrameIndex> frames
     // An onset is when something comes up in a slot that was empty.
     bool is_onset = false;
     for (std::size_t i = 0; i < frames.size(); ++i)
-        is_onset = is_onset ||
-                   (frames[i].value >= 0 && (!is_stimulus_on_canvas_ || in_slots_[i].page_on_canvas < 0));
+        is_onset = is_onset || (frames[i].value >= 0 && comes_up(i));
     if (!is_stimulus_on_canvas_)
         surface_->show_pointer(beside_.shows_pointer);
     if (is_onset && display_.onset_trigger != 0) {

@@ -83,9 +83,14 @@ class PagePresenter final : public Presenter {
         glm::ivec2 patch_px{0};   ///< top left pixel of what its pages cover
         int page_on_canvas = -1;  ///< -1: the background, or another screen
         int last_page = -1;       ///< that was on the canvas; -1: none was yet
+        std::int64_t last_lit = 0; ///< how many pages had been put on the canvas then
         int frame_on_canvas = -1;
     };
     void put_page(InSlot& slot, int page) noexcept;
+    /// A slot that nothing was lit in comes up with what is shown at this index.
+    bool comes_up(std::size_t index) const noexcept;
+    /// Of what is loaded for the same slot, what was lit there last.
+    const InSlot& lit_last_with(std::size_t index) const;
     /// Noise, or squares of what was shown last, in the slots of what is loaded.
     void put_masks(const Screen& screen);
     void put_scrambled(const InSlot& slot, glm::ivec2 slot_px, const Screen& screen, int place);
@@ -149,6 +154,7 @@ class PagePresenter final : public Presenter {
     std::optional<Patch> patch_;
     bool patch_is_white_ = false;
     std::int64_t refreshes_ = 0; ///< presented so far
+    std::int64_t pages_put_ = 0; ///< on the canvas so far
     const std::atomic<bool>* interrupted_ = nullptr;
 };
 

@@ -36,6 +36,10 @@ class WindowResponsePanel final : public ResponsePanel {
         if (answering_)
             answering_->offer(answers);
     }
+    void offer_turning(const TurningOffer& turning) override {
+        if (answering_)
+            answering_->offer_turning(turning);
+    }
     void window_opened(SessionTime at) noexcept override {
         if (answering_)
             answering_->window_opened(at);
