@@ -94,7 +94,7 @@ void measure_voxels(BenchFigures& figures) {
 /// Eight maps of 60 fixations each on an object that is shown 350 mm high.
 void measure_maps(BenchFigures& figures, const Object& object) {
     constexpr double shown_mm = 350.0;
-    const SurfaceGeometry geometry(object.mesh, shown_mm / object.mesh.bounds().extent().z);
+    const SurfaceGeometry geometry(object.mesh, shown_mm / object.mesh->bounds().extent().z);
     for (const double sigma_mm : {30.0, 10.0}) {
         if (!HatSmoother::is_worth_while(geometry, sigma_mm))
             continue;

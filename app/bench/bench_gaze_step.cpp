@@ -9,7 +9,7 @@ BenchFigures bench_gaze_step(const BenchOptions& options) {
     constexpr int trials = 1000;
     const BenchScene scene = bench_scene(options);
     // The shipped objects have a head; of others the first part is taken.
-    const std::vector<std::string>& parts = scene.objects.front().mesh.part_names;
+    const std::vector<std::string>& parts = scene.objects.front().mesh->part_names;
     const std::string area = std::ranges::find(parts, "head") == parts.end() ? parts.front() : "head";
     const GazeStepTrials found = simulate_gaze_steps(scene.protocol, scene.objects, area, trials, 1);
     return {

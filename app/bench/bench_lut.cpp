@@ -101,7 +101,7 @@ std::optional<std::size_t> pixels_that_differ(const Object& object, const PoseTa
 void measure_drawing(BenchFigures& figures, const GlContext& context, const Object& object,
                      const PoseTable& poses, const DrawnMaps& drawn) {
     const auto figure = [&](const char* what) { return object.id + ", " + what; };
-    const auto triangles = static_cast<double>(object.mesh.triangles.size());
+    const auto triangles = static_cast<double>(object.mesh->triangles.size());
     figures.push_back({figure("triangles"), triangles, "triangles"});
     figures.push_back({figure("draw and read back a map, least"),
                        *std::min_element(drawn.times_ms.begin(), drawn.times_ms.end()), "ms"});

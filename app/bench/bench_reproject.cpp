@@ -244,7 +244,7 @@ void Reprojection::measure_cone() {
     const GazeCone cone(screen_);
     RandomStream random(3, "cones");
     constexpr int cones = 2000;
-    const std::size_t parts = object_.mesh.part_names.size();
+    const std::size_t parts = object_.mesh->part_names.size();
     std::vector<ScreenPoint> gazes;
     for (int i = 0; i < cones; ++i)
         gazes.push_back(screen_.screen_from_image(
@@ -286,7 +286,7 @@ BenchFigures bench_reproject(const BenchOptions& options) {
         const auto begin = std::chrono::steady_clock::now();
         const CoordinateMaps maps(object.mesh, object.scene(), poses.angles, std::move(drawn));
         const double making_s = seconds_since(begin);
-        figures.push_back({object.id + ", triangles", static_cast<double>(object.mesh.triangles.size()), ""});
+        figures.push_back({object.id + ", triangles", static_cast<double>(object.mesh->triangles.size()), ""});
         figures.push_back(at_most(object.id + ", memory of all maps with the surface",
                                   resident_memory_mb() - before_mb, "MB", 256.0));
         figures.push_back({object.id + ", making the maps ready for questions", making_s, "s"});

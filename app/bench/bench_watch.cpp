@@ -47,7 +47,7 @@ SessionHeader lay_out_session(const std::filesystem::path& folder, const Object&
                        object.id,
                        object.mesh_hash,
                        "mesh.ply",
-                       object.mesh.part_names,
+                       object.mesh->part_names,
                        {object.scene().view.camera},
                        object.scene().bounds.centre(),
                        object.scene().bounds}};

@@ -1,6 +1,7 @@
 #include "app/display/display_commands.h"
 
 #include "app/cli/command_options.h"
+#include "app/cli/library_option.h"
 
 namespace overt {
 
@@ -167,6 +168,7 @@ void add_doctor(CLI::App& app, ChosenCommand& chosen) {
            "Write all that is found as a page to keep, with what --window and --photodiode measure and "
            "pictures of it");
     add_context_option(command, options.context);
+    add_library_option(command);
     add_screen_options(command, options.windowed, options.monitor);
     option(command, "--seconds", options.seconds, "S", "How long to measure", CLI::Range(0.1, 3600.0),
            shown_default);

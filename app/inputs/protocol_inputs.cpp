@@ -132,10 +132,10 @@ void examine_simulated_areas(const Experiment& experiment, Diagnostics& diagnost
             if (!expect_known(key, area) || std::ranges::find(meant, area) != meant.end())
                 continue;
             for (const Object& object : experiment.objects) {
-                const Areas own(object.mesh.part_names);
+                const Areas own(object.mesh->part_names);
                 const auto overlaps = [&](const std::string& other) {
                     const auto a = own.find(area), b = own.find(other);
-                    for (std::size_t part = 0; a && b && part < object.mesh.part_names.size(); ++part) {
+                    for (std::size_t part = 0; a && b && part < object.mesh->part_names.size(); ++part) {
                         const auto index = static_cast<PartIndex>(part);
                         if (own.holds(*a, index) && own.holds(*b, index))
                             return true;
@@ -158,7 +158,7 @@ void examine_simulated_areas(const Experiment& experiment, Diagnostics& diagnost
         for (const auto& [area, share] : simulated_shares(protocol.tasks[i]))
             all += share;
         for (const Object& object : experiment.objects) {
-            const Areas own(object.mesh.part_names);
+            const Areas own(object.mesh->part_names);
             const auto is_meant = [&](std::size_t part) {
                 return std::ranges::any_of(meant, [&](const std::string& area) {
                     const auto found = own.find(area);
@@ -166,7 +166,7 @@ void examine_simulated_areas(const Experiment& experiment, Diagnostics& diagnost
                 });
             };
             bool is_whole = object.has_mesh();
-            for (std::size_t part = 0; part < object.mesh.part_names.size(); ++part)
+            for (std::size_t part = 0; part < object.mesh->part_names.size(); ++part)
                 is_whole = is_whole && is_meant(part);
             if (is_whole && all < 1.0 - 1e-9 && !protocol.tasks[i].simulated_area_shares.empty())
                 diagnostics.warning(
@@ -252,7 +252,7 @@ void examine_waited_areas(const Experiment& experiment, Diagnostics& diagnostics
             for (const Object& object : experiment.objects) {
                 if (!step.gaze || step.gaze->area.empty())
                     continue;
-                const std::vector<std::string>& parts = object.mesh.part_names;
+                const std::vector<std::string>& parts = object.mesh->part_names;
                 if (object.has_mesh() && std::ranges::any_of(parts, [&](const std::string& part) {
                         return part_is_in_area(part, step.gaze->area);
                     }))

@@ -90,8 +90,8 @@ GazeStudies::GazeStudies(const Experiment& experiment, std::vector<PowerEffect> 
         targets_.push_back(std::make_unique<GazeTargets>(scene_.objects[targets_.size()], scene_));
         StudyObject object;
         object.id = shown.id;
-        object.part_names = shown.mesh.part_names;
-        object.areas = Areas(shown.mesh.part_names);
+        object.part_names = shown.mesh->part_names;
+        object.areas = Areas(shown.mesh->part_names);
         object.camera = scene.view.camera;
         object.axis_point = scene.bounds.centre();
         object.screen = scene_.screen;

@@ -49,7 +49,7 @@ std::shared_ptr<const AreaView> SeenAreas::area_of(const PlacedStimulus& placed,
     const Object& object = objects_[static_cast<std::size_t>(stimulus.object)];
     std::vector<bool> is_in_area;
     bool has_any = false;
-    for (const std::string& part : object.mesh.part_names) {
+    for (const std::string& part : object.mesh->part_names) {
         is_in_area.push_back(part_is_in_area(part, area));
         has_any = has_any || is_in_area.back();
     }

@@ -13,11 +13,8 @@ namespace {
 
 std::unique_ptr<EyeTracker> threaded(std::unique_ptr<TrackerDriver> driver, const TrackerParts& parts) {
     const TrackerSettings& settings = parts.protocol.tracker;
-    // A library that the protocol names is that of the tracker's maker, but for streams.
     if (settings.outlet)
-        driver = std::make_unique<LslGazeRelay>(
-            std::move(driver), load_lsl(name_of(settings.kind) == "lsl" ? settings.library : std::string()),
-            parts.protocol.name);
+        driver = std::make_unique<LslGazeRelay>(std::move(driver), load_lsl({}), parts.protocol.name);
     return std::make_unique<ThreadedTracker>(std::move(driver), parts.clock,
                                              TrackerWish{.rate_hz = settings.rate_hz,
                                                          .eye = settings.analysed_eye(),

@@ -1,6 +1,7 @@
 #include "app/session/session_commands.h"
 
 #include "app/cli/command_options.h"
+#include "app/cli/library_option.h"
 #include "experiment/ports/tracker_kinds.h"
 
 namespace overt {
@@ -53,6 +54,7 @@ void add_session_commands(CLI::App& app, ChosenCommand& chosen) {
            one_of_names(names_of<TrackerKind>));
     option(command, "--address", options.tracker_address, "TEXT",
            "Where the tracker is, instead of [tracker] address; of \"replay\", the recording");
+    add_library_option(command);
     command.add_flag("--virtual-time", options.virtual_time,
                      "Run as fast as the machine can, on a clock of its own");
     command.add_flag(

@@ -54,7 +54,7 @@ void describe_objects(SessionHeader& header, const Protocol& protocol, std::span
         recorded.id = object.id;
         recorded.title = protocol.objects[i].title;
         recorded.mesh_sha256 = object.mesh_hash;
-        recorded.part_names = object.mesh.part_names;
+        recorded.part_names = object.mesh->part_names;
         recorded.unit = unit_of_lengths(protocol.objects[i]);
         recorded.origin = object.origin;
         const bool has_given_maps = library.cache().has_given_maps(static_cast<int>(i));

@@ -71,7 +71,7 @@ class HeadView {
 
     /// Share of the surface's area that belongs to it, by triangles, as a protocol has it.
     double take(const std::optional<PartRegion>& head) {
-        is_head_.assign(object_->mesh.triangles.size(), false);
+        is_head_.assign(object_->mesh->triangles.size(), false);
         double area = 0.0;
         for (std::size_t t = 0; head && t < is_head_.size(); ++t) {
             const auto [a, b, c] = corners(t);
@@ -80,7 +80,7 @@ class HeadView {
                 area += 0.5 * glm::length(glm::cross(b - a, c - a));
             }
         }
-        return area / object_->mesh.area();
+        return area / object_->mesh->area();
     }
 
     /// The surface under a point of the picture.

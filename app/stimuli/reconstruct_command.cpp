@@ -43,7 +43,7 @@ class StimulusMaps {
         const ObjectSettings& settings = protocol.objects[place];
         objects_[place] = load_object(settings, protocol, cache_folder());
         const Object& object = objects_[place];
-        part_names_ = object.mesh.part_names;
+        part_names_ = object.mesh->part_names;
         size_px_ = {view.width_px, view.height_px};
         if (object.has_mesh()) {
             const auto headless = make_headless_context(context);

@@ -1,6 +1,7 @@
 #include "app/tracker/tracker_commands.h"
 
 #include "app/cli/command_options.h"
+#include "app/cli/library_option.h"
 #include "experiment/ports/tracker_kinds.h"
 
 namespace overt {
@@ -16,6 +17,7 @@ void add_list(CLI::App& app, ChosenCommand& chosen) {
     const auto [command, options] =
         add_command(app, chosen, run_tracker_list, "list",
                     "The kinds of eye tracker, and what of them is found here", "overt tracker list");
+    add_library_option(command);
     add_json_flag(command, options.json);
 }
 
@@ -31,8 +33,7 @@ void add_test(CLI::App& app, ChosenCommand& chosen) {
            one_of_names(names_of<TrackerKind>));
     option(command, "--address", options.address, "TEXT",
            "Where the tracker is, instead of [tracker] address");
-    option(command, "--library", options.library, "FILE",
-           "Library of its maker, instead of [tracker] library");
+    add_library_option(command);
     option(command, "--rate", options.rate_hz, "HZ", "Wished samples per second", CLI::Range(1.0, 10000.0));
     option(command, "--seconds", options.seconds, "S", "How long to record", seconds_up_to_an_hour(),
            shown_default);
@@ -48,6 +49,7 @@ void add_calibrate(CLI::App& app, ChosenCommand& chosen) {
         "--context osmesa --picture validation.png");
     command.add_option("PROTOCOL", options.protocol, "Whose screen and tracker")->required();
     add_further(command, options.further);
+    add_library_option(command);
     option(command, "--tracker", options.kind, "KIND",
            "Kind of eye tracker, instead of the protocol's [tracker] kind",
            one_of_names(names_of<TrackerKind>));

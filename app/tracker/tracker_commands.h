@@ -22,7 +22,7 @@ struct TrackerTestOptions {
     std::filesystem::path protocol; ///< whose [tracker] is tested; empty: the defaults
     std::string further;            ///< id of the further tracker that is meant; empty: that of [tracker]
     std::string kind;               ///< instead of the protocol's
-    std::string address, library;   ///< likewise
+    std::string address;            ///< likewise
     double rate_hz = 0.0;           ///< likewise; 0: the protocol's
     double seconds = 10.0;
     bool json = false;

@@ -31,8 +31,6 @@ Protocol wished(const TrackerTestOptions& options) {
         tracker.kind = tracker_kind_called(options.kind);
     if (!options.address.empty())
         tracker.address = options.address;
-    if (!options.library.empty())
-        tracker.library = options.library;
     if (options.rate_hz > 0.0)
         tracker.rate_hz = options.rate_hz;
     return protocol;

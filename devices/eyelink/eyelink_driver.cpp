@@ -362,7 +362,6 @@ template <> TrackerDevice tracker_device_of<kind_called<TrackerKind>("eyelink")>
     return {
         .make_driver = [](const TrackerParts& parts) -> std::unique_ptr<TrackerDriver> {
             EyelinkSettings settings;
-            settings.library = parts.protocol.tracker.library;
             settings.is_dummy = parts.protocol.tracker.address == "dummy";
             if (!settings.is_dummy && !parts.protocol.tracker.address.empty())
                 settings.address = parts.protocol.tracker.address;

@@ -9,11 +9,12 @@
 namespace overt {
 namespace {
 
-constexpr const char* where_to_get_it = "Install the EyeLink Developers Kit, which SR Research gives to "
-                                        "owners of a tracker after they register at "
-                                        "www.sr-research.com/support, or name the file libeyelink_core.so in "
-                                        "[tracker] library or in the environment "
-                                        "variable OVERT_EYELINK_LIBRARY.";
+constexpr const char* where_to_get_it =
+    "Install the EyeLink Developers Kit, which SR Research gives to "
+    "owners of a tracker after they register at "
+    "www.sr-research.com/support, or name the file libeyelink_core.so with "
+    "--library eyelink=FILE or in the environment "
+    "variable OVERT_EYELINK_LIBRARY.";
 
 /// Gives the names that the library lacks.
 std::vector<std::string> find_required(const SharedLibrary& library, EyelinkFunctions& of) {
@@ -65,8 +66,8 @@ void find_optional(const SharedLibrary& library, EyelinkFunctions& of) {
 } // namespace
 
 EyelinkLibrary::EyelinkLibrary(const std::string& path)
-    : library_(library_candidates(path, "OVERT_EYELINK_LIBRARY", {"libeyelink_core.so"}),
-               "The EyeLink's library", where_to_get_it) {
+    : library_(library_candidates(path, vendor_library("eyelink")), "The EyeLink's library",
+               where_to_get_it) {
     const std::vector<std::string> missing = find_required(library_, functions_);
     if (!missing.empty())
         throw DeviceError(fmt::format("{} is no EyeLink library that overt can use: it lacks {}. {}",

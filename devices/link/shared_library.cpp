@@ -9,13 +9,16 @@
 
 namespace overt {
 
-std::vector<std::string> library_candidates(const std::string& setting, const char* variable,
-                                            const std::vector<std::string>& usual_names) {
-    if (!setting.empty())
-        return {setting};
-    if (const char* const named = std::getenv(variable); named && *named)
+std::vector<std::string> library_candidates(const std::string& file, const VendorLibrary& library) {
+    if (!file.empty())
+        return {file};
+    if (const char* const named = std::getenv(library.variable); named && *named)
         return {named};
-    return usual_names;
+    std::vector<std::string> names;
+    for (const char* const name : library.usual_names)
+        if (name)
+            names.emplace_back(name);
+    return names;
 }
 
 SharedLibrary::SharedLibrary(const std::vector<std::string>& candidates, const std::string& what,

@@ -5,12 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "experiment/ports/vendor_libraries.h"
+
 namespace overt {
 
-/// Which files to try for a library: what the setting names alone, if it names one; else what the variable of
-/// the environment names alone, if it is set; else the usual names, which the system's search path finds.
-std::vector<std::string> library_candidates(const std::string& setting, const char* variable,
-                                            const std::vector<std::string>& usual_names);
+/// Which files to try for a library: `file` alone, if it is named; else what the library's variable of the
+/// environment names alone, if it is set; else its usual names, which the system's search path finds.
+std::vector<std::string> library_candidates(const std::string& file, const VendorLibrary& library);
 
 /// Stays loaded until the program ends: such libraries have threads of their own, which an unloading would
 /// leave without code.

@@ -217,7 +217,6 @@ template <> TrackerDevice tracker_device_of<kind_called<TrackerKind>("lsl")>() {
     return {.make_driver = [](const TrackerParts& parts) -> std::unique_ptr<TrackerDriver> {
                 const TrackerSettings& keys = parts.protocol.tracker;
                 LslInletSettings settings;
-                settings.library = keys.library;
                 settings.stream = keys.address;
                 for (const std::string& channel : keys.channels)
                     settings.layout.assignments.push_back(parse_lsl_assignment(channel));

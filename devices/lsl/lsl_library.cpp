@@ -46,13 +46,11 @@ LslLibrary::LslLibrary(const SharedLibrary& library) : file_(library.file()) {
                         file_, fmt::join(missing, ", ")));
 }
 
-std::shared_ptr<const LslLibrary> load_lsl(const std::string& setting) {
+std::shared_ptr<const LslLibrary> load_lsl(const std::string& file) {
     const SharedLibrary library(
-        library_candidates(setting, "OVERT_LSL_LIBRARY",
-                           {"liblsl.so.2", "liblsl.so", "liblsl.so.1", "liblsl64.so"}),
-        "The library of the Lab Streaming Layer (liblsl)",
-        "Install it (https://github.com/sccn/liblsl/releases has a package for Debian), or name its file in "
-        "the setting or in OVERT_LSL_LIBRARY.");
+        library_candidates(file, vendor_library("lsl")), "The library of the Lab Streaming Layer (liblsl)",
+        "Install it (https://github.com/sccn/liblsl/releases has a package for Debian), or name its file "
+        "with --library lsl=FILE or in the environment variable OVERT_LSL_LIBRARY.");
     return std::make_shared<const LslLibrary>(library);
 }
 

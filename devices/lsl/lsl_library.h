@@ -78,8 +78,8 @@ class LslLibrary {
     std::string file_;
 };
 
-/// The library that `setting` names, or OVERT_LSL_LIBRARY, or the system's. Throws DeviceError.
-std::shared_ptr<const LslLibrary> load_lsl(const std::string& setting);
+/// From `file`; if that is empty, from OVERT_LSL_LIBRARY, or the system's. Throws DeviceError.
+std::shared_ptr<const LslLibrary> load_lsl(const std::string& file);
 
 /// Own an object of the library. The library must outlive them.
 struct LslRelease {

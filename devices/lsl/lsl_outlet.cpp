@@ -164,7 +164,7 @@ RecordingState LslGazeRelay::read(TrackerItemSink& sink, SessionTime deadline) n
 
 template <> MarkerDevice marker_device_of<kind_called<MarkerOutputKind>("lsl")>() {
     return {.open = [](const MarkerParts& parts) -> std::unique_ptr<MarkerOutput> {
-                return std::make_unique<LslMarkerOutlet>(load_lsl(parts.settings.library), parts.session,
+                return std::make_unique<LslMarkerOutlet>(load_lsl({}), parts.session,
                                                          parts.clock);
             },
             .look_for = []() -> std::vector<std::string> {

@@ -32,7 +32,7 @@ ObservedScene make_observed_scene(const Protocol& protocol, std::span<const Obje
     scene.display_latency = from_seconds(1e-3 * protocol.display.latency_ms);
     for (const Object& object : objects) {
         for (const SceneView& view : object.scenes)
-            scene.objects.push_back({object.has_mesh() ? &object.mesh : nullptr, view});
+            scene.objects.push_back({object.has_mesh() ? &*object.mesh : nullptr, view});
     }
     for (const Task& task : protocol.tasks) {
         for (const auto& [area, share] : simulated_shares(task)) {

@@ -319,7 +319,6 @@ std::string tobii_trackers_found() {
 template <> TrackerDevice tracker_device_of<kind_called<TrackerKind>("tobii")>() {
     return {.make_driver = [](const TrackerParts& parts) -> std::unique_ptr<TrackerDriver> {
                 TobiiSettings settings;
-                settings.library = parts.protocol.tracker.library;
                 settings.device = parts.protocol.tracker.address;
                 settings.calibration_points =
                     calibration_targets(parts.protocol.calibration.points, parts.protocol.calibration.area,

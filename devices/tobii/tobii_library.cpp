@@ -81,13 +81,11 @@ TobiiLibrary::TobiiLibrary(const SharedLibrary& library) : file_(library.file())
                                       file_, version_.major, version_.minor));
 }
 
-std::shared_ptr<const TobiiLibrary> load_tobii(const std::string& setting) {
+std::shared_ptr<const TobiiLibrary> load_tobii(const std::string& file) {
     const SharedLibrary library(
-        library_candidates(setting, "OVERT_TOBII_LIBRARY",
-                           {"libtobii_research.so.2", "libtobii_research.so.1", "libtobii_research.so"}),
-        "Tobii's library (Tobii Pro SDK)",
+        library_candidates(file, vendor_library("tobii")), "Tobii's library (Tobii Pro SDK)",
         "Install it (Tobii gives the SDK for C at developer.tobiipro.com), or name the file "
-        "libtobii_research.so in [tracker] library or in the environment variable OVERT_TOBII_LIBRARY.");
+        "libtobii_research.so with --library tobii=FILE or in the environment variable OVERT_TOBII_LIBRARY.");
     return std::make_shared<const TobiiLibrary>(library);
 }
 

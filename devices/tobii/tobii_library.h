@@ -200,8 +200,8 @@ class TobiiLibrary {
     TobiiVersion version_{};
 };
 
-/// The library that `setting` names, or OVERT_TOBII_LIBRARY, or the system's. Throws DeviceError.
-std::shared_ptr<const TobiiLibrary> load_tobii(const std::string& setting);
+/// From `file`; if that is empty, from OVERT_TOBII_LIBRARY, or the system's. Throws DeviceError.
+std::shared_ptr<const TobiiLibrary> load_tobii(const std::string& file);
 
 /// Such as "error 204: the connection failed".
 std::string describe_tobii_status(TobiiStatus status);

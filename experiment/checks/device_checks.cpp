@@ -168,9 +168,6 @@ void check_marker_output(ProtocolExamination& examination, std::size_t index) {
     if (!kind.has_speed && output.as_text)
         examination.error({path("as_text")},
                           fmt::format("only {} outputs take lines of text", outputs_with(&Row::has_speed)));
-    if (!kind.has_library && !output.library.empty())
-        examination.error({path("library")}, fmt::format("only outputs of kind {} need a library",
-                                                         outputs_with(&Row::has_library)));
 }
 
 /// Two of the same device would wait for each other. What is simulated or played back is a device of its own.

@@ -66,8 +66,8 @@ RecordingSize recording_size(const Protocol& protocol, std::span<const Object> o
         size.pictures += per_object * (picture_bytes * object_count +
                                        light_bytes * mapped * static_cast<double>(motion.pictures().size()));
     for (const Object& object : objects)
-        size.meshes += bytes_per_vertex * static_cast<double>(object.mesh.positions.size()) +
-                       bytes_per_triangle * static_cast<double>(object.mesh.triangles.size());
+        size.meshes += bytes_per_vertex * static_cast<double>(object.mesh->positions.size()) +
+                       bytes_per_triangle * static_cast<double>(object.mesh->triangles.size());
     if (protocol.answers.record != AnswerUse::none)
         size.answers =
             trials * std::clamp(answer_s, protocol.screens.response_min_s, protocol.screens.response_max_s) *

@@ -13,19 +13,25 @@ struct ButtonBoxKindRow {
     std::string_view explanation;        ///< for the reference of protocols; follows the name and a colon
     std::string_view needs_address{};    ///< what the address of one must be; empty: the first is found
     bool is_read_by_display_box = false; ///< it shares the line of the Display++ or Bits#
+    std::string_view usual_address{};    ///< in words: what is opened where a protocol names no address
 };
 
 enum class ButtonBoxKind : std::uint8_t {};
 
 template <>
 inline constexpr auto kinds_of<ButtonBoxKind> = std::to_array<ButtonBoxKindRow>({
-    {"iolab", "the ioLab box"},
-    {"xid", "boxes of Cedrus that speak XID"},
+    {.name = "iolab",
+     .explanation = "the ioLab box",
+     .usual_address = "the first such box among /dev/hidraw*"},
+    {.name = "xid",
+     .explanation = "boxes of Cedrus that speak XID",
+     .usual_address = "the first such box among the serial ports and USB devices"},
     {"hid", "game pads, joysticks and boxes that present themselves as keyboards",
      "vendor:product as lsusb shows them, or /dev/hidrawN; overt doctor lists them"},
     {.name = "cb6",
      .explanation = "the infrared box and the digital inputs of the Display++ or Bits# of `[display]`",
-     .is_read_by_display_box = true},
+     .is_read_by_display_box = true,
+     .usual_address = "the line of the display box"},
 });
 
 } // namespace overt

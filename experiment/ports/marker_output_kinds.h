@@ -16,9 +16,10 @@ struct MarkerOutputKindRow {
     bool has_address = false;
     std::string_view needs_address{}; ///< such as this one; empty: it is found without
     bool has_speed = false;           ///< `baud`
-    bool has_library = false;
-    bool tells_texts = false;      ///< all of them, and no codes
-    bool rides_on_picture = false; ///< the picture raises it at the refresh that it marks; nothing is sent
+    std::string_view library{};       ///< as vendor_libraries has it; empty: it needs none
+    std::string_view usual_address{}; ///< in words: what is opened where a protocol names no address
+    bool tells_texts = false;         ///< all of them, and no codes
+    bool rides_on_picture = false;    ///< the picture raises it at the refresh that it marks; nothing is sent
 };
 
 enum class MarkerOutputKind : std::uint8_t {};
@@ -30,13 +31,18 @@ inline constexpr auto kinds_of<MarkerOutputKind> = std::to_array<MarkerOutputKin
      .has_address = true,
      .needs_address = "/dev/ttyUSB0",
      .has_speed = true},
-    {.name = "parallel", .explanation = "a byte on the data lines of a parallel port", .has_address = true},
+    {.name = "parallel",
+     .explanation = "a byte on the data lines of a parallel port",
+     .has_address = true,
+     .usual_address = "/dev/parport0"},
     {.name = "xid",
      .explanation = "a Cedrus StimTracker or c-pod, or the outputs of another XID device",
-     .has_address = true},
+     .has_address = true,
+     .usual_address = "the first such device among the serial ports and USB devices"},
     {.name = "lsl",
      .explanation = "a text in the stream `overt` of the Lab Streaming Layer",
-     .has_library = true,
+     .library = "lsl",
+     .usual_address = "a stream that anyone in the local network can read",
      .tells_texts = true},
     {.name = "t-lock",
      .explanation =

@@ -17,6 +17,8 @@ struct AreaSettings {
     std::vector<std::array<glm::dvec3, 2>> boxes; ///< corners with the smallest and largest coordinates
     std::vector<std::string> groups;              ///< parts that the mesh file, or `labels`, names
     std::vector<std::array<double, 6>> planes;    ///< point and normal
+
+    bool operator==(const AreaSettings&) const = default;
 };
 
 } // namespace overt

@@ -39,7 +39,6 @@ std::vector<Key> marker_output() {
         {"pulse_ms", &M::pulse_ms, range(0, 1000, "ms"),
          "For so long a code stays raised; 0: it is not taken back, for boxes that make their pulses by "
          "themselves. Of `t-lock` 24.8 ms at most."},
-        {"library", &M::library, left_out("where the system looks"), "Of `lsl`, the library liblsl, a file."},
         {"codes", &M::codes, left_out("none: texts alone, of `lsl`"),
          "An event and its code, 1 to 255, of `t-lock` 1 to 1023, such as `[\"onset 10\", \"response 2\"]`. "
          "Events: trial (its begin), onset (first refresh of the animation), frame (each further frame), end "

@@ -36,7 +36,6 @@ struct MarkerOutputSettings {
     int baud = 115200;
     bool as_text = false;  ///< of serial: codes in figures, or without codes the texts, a line each
     double pulse_ms = 5.0; ///< 0: codes are not taken back
-    std::string library;   ///< of lsl; empty: where the system looks
     std::vector<std::string> codes, condition_codes, refresh_codes; ///< see MarkerCodes
     /// Of t-lock, from the vertical blank of the refresh that shows a code to the outputs' edge; nothing: one
     /// refresh, as Cambridge Research Systems' psychopy-crs has it.

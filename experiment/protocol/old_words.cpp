@@ -110,4 +110,29 @@ void put_todays_words(TomlFile& toml, const std::string& file, Diagnostics& diag
     reword.note();
 }
 
+void take_out_libraries(TomlFile& toml, const std::string& file, Diagnostics& diagnostics) {
+    constexpr std::string_view sections[] = {"tracker", "further_tracker", "marker_output"};
+    const auto take_out = [&](TomlTable& table) {
+        std::erase_if(table, [&](const TomlEntry& entry) {
+            if (entry.key != "library")
+                return false;
+            diagnostics.warning(
+                file, entry.key_place, "a protocol does not name libraries: this one is not loaded from here",
+                "leave the line out; where the library does not lie where the system looks, name it with "
+                "--library, such as --library lsl=FILE, or in the environment (docs/trust.md)");
+            return true;
+        });
+    };
+    for (TomlEntry& entry : toml.root) {
+        if (std::ranges::find(sections, entry.key) == std::end(sections))
+            continue;
+        if (auto* table = std::get_if<TomlTable>(&entry.value.content))
+            take_out(*table);
+        if (auto* list = std::get_if<TomlList>(&entry.value.content))
+            for (TomlValue& item : *list)
+                if (auto* table = std::get_if<TomlTable>(&item.content))
+                    take_out(*table);
+    }
+}
+
 } // namespace overt

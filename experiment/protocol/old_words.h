@@ -16,4 +16,8 @@ std::string todays_factor(std::string name);
 /// that is written under both names is an error, since nobody can tell in which order its entries come.
 void put_todays_words(TomlFile& toml, const std::string& file, Diagnostics& diagnostics);
 
+/// Takes `library` out of what describes devices, where protocols had it once: who sends a protocol does not
+/// say which code this machine runs. A warning stands at each, with what to do instead.
+void take_out_libraries(TomlFile& toml, const std::string& file, Diagnostics& diagnostics);
+
 } // namespace overt

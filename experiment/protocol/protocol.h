@@ -143,7 +143,6 @@ struct TrackerSettings {
     TrackerKind kind{}; ///< the first: simulated
     double rate_hz = 2000.0;
     std::string address; ///< of its host or stream; empty: what is usual for the kind
-    std::string library; ///< of its maker, a file; empty: where the system looks
     bool outlet = false; ///< its samples are sent on by the Lab Streaming Layer
     TrackedPoint point = TrackedPoint::eyes;
     std::string surface = "screen"; ///< that a scene camera finds gaze on

@@ -155,6 +155,7 @@ bool read_written_keys(ProtocolExamination& examination, std::string_view text, 
     JoinedToml joined = read_joined_toml(text, protocol.file, reader, diagnostics);
     protocol.included = std::move(joined.included);
     put_todays_words(joined.toml, protocol.file.string(), diagnostics);
+    take_out_libraries(joined.toml, protocol.file.string(), diagnostics);
     write_out_series(
         joined.toml, protocol.file.string(),
         [&](const std::string& pattern, Place place) {

@@ -19,8 +19,6 @@ template <class T> std::vector<Key> tracker_keys() {
          "`source_id=…, host=…, uid=…, type=…`. `tobii`: its address "
          "(tet-tcp://…) or serial number. `hid`: /dev/hidrawN, or vendor:product. `replay`: a session's "
          "folder, or an EyeLink recording (.asc)."},
-        {"library", member_of<T>(&T::library), left_out("where the system looks"),
-         "The library of the tracker's maker, a file, for kinds that need one."},
         {"outlet", member_of<T>(&T::outlet),
          "Whether samples are also sent on as a stream \"overt gaze\" of the Lab Streaming Layer, of "
          "trackers that measure in real time."},

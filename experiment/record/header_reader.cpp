@@ -174,12 +174,17 @@ void read_objects(const SQLite::Database& database, SessionHeader& header) {
         header.objects[object].part_names.push_back(row.text());
     }
     read_cameras(database, header);
-    for (Query row(database, fmt::format("SELECT {}, source, frames_sha256 FROM stimulus",
-                                         stimulus_columns_of(database, "stimulus"))
+    const bool knows_pixels = has_column(database, "stimulus", "made_from_sha256");
+    for (Query row(database, fmt::format("SELECT {}, source, frames_sha256, {} FROM stimulus",
+                                         stimulus_columns_of(database, "stimulus"),
+                                         knows_pixels ? "made_from_sha256" : "''")
                                  .c_str());
          row.step();) {
         RecordedStimulus& stimulus = header.stimuli.emplace_back();
-        row.read(stimulus.stimulus, stimulus.source, stimulus.frames_sha256);
+        row.read(stimulus.stimulus, stimulus.source, stimulus.frames_sha256, stimulus.made_from_sha256);
+        // What earlier programs called the hash of the frames is that of what they are made from.
+        if (stimulus.made_from_sha256.empty())
+            std::swap(stimulus.frames_sha256, stimulus.made_from_sha256);
     }
     // In version 1 all maps were of triangles.
     Query version(database, "PRAGMA user_version");

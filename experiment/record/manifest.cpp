@@ -65,7 +65,8 @@ SessionManifest new_manifest(const fs::path& folder, const SessionHeader& header
             manifest.inputs.push_back({"mesh " + object.id, object.mesh_sha256});
     for (const RecordedStimulus& stimulus : header.stimuli)
         manifest.inputs.push_back(
-            {fmt::format("frames {}", stimulus_name(header, stimulus.stimulus)), stimulus.frames_sha256});
+            {fmt::format("frames {}", stimulus_name(header, stimulus.stimulus)),
+             stimulus.frames_sha256.empty() ? stimulus.made_from_sha256 : stimulus.frames_sha256});
     if (header.characterisation)
         manifest.inputs.push_back({"characterisation of the display", header.characterisation->sha256});
     for (const std::string& name : files_of_session(folder, false))

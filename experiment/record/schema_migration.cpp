@@ -119,6 +119,9 @@ void bring_to_today(SQLite::Database& database, int version) {
     SQLite::Transaction transaction(database);
     rename_to_today(database);
     make_tables_of_today(database);
+    // Earlier programs hashed what frames are made from, and not their pixels.
+    database.exec("UPDATE stimulus SET made_from_sha256 = frames_sha256, frames_sha256 = '' "
+                  "WHERE made_from_sha256 = ''");
     if (version < first_version_with_fates)
         take_verdicts_from_events(database);
     database.exec(fmt::format("PRAGMA user_version = {}", session_schema_version));

@@ -125,7 +125,10 @@ struct RecordedObject {
 struct RecordedStimulus {
     Stimulus stimulus;
     std::string source; ///< how its frames were made, in words
+    /// Of the pixels that are shown: see StimulusLibrary::frames_hash. Empty in sessions of earlier programs,
+    /// which knew only what frames are made from.
     ContentHash frames_sha256;
+    ContentHash made_from_sha256 = {}; ///< of everything that the frames are made from, or of their files
 };
 
 /// A place on the screen.

@@ -1,6 +1,8 @@
 #include "experiment/stimulus/object.h"
 
 #include <algorithm>
+#include <deque>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -106,7 +108,7 @@ std::vector<std::string> map_part_names(const ObjectSettings& settings) {
 std::vector<std::string> areas_of(std::span<const Object> objects) {
     std::vector<std::string> areas;
     for (const Object& object : objects) {
-        const Areas own(object.mesh.part_names);
+        const Areas own(object.mesh->part_names);
         for (const std::string& area : own.names()) {
             if (std::ranges::find(areas, area) == areas.end())
                 areas.push_back(area);
@@ -123,38 +125,79 @@ ContentHash hash_of_mesh(const Mesh& mesh) {
     return hasher.finish();
 }
 
-Object load_object(const ObjectSettings& settings, const Protocol& protocol,
-                   const std::filesystem::path& cache) {
+namespace {
+
+/// What a mesh is made of, with what the experimenter should know of it.
+struct MadeMesh {
+    SharedMesh mesh;
+    ContentHash hash;
+    glm::dvec3 origin{0.0};
+    std::vector<std::string> remarks;
+};
+
+/// Whether two objects of a protocol are of one mesh, by what it says of them.
+bool are_of_one_mesh(const ObjectSettings& a, const ObjectSettings& b) {
+    const auto made_from = [](const ObjectSettings& of) {
+        return std::tie(of.shipped, of.mesh, of.up, of.scale, of.unit, of.weld_tolerance, of.labels,
+                        of.areas);
+    };
+    return made_from(a) == made_from(b);
+}
+
+std::vector<std::string> overlap_remarks(const Mesh& mesh, const ObjectSettings& settings) {
+    std::vector<std::string> remarks;
+    for (const AreaOverlap& overlap : overlapping_areas(mesh))
+        remarks.push_back(
+            fmt::format("Areas \"{}\" and \"{}\" overlap: they share {:.4g} {}, {:.1f} % of the one and "
+                        "{:.1f} % of the "
+                        "other, which count for both.",
+                        overlap.a, overlap.b, overlap.shared_area,
+                        unit_of_lengths(settings) == "mm" ? "mm^2" : "squares of the file's unit",
+                        100.0 * overlap.share_of_a, 100.0 * overlap.share_of_b));
+    return remarks;
+}
+
+MadeMesh make_mesh(const ObjectSettings& settings, const std::filesystem::path& cache) {
+    MadeMesh made;
+    Mesh mesh;
+    if (!settings.shipped.empty()) {
+        mesh = shipped_sculpture(settings.shipped, cache);
+    } else {
+        MeshCleaningReport report;
+        mesh = import_mesh(settings.mesh, import_of(settings), report);
+        made.remarks = describe(report);
+        for (std::string& remark : overlap_remarks(mesh, settings))
+            made.remarks.push_back(std::move(remark));
+        made.origin = report.origin;
+        order_for_drawing(mesh);
+    }
+    made.hash = hash_of_mesh(mesh);
+    made.mesh = std::move(mesh);
+    return made;
+}
+
+/// `made`: its mesh, if it has one.
+Object place_object(const ObjectSettings& settings, const Protocol& protocol, const MadeMesh* made) {
     Object object;
     object.id = settings.id;
     object.scenes.resize(protocol.views.size());
-    if (!settings.shipped.empty()) {
-        object.mesh = shipped_sculpture(settings.shipped, cache);
-    } else if (!settings.mesh.empty()) {
-        MeshCleaningReport report;
-        object.mesh = import_mesh(settings.mesh, import_of(settings), report);
-        object.remarks = describe(report);
-        for (const AreaOverlap& overlap : overlapping_areas(object.mesh))
-            object.remarks.push_back(
-                fmt::format("Areas \"{}\" and \"{}\" overlap: they share {:.4g} {}, {:.1f} % of the one and "
-                            "{:.1f} % of the "
-                            "other, which count for both.",
-                            overlap.a, overlap.b, overlap.shared_area,
-                            unit_of_lengths(settings) == "mm" ? "mm^2" : "squares of the file's unit",
-                            100.0 * overlap.share_of_a, 100.0 * overlap.share_of_b));
-        object.origin = report.origin;
-        order_for_drawing(object.mesh);
-    } else {
-        if (!settings.lut.empty())
-            object.mesh.part_names = map_part_names(settings);
+    if (!made) {
+        if (!settings.lut.empty()) {
+            Mesh names_alone;
+            names_alone.part_names = map_part_names(settings);
+            object.mesh = std::move(names_alone);
+        }
         return object;
     }
-    object.mesh_hash = hash_of_mesh(object.mesh);
+    object.mesh = made->mesh;
+    object.mesh_hash = made->hash;
+    object.origin = made->origin;
+    object.remarks = made->remarks;
     for (std::size_t i = 0; i < object.scenes.size(); ++i) {
         const ViewSettings& view = protocol.views[i];
         SceneView& scene = object.scenes[i];
         scene.view.image_px = {view.width_px, view.height_px};
-        scene.bounds = object.mesh.bounds();
+        scene.bounds = object.mesh->bounds();
         scene.view.camera = camera_of(view, protocol, object.mesh, object.origin);
         try {
             depth_range(scene.bounds, scene.view);
@@ -167,6 +210,20 @@ Object load_object(const ObjectSettings& settings, const Protocol& protocol,
     return object;
 }
 
+bool has_mesh_of_its_own(const ObjectSettings& settings) {
+    return !settings.shipped.empty() || !settings.mesh.empty();
+}
+
+} // namespace
+
+Object load_object(const ObjectSettings& settings, const Protocol& protocol,
+                   const std::filesystem::path& cache) {
+    if (!has_mesh_of_its_own(settings))
+        return place_object(settings, protocol, nullptr);
+    const MadeMesh made = make_mesh(settings, cache);
+    return place_object(settings, protocol, &made);
+}
+
 bool is_in_picture(const Object& object, int of_view, Degrees angle) {
     const SceneView& scene = object.scene(of_view);
     const View& view = scene.view;
@@ -174,7 +231,7 @@ bool is_in_picture(const Object& object, int of_view, Degrees angle) {
     const glm::dmat4 world_from_object = pose.world_from_object();
     const glm::dvec2 size(view.image_px);
     const bool has_vertex =
-        std::any_of(object.mesh.positions.begin(), object.mesh.positions.end(), [&](const glm::vec3& p) {
+        std::any_of(object.mesh->positions.begin(), object.mesh->positions.end(), [&](const glm::vec3& p) {
             const glm::dvec3 world(world_from_object * glm::dvec4(p, 1.0));
             if (view.depth_of(world) <= 0.0)
                 return false;
@@ -207,8 +264,24 @@ void add_points(Object& object, const Protocol& protocol, const PointListSetting
 
 std::vector<Object> load_objects(const Protocol& protocol, const std::filesystem::path& cache) {
     std::vector<Object> objects;
-    for (const ObjectSettings& settings : protocol.objects)
-        objects.push_back(load_object(settings, protocol, cache));
+    std::deque<MadeMesh> meshes;
+    std::vector<const MadeMesh*> mesh_of; // each object's
+    for (const ObjectSettings& settings : protocol.objects) {
+        const MadeMesh* made = nullptr;
+        for (std::size_t earlier = 0; earlier < objects.size() && !made; ++earlier)
+            if (are_of_one_mesh(settings, protocol.objects[earlier]))
+                made = mesh_of[earlier];
+        if (!made && has_mesh_of_its_own(settings)) {
+            MadeMesh own = make_mesh(settings, cache);
+            // Files of two names may hold one mesh.
+            for (const MadeMesh& other : meshes)
+                if (other.hash == own.hash)
+                    own.mesh = other.mesh;
+            made = &meshes.emplace_back(std::move(own));
+        }
+        mesh_of.push_back(made);
+        objects.push_back(place_object(settings, protocol, made));
+    }
     for (const PointListSettings& list : protocol.point_lists)
         for (std::size_t i = 0; i < objects.size(); ++i)
             add_points(objects[i], protocol, list, i);

@@ -10,6 +10,7 @@
 #include "experiment/base/content_hash.h"
 #include "experiment/protocol/protocol.h"
 #include "experiment/scene/making/mesh_parts.h"
+#include "experiment/scene/shared_mesh.h"
 #include "experiment/scene/viewing.h"
 #include "experiment/screen_geometry.h"
 #include "experiment/stimulus/object_points.h"
@@ -25,15 +26,15 @@ double mm_of_unit(std::string_view unit);
 struct Object {
     std::string id;
     /// Without triangles if the protocol gives none: then its stimuli are frames. Where it gives ready-made
-    /// maps, the part names are those of the maps.
-    Mesh mesh;
+    /// maps, the part names are those of the maps. Objects of one protocol that are of one shape share it.
+    SharedMesh mesh;
     ContentHash mesh_hash;  ///< see hash_of_mesh
     glm::dvec3 origin{0.0}; ///< of the mesh's coordinates in those of its file, turned and scaled alike
     std::vector<SceneView> scenes;    ///< by view
     std::vector<ObjectPoint> points;  ///< of the protocol's lists, list by list
     std::vector<std::string> remarks; ///< on the mesh, for the experimenter
 
-    bool has_mesh() const { return !mesh.triangles.empty(); }
+    bool has_mesh() const { return !mesh->triangles.empty(); }
     const SceneView& scene(int view = 0) const { return scenes.at(static_cast<std::size_t>(view)); }
 };
 
@@ -67,7 +68,8 @@ void add_points(Object& object, const Protocol& protocol, const PointListSetting
 /// mesh.
 bool is_in_picture(const Object& object, int view, Degrees angle);
 
-/// All objects of the protocol, in its order, with their points.
+/// All objects of the protocol, in its order, with their points. A mesh that several of them are of, to the
+/// last triangle and part, is read and kept once.
 std::vector<Object> load_objects(const Protocol& protocol, const std::filesystem::path& cache);
 
 } // namespace overt

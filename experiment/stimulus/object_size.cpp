@@ -26,7 +26,7 @@ ObjectSize size_of(const Object& object, const ObjectSettings& settings, const P
     const View& view = object.scene().view;
     const glm::dmat4 world_from_object = object.scene().pose_at({0.0}).world_from_object();
     glm::dvec2 low(view.image_px), high(0.0);
-    for (const glm::vec3& position : object.mesh.positions) {
+    for (const glm::vec3& position : object.mesh->positions) {
         const glm::dvec3 world(world_from_object * glm::dvec4(position, 1.0));
         if (view.depth_of(world) <= 0.0)
             continue;

@@ -68,7 +68,10 @@ RowLayout<RecordedStimulus> stimuli_layout(const SharedColumns& shared, const Se
         shared.of_stimulus<RecordedStimulus>([](const RecordedStimulus& row) { return row.stimulus; }));
     layout.add<RecordedStimulus>({
         {{"source", "How the frames were made"}, &RecordedStimulus::source},
-        {{"frames_sha256", "SHA-256 of the frames"}, &RecordedStimulus::frames_sha256},
+        {{"frames_sha256", "SHA-256 of the frames' pixels; n/a in sessions of earlier programs"},
+         &RecordedStimulus::frames_sha256},
+        {{"made_from_sha256", "SHA-256 of what the frames are made from"},
+         &RecordedStimulus::made_from_sha256},
         {{"mesh_file", "The object's mesh, relative to the session's directory"},
          of_object(header, &RecordedObject::mesh_file)},
         {{"mesh_sha256", "SHA-256 of the mesh"}, of_object(header, &RecordedObject::mesh_sha256)},

@@ -189,13 +189,13 @@ class StudyReader {
         });
     }
 
-    /// Of an object's stimuli by the hash of their frames, and the angles of their pictures, which are not in
-    /// the hash.
+    /// Of an object's stimuli by the hashes of their frames, and the angles of their pictures, which are not
+    /// in what they are made from.
     using LightKey = std::pair<ContentHash, std::vector<Degrees>>;
     using LightOfStimuli = std::map<LightKey, LightScores>;
 
     static LightKey light_key(const SessionHeader& header, const RecordedStimulus& stimulus) {
-        LightKey key{stimulus.frames_sha256, {}};
+        LightKey key{stimulus.made_from_sha256 + stimulus.frames_sha256, {}};
         for (const Pose& pose : header.animation_of(stimulus.stimulus).pictures())
             key.second.push_back(pose.object);
         return key;

@@ -43,12 +43,14 @@ Experiment four_balls() {
     protocol.views.front().width_px = protocol.views.front().height_px = 512;
     Object balls;
     balls.id = "balls";
-    test::add_part(balls.mesh, test::box({-20.0, -10.0, 0.0}, {20.0, 10.0, 300.0}), "body");
+    Mesh mesh;
+    test::add_part(mesh, test::box({-20.0, -10.0, 0.0}, {20.0, 10.0, 300.0}), "body");
     for (std::size_t i = 0; i < std::size(planted); ++i)
-        test::add_part(balls.mesh, test::ball({i % 2 ? 80.0 : -80.0, -10.0, i < 2 ? 220.0 : 80.0}, 55.0),
+        test::add_part(mesh, test::ball({i % 2 ? 80.0 : -80.0, -10.0, i < 2 ? 220.0 : 80.0}, 55.0),
                        planted[i].name);
-    const View view{fit_camera(balls.mesh, {11.9}, {512, 512}, {25.0}, 0.06), {512, 512}};
-    balls.scenes = {{view, balls.mesh.bounds()}};
+    const View view{fit_camera(mesh, {11.9}, {512, 512}, {25.0}, 0.06), {512, 512}};
+    balls.scenes = {{view, mesh.bounds()}};
+    balls.mesh = std::move(mesh);
     experiment.objects.push_back(std::move(balls));
     return experiment;
 }

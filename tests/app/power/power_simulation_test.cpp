@@ -38,7 +38,7 @@ Experiment busts(int tasks) {
     bust.id = "bust";
     bust.mesh = test::bust();
     const View view{fit_camera(bust.mesh, {11.9}, {512, 512}, {25.0}, 0.06), {512, 512}};
-    bust.scenes = {{view, bust.mesh.bounds()}};
+    bust.scenes = {{view, bust.mesh->bounds()}};
     experiment.objects.push_back(std::move(bust));
     return experiment;
 }

@@ -132,7 +132,6 @@ condition_codes = ["material matt 100"]
 [[marker_output]]
 id = "stream"
 kind = "lsl"
-library = "{}"
 
 [[marker_output]]
 id = "outputs"
@@ -140,14 +139,15 @@ kind = "t-lock"
 codes = ["onset 1"]
 refresh_codes = ["60 4"]
 )",
-                       small_protocol, cedrus.box_port(), cedrus.cable_port(), OVERT_FAKE_LIBLSL);
+                       small_protocol, cedrus.box_port(), cedrus.cable_port());
 }
 
 /// Runs two trials, calling `meanwhile` every few milliseconds.
 int run_two_trials(const SmallExperiment& experiment, const std::filesystem::path& said,
                    const std::function<void()>& meanwhile) {
     RunningProgram program({"run", experiment.protocol().string(), "--simulate-observer", "5", "--observer",
-                            "P01", "--context", "osmesa", "--seed", "7", "--trials", "2", "--sessions",
+                            "P01", "--context", "osmesa", "--seed", "7", "--trials", "2", "--library",
+                            std::string("lsl=") + OVERT_FAKE_LIBLSL, "--sessions",
                             experiment.sessions().string()},
                            {"OVERT_CACHE=" + experiment.cache().string()}, said);
     while (program.is_running()) {

@@ -21,7 +21,7 @@ TEST_CASE("simulated devices take their numbers from the protocol", "[unit]") {
         object.scenes.resize(1);
 
     const ObservedScene scene = make_observed_scene(protocol, objects, ScreenGeometry{});
-    CHECK(scene.objects[0].mesh == &objects[0].mesh);
+    CHECK(scene.objects[0].mesh == &*objects[0].mesh);
     CHECK(scene.objects[1].mesh == nullptr);
     CHECK(scene.tasks[0].id == "age");
     CHECK(scene.tasks[0].shares == std::vector<double>{0.61});

@@ -95,7 +95,6 @@ TEST_CASE("outputs of markers that cannot be meant so are errors at their keys",
     check_fault(output(port), "12:1", "\"codes\" are missing");
     check_fault(output("kind = \"lsl\"\nbaud = 9600\n"), "15:8", "only serial outputs have a speed");
     check_fault(output("kind = \"lsl\"\naddress = \"x\"\n"), "15:11", "only serial and parallel");
-    check_fault(output("kind = \"parallel\"\nlibrary = \"x\"\ncodes = [\"onset 1\"]\n"), "15:11", "kind lsl");
     CHECK(found(output("kind = \"lsl\"\n")).empty());
 }
 

@@ -12,9 +12,11 @@ namespace {
 
 /// An object of 1000 vertices and 2000 triangles.
 std::vector<Object> one_object() {
+    Mesh mesh;
+    mesh.positions.resize(1000);
+    mesh.triangles.resize(2000);
     Object object;
-    object.mesh.positions.resize(1000);
-    object.mesh.triangles.resize(2000);
+    object.mesh = std::move(mesh);
     return {object};
 }
 

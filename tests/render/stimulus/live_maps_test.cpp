@@ -16,7 +16,7 @@ std::vector<Object> one_bust() {
     Object bust;
     bust.id = "bust";
     bust.mesh = test::bust();
-    bust.scenes = {{{fit_camera(bust.mesh, {12.0}, small_px, {25.0}, 0.05), small_px}, bust.mesh.bounds()}};
+    bust.scenes = {{{fit_camera(bust.mesh, {12.0}, small_px, {25.0}, 0.05), small_px}, bust.mesh->bounds()}};
     std::vector<Object> objects;
     objects.push_back(std::move(bust));
     return objects;
