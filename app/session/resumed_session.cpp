@@ -266,7 +266,7 @@ void require_same_stimuli(const ResumedSession& session, const SessionHeader& no
     for (const RecordedStimulus& stimulus : then.stimuli) {
         const auto same =
             std::find_if(now.stimuli.begin(), now.stimuli.end(), [&](const RecordedStimulus& other) {
-                return other.stimulus == stimulus.stimulus && other.frames_sha256 == stimulus.frames_sha256;
+                return other.stimulus == stimulus.stimulus && other.is_same_as(stimulus);
             });
         if (same == now.stimuli.end())
             changed.push_back("the frames of " + stimulus_name(then, stimulus.stimulus));

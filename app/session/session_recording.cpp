@@ -138,7 +138,8 @@ SessionHeader make_session_header(const Protocol& protocol, const Schedule& sche
     for (const Task& task : protocol.tasks)
         header.tasks.push_back({task.id, task.question});
     for (const Stimulus& stimulus : all_stimuli(protocol))
-        header.stimuli.push_back({stimulus, library.source_of(stimulus), library.frames_hash(stimulus)});
+        header.stimuli.push_back(
+            {stimulus, library.source_of(stimulus), {}, library.made_from_hash(stimulus)});
     describe_objects(header, protocol, objects, library, with_prepared_maps);
     for (std::size_t list = 0; list < stimulus_lists.size(); ++list)
         record_entries(header, list, entries_of(protocol, list));

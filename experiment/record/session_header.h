@@ -125,10 +125,16 @@ struct RecordedObject {
 struct RecordedStimulus {
     Stimulus stimulus;
     std::string source; ///< how its frames were made, in words
-    /// Of the pixels that are shown: see StimulusLibrary::frames_hash. Empty in sessions of earlier programs,
-    /// which knew only what frames are made from.
+    /// Of the pixels that are shown: see StimulusLibrary::frames_hash. Empty where nothing was drawn, and in
+    /// sessions of earlier programs, which knew only what frames are made from.
     ContentHash frames_sha256;
     ContentHash made_from_sha256 = {}; ///< of everything that the frames are made from, or of their files
+
+    /// Whether both are made from the same and, as far as both know their pixels, look the same.
+    bool is_same_as(const RecordedStimulus& other) const {
+        return made_from_sha256 == other.made_from_sha256 &&
+               (frames_sha256.empty() || other.frames_sha256.empty() || frames_sha256 == other.frames_sha256);
+    }
 };
 
 /// A place on the screen.

@@ -135,7 +135,7 @@ std::string StimulusLibrary::source_of(const Stimulus& stimulus) const {
                        protocol_->bake.observer == StandardObserver::cie2006 ? "CIE 2006" : "CIE 1931");
 }
 
-ContentHash StimulusLibrary::frames_hash(const Stimulus& stimulus) const {
+ContentHash StimulusLibrary::made_from_hash(const Stimulus& stimulus) const {
     ContentHasher hasher;
     const auto& light = protocol_->display.characterisation;
     if (const FrameSequenceSettings* sequence = cache_.sequence_of(stimulus)) {
@@ -200,7 +200,7 @@ std::optional<std::filesystem::path> StimulusLibrary::light_file(const Stimulus&
         return std::nullopt;
     // The angles are not in the frames' hash.
     ContentHasher hasher;
-    hasher.add(std::string_view(frames_hash(stimulus)));
+    hasher.add(std::string_view(made_from_hash(stimulus)));
     for (const Pose& pose : cache_.pictures_of(stimulus))
         hasher.add(pose.object.value);
     const std::filesystem::path file = cache_.light_file(hasher.finish());
@@ -216,7 +216,7 @@ std::optional<std::filesystem::path> StimulusLibrary::light_file(const Stimulus&
 std::filesystem::path StimulusLibrary::first_frame_file(const Stimulus& stimulus) const {
     const int first = page_of_frame(stimulus).front();
     ContentHasher hasher;
-    hasher.add(std::string_view(frames_hash(stimulus)));
+    hasher.add(std::string_view(made_from_hash(stimulus)));
     if (!cache_.is_ready_made(stimulus))
         hasher.add(cache_.pictures_of(stimulus).front().object.value);
     if (protocol_->display.background != 0.0)

@@ -54,7 +54,7 @@ class StimulusLibrary final : public FrameSource {
     std::string source_of(const Stimulus& stimulus) const;
     /// Of everything that made its frames, the display's characterisation included; for ready-made ones, of
     /// the files' bytes.
-    ContentHash frames_hash(const Stimulus& stimulus) const;
+    ContentHash made_from_hash(const Stimulus& stimulus) const;
 
     /// The file with the luminance of a stimulus in small pictures (light_pictures.h), one for each picture
     /// of its motion, from the cache. What is not there is made if `make` says so, which reads all frames of
