@@ -29,7 +29,11 @@ const seconds_of_fixation = () => (data.knows_stimuli ? data.glance.seconds : da
   else card(g.fixations.toLocaleString('en'), 'fixations on the screen');
   card(digits(seconds_of_fixation() / 60), 'minutes of fixation');
   if (data.knows_stimuli) card(data.maps.filter(m => m.values && m.by === 'duration').length, 'maps');
+  if (data.answers) card(data.answers.summaries.filter(r => r.of[0] === '').reduce((sum, r) => sum + r.trials - r.missed, 0).toLocaleString('en'), 'answers');
   if (data.tables.areas.length) card(new Set(data.tables.areas.map(a => a.area)).size - 1, 'areas of the screen');
+  const h = data.headline;
+  for (const [name, text, kind] of [['Question', h.question], ['Design', h.design], ['Observers', h.sample], ['Result', h.result, 'result']])
+    if (text) by_id('headline').append(element('dt', {}, name), element('dd', kind ? {class: kind} : {}, text));
   for (const remark of data.remarks) by_id('remarks').append(element('p', {class: 'remark'}, remark));
 }
 

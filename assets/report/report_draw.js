@@ -200,21 +200,23 @@ function point_cloud(frame, points, colour) {
   }
 }
 
-// Rows of bars from 0, in a panel for each {name, bars}; each bar {label, estimate, each}: `each` are dots of single
-// observers. All panels have one axis.
-function bars(box, panels, {x_label, label, most, least = 0}) {
-  const values = panels.flatMap(p => p.bars.flatMap(b => [b.estimate.v, b.estimate.lo, b.estimate.hi, ...(b.each || [])])).filter(v => Number.isFinite(v));
-  const range = [Math.min(least, ...values), Math.max(most, ...values)];
+// Rows of bars from 0, in a panel for each {name, bars}; each bar {label, estimate, each, expected}: `each` are dots of single
+// observers, `expected` is a grey bar behind. With `as_points` values are dots, and the axis need not begin at 0. All
+// panels have one axis.
+function bars(box, panels, {x_label, label, most, least, as_points = false}) {
+  const values = panels.flatMap(p => p.bars.flatMap(b => [b.estimate.v, b.estimate.lo, b.estimate.hi, b.expected, ...(b.each || [])])).filter(v => Number.isFinite(v));
+  const ends = [least ?? (as_points ? undefined : 0), most, ...(panels.some(p => p.bars.some(b => b.expected !== undefined)) ? [0] : [])].filter(v => v !== undefined);
+  const range = [Math.min(...ends, ...values), Math.max(...ends, ...values)];
   const grid = element('div', {class: panels.length > 1 ? 'panels' : ''});
   box.replaceChildren(grid);
   panels.forEach((panel, number) => {
     const chart = element('div');
     grid.append(element('div', {}, ...(panel.name ? [element('h3', {}, ...breakable(panel.name))] : []), chart));
-    responsive(chart, width => chart.replaceChildren(bar_rows(panel, width, range, {x_label, label, colour: colour_of(number)})));
+    responsive(chart, width => chart.replaceChildren(bar_rows(panel, width, range, {x_label, label, as_points, colour: colour_of(number)})));
   });
 }
 
-function bar_rows(panel, width, range, {x_label, label, colour}) {
+function bar_rows(panel, width, range, {x_label, label, colour, as_points}) {
   const room = Math.min(0.42 * width, Math.max(...panel.bars.map(b => width_of(b.label))) + 1);
   const names = panel.bars.map(b => lines_of(b.label, room));
   const heights = names.map(lines => Math.max(24, line_px * lines.length + 8));
@@ -233,15 +235,17 @@ function bar_rows(panel, width, range, {x_label, label, colour}) {
     svg.append(...lines_at(names[i], room, middle + 4 - line_px * (names[i].length - 1) / 2, {'text-anchor': 'end'}));
     if (e && e.v !== null && e.v !== undefined) {
       const from = px(Math.min(0, e.v)), to = px(Math.max(0, e.v));
-      const rect = shape('rect', {x: from, width: Math.max(0, to - from), y: middle - half, height: 2 * half, fill: colour});
+      if (Number.isFinite(bar.expected)) svg.append(shape('rect', {x: px(0), width: Math.max(0, px(bar.expected) - px(0)), y: middle - half, height: 2 * half, class: 'expected'}));
+      const rect = as_points ? shape('circle', {cx: px(e.v), cy: middle, r: 5, fill: colour}) : shape('rect', {x: from, width: Math.max(0, to - from), y: middle - half, height: 2 * half, fill: colour});
       rect.append(shape('title', {}, `${panel.name ? panel.name + ', ' : ''}${bar.label}: ${estimate_text(e)}`));
       svg.append(rect);
       (bar.each || []).forEach((v, o, all) => svg.append(shape('circle', {cx: px(v).toFixed(1), cy: (middle + 1.6 * half * ((o + 0.5) / all.length - 0.5)).toFixed(1), r: 1.7, class: 'dot'})));
       if (e.lo !== undefined) svg.append(shape('path', {d: `M${px(e.lo)} ${middle}H${px(e.hi)}M${px(e.lo)} ${middle - 4}v8M${px(e.hi)} ${middle - 4}v8`, class: 'mark'}));
-    } else svg.append(shape('text', {x: px(0) + 4, y: middle + 4, class: 'soft'}, 'n/a'));
+    } else svg.append(shape('text', {x: px(Math.max(0, range[0])) + 4, y: middle + 4, class: 'soft'}, 'n/a'));
     y += heights[i];
   });
-  svg.append(shape('path', {d: `M${px(0)} ${top}V${floor}`, class: 'axis'}), shape('path', {d: `M${left} ${floor}H${width - 1}`, class: 'axis'}));
+  if (range[0] <= 0 && range[1] >= 0) svg.append(shape('path', {d: `M${px(0)} ${top}V${floor}`, class: 'axis'}));
+  svg.append(shape('path', {d: `M${left} ${floor}H${width - 1}`, class: 'axis'}));
   svg.append(...lines_at(x_lines, (left + width) / 2, floor + 32, {'text-anchor': 'middle', class: 'soft'}));
   return svg;
 }

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "experiment/report/packed_array.h"
+#include "experiment/report/report_answers.h"
 #include "experiment/report/report_areas.h"
 #include "experiment/report/report_json.h"
 #include "experiment/report/report_maps.h"
@@ -188,6 +189,13 @@ nlohmann::ordered_json report_data(const StudyResults& results) {
               {"not_counted", not_counted},
               {"seconds", number(glance.counted_s)},
               {"simulated", glance.any_simulated}}},
+            {"headline",
+             {{"question", results.headline.question},
+              {"design", results.headline.design},
+              {"sample", results.headline.sample},
+              {"result", results.headline.result}}},
+            {"answers", report_answers(results)},
+            {"answer_maps", std::move(maps.answer_maps)},
             {"knows_stimuli", knows_stimuli(results)},
             {"parameters", parameters},
             {"remarks", results.remarks},

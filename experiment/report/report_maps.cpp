@@ -120,9 +120,9 @@ Json json_of_maps(const StudyResults& results, const std::vector<ShownMesh>& sho
     return maps;
 }
 
-Json json_of_differences(const StudyResults& results, const std::vector<ShownMesh>& shown) {
+Json json_of_differences(const std::vector<DifferenceMap>& maps, const std::vector<ShownMesh>& shown) {
     Json differences = Json::array();
-    for (const DifferenceMap& map : results.differences) {
+    for (const DifferenceMap& map : maps) {
         const ShownMesh& mesh = shown[static_cast<std::size_t>(map.object)];
         double most = 0.0;
         for (const float value : map.difference)
@@ -166,7 +166,7 @@ Json json_of_differences(const StudyResults& results, const std::vector<ShownMes
 } // namespace
 
 ReportMaps report_maps(const StudyResults& results) {
-    const std::size_t maps = results.maps.size() + results.differences.size();
+    const std::size_t maps = results.maps.size() + results.differences.size() + results.answer_maps.size();
     const std::size_t vertices = std::clamp(most_map_bytes / std::max<std::size_t>(1, maps),
                                             least_report_vertices, most_report_vertices);
     Json objects = Json::array();
@@ -203,7 +203,8 @@ ReportMaps report_maps(const StudyResults& results) {
                                          {"values", bytes_of(object.seconds_visible, mesh, most)}};
         }
     }
-    return {std::move(objects), json_of_maps(results, shown), json_of_differences(results, shown)};
+    return {std::move(objects), json_of_maps(results, shown), json_of_differences(results.differences, shown),
+            json_of_differences(results.answer_maps, shown)};
 }
 
 } // namespace overt

@@ -7,7 +7,7 @@ namespace overt {
 
 /// Arrays, each entry with its values at the vertices of the mesh that is shown.
 struct ReportMaps {
-    Json objects, maps, differences;
+    Json objects, maps, differences, answer_maps;
 };
 
 /// Meshes are made coarser where all maps together would take more than 10 MB, and beyond

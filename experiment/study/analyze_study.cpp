@@ -24,6 +24,7 @@
 #include "experiment/study/light_at_gaze.h"
 #include "experiment/study/map_predictions.h"
 #include "experiment/study/map_reliability.h"
+#include "experiment/study/methods/headline.h"
 #include "experiment/study/methods/methods_text.h"
 #include "experiment/study/methods/reporting.h"
 #include "experiment/study/point_distributions.h"
@@ -237,6 +238,7 @@ StudyResults analyze_study(ReadStudy study, const StudyOptions& options, const S
     reckon_answers(results.answers, options);
     if (knows_stimuli(results))
         reckon_on_surfaces(study, options, progress);
+    results.headline = study_headline(results, options);
     results.reporting = reporting_items(results, options);
     results.methods = methods_text(results, options);
     return std::move(study.results);

@@ -9,6 +9,7 @@
 #include "experiment/record/tables/export_tables.h"
 #include "experiment/study/area_shares.h"
 #include "experiment/study/tables/answer_layouts.h"
+#include "experiment/study/tables/answers_json.h"
 #include "experiment/study/tables/area_layouts.h"
 #include "experiment/study/tables/mixed_models.h"
 #include "experiment/study/tables/screen_area_layouts.h"
@@ -129,6 +130,9 @@ std::string study_json(const StudyResults& results) {
               {"area", results.area},
               {"area_shares", Json::array()}};
     json.update(study_facts_json(results));
+    json["headline"] = headline_json(results.headline);
+    if (nlohmann::ordered_json answers = answers_json(results); !answers.is_null())
+        json["answers"] = std::move(answers);
     json["methods"] = Json::array();
     for (const MethodsParagraph& paragraph : results.methods)
         json["methods"].push_back({{"topic", paragraph.topic}, {"text", paragraph.text}});

@@ -1,0 +1,258 @@
+#include "experiment/study/methods/headline.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "experiment/scene/areas.h"
+#include "experiment/statistics/bootstrap.h"
+#include "experiment/study/methods/sentences.h"
+#include "experiment/study/results/study_groups.h"
+
+namespace overt {
+
+namespace {
+
+/// "0.21 (95 % interval 0.19 to 0.23)".
+std::string with_interval(const Estimate& of, double confidence, double scale = 1.0, const char* unit = "") {
+    const auto text = [&](double number) { return fmt::format("{:.3g}", scale * number); };
+    std::string words = text(of.value.value_or(0.0)) + unit;
+    if (of.interval)
+        words += fmt::format(" ({} % interval {} to {}{})", as_set(100.0 * confidence),
+                             text(of.interval->low), text(of.interval->high), unit);
+    return words;
+}
+
+std::string over(int observers) { return fmt::format("over {}", as_counted(observers, "observer")); }
+
+/// The first answer of the data of which there is a result, with the number of its observers.
+struct FirstAnswer {
+    AnswerOf of;
+    int observers = 0;
+    bool is_judged = false; ///< right or wrong
+};
+
+std::vector<FirstAnswer> answers_in_order(const StudyAnswers& answers) {
+    std::vector<FirstAnswer> found;
+    std::map<AnswerOf, std::set<std::string>> observers;
+    for (const StudyAnswer& one : answers.given) {
+        const AnswerOf of{"", one.task, one.answer, one.item};
+        auto known = std::ranges::find(found, of, &FirstAnswer::of);
+        if (known == found.end())
+            known = found.insert(found.end(), {of, 0, false});
+        known->is_judged = known->is_judged || one.is_correct.has_value();
+        observers[of].insert(one.observer);
+        known->observers = static_cast<int>(observers[of].size());
+    }
+    return found;
+}
+
+template <class Row>
+const Row* row_of_all(const std::vector<Row>& rows, const AnswerOf& of, const auto& fits) {
+    const auto found = std::ranges::find_if(rows, [&](const Row& row) { return row.of == of && fits(row); });
+    return found == rows.end() ? nullptr : &*found;
+}
+
+std::string named_answer(const AnswerOf& of) {
+    return of.item.empty() ? fmt::format("\"{}\"", of.answer) : fmt::format("\"{}\"", of.item);
+}
+
+std::string curve_sentence(const StudyAnswers& answers, const FirstAnswer& first, double confidence) {
+    const AnswerCurveRow* const curve = row_of_all(answers.curves, first.of, [](const AnswerCurveRow& row) {
+        return row.column.empty() && row.threshold.value && !row.yes.starts_with("the first slot");
+    });
+    if (!curve)
+        return {};
+    return fmt::format("the threshold of {} is {}, {}", curve->factor,
+                       with_interval(curve->threshold, confidence), over(first.observers));
+}
+
+std::string scale_sentence(const StudyAnswers& answers, const FirstAnswer& first, double confidence) {
+    const AnswerScaleRow *least = nullptr, *most = nullptr;
+    std::string method;
+    for (const AnswerScaleRow& row : answers.scales) {
+        if (row.of != first.of || !row.value.value || (!method.empty() && row.method != method))
+            continue;
+        method = row.method;
+        least = !least || *row.value.value < *least->value.value ? &row : least;
+        most = !most || *row.value.value > *most->value.value ? &row : most;
+    }
+    if (!least || least == most || method == "MLDS")
+        return {};
+    return fmt::format("on the scale of {} ({}) {} lies highest, at {}, and {} lowest, at {}", most->factor,
+                       method, most->level, with_interval(most->value, confidence), least->level,
+                       with_interval(least->value, confidence));
+}
+
+std::string noise_sentence(const StudyAnswers& answers, const FirstAnswer& first) {
+    const AnswerScaleRow* const row = row_of_all(answers.scales, first.of, [](const AnswerScaleRow& one) {
+        return one.method == "MLDS" && one.sigma;
+    });
+    if (!row)
+        return {};
+    return fmt::format("the difference scale of {} has a judgement noise of {:.3g} of its range, {}",
+                       row->factor, *row->sigma, over(first.observers));
+}
+
+/// The difference of two levels that is surest, else the mean.
+std::string rating_sentence(const StudyAnswers& answers, const FirstAnswer& first, double confidence) {
+    const AnswerRatingRow* const all =
+        row_of_all(answers.ratings, first.of, [](const AnswerRatingRow& row) { return row.factor.empty(); });
+    if (!all || !all->mean.value)
+        return {};
+    const AnswerDifferenceRow* surest = nullptr;
+    for (const AnswerDifferenceRow& row : answers.differences)
+        if (row.of == first.of && row.measure == "mean" && row.p_holm && row.difference.value &&
+            (!surest || *row.p_holm < *surest->p_holm))
+            surest = &row;
+    std::string words =
+        fmt::format("the mean of {} is {}", named_answer(first.of), with_interval(all->mean, confidence));
+    if (surest)
+        words += fmt::format("; of {} {} it is by {} {} than of {}", surest->column, surest->a,
+                             with_interval({std::abs(*surest->difference.value),
+                                            surest->difference.interval && *surest->difference.value < 0.0
+                                                ? std::optional(Interval{-surest->difference.interval->high,
+                                                                         -surest->difference.interval->low})
+                                                : surest->difference.interval,
+                                            {}},
+                                           confidence),
+                             *surest->difference.value < 0.0 ? "lower" : "higher", surest->b);
+    return words + ", " + over(first.observers);
+}
+
+std::string share_sentence(const StudyResults& results, const FirstAnswer& first,
+                           const StudyOptions& options) {
+    std::map<std::string, std::pair<double, double>> observers; ///< counted, and of how many
+    std::string choice;
+    for (const StudyAnswer& one : results.answers.given) {
+        if (AnswerOf{"", one.task, one.answer, one.item} != first.of || one.is_missed || one.number ||
+            one.kind == "text" || one.kind == "spoken" || one.kind == "point")
+            continue;
+        if (!first.is_judged && (choice.empty() || one.value < choice))
+            choice = one.value;
+    }
+    for (const StudyAnswer& one : results.answers.given) {
+        if (AnswerOf{"", one.task, one.answer, one.item} != first.of || one.is_missed)
+            continue;
+        if (first.is_judged ? !one.is_correct : choice.empty())
+            continue;
+        auto& [counted, all] = observers[one.observer];
+        all += 1.0;
+        counted += (first.is_judged ? *one.is_correct : one.value == choice) ? 1.0 : 0.0;
+    }
+    std::vector<double> shares;
+    for (const auto& [observer, sums] : observers)
+        shares.push_back(sums.first / sums.second);
+    const Estimate mean = estimated_mean(shares, options.bootstrap(), "nobody answered");
+    if (!mean.value)
+        return {};
+    const std::string share = with_interval(mean, options.confidence, 100.0, " %");
+    return first.is_judged ? fmt::format("{} of the answers were correct, {}", share, over(first.observers))
+                           : fmt::format("\"{}\" was chosen in {} of the answers, {}", choice, share,
+                                         over(first.observers));
+}
+
+std::string area_sentence(const StudyResults& results, double confidence) {
+    for (const AreaRow& row : results.area_rows)
+        if (row.area == results.area && row.keys.empty() && row.by_count.value)
+            return fmt::format("{} of the fixations lie on {}, {}",
+                               with_interval(row.by_count, confidence, 100.0, " %"),
+                               row.area == head_area ? "the head" : fmt::format("the area {}", row.area),
+                               over(row.observers));
+    return {};
+}
+
+std::string result_clause(const StudyResults& results, const StudyOptions& options) {
+    for (const FirstAnswer& first : answers_in_order(results.answers)) {
+        for (const std::string& clause : {curve_sentence(results.answers, first, options.confidence),
+                                          scale_sentence(results.answers, first, options.confidence),
+                                          noise_sentence(results.answers, first),
+                                          rating_sentence(results.answers, first, options.confidence),
+                                          share_sentence(results, first, options)})
+            if (!clause.empty())
+                return clause;
+    }
+    return area_sentence(results, options.confidence);
+}
+
+/// Factors with several levels, in the order in which trials have them.
+std::vector<std::string> varied_factors(const StudyResults& results) {
+    std::vector<std::string> names;
+    std::map<std::string, std::set<std::string>> levels;
+    const auto add = [&](const std::string& name, const std::string& level) {
+        if (level.empty() || level == "n/a")
+            return;
+        if (!levels.contains(name))
+            names.push_back(name);
+        levels[name].insert(level);
+    };
+    for (const StudyAnswer& one : results.answers.given)
+        for (const AnsweredStimulus& shown : one.shown)
+            for (const auto& [name, level] : shown.levels)
+                add(name, level);
+    if (results.answers.given.empty())
+        for (const StudyTrial& trial : results.trials)
+            for (const std::string& column : results.by)
+                if (column != "observer")
+                    add(column, trial.key(column));
+    std::vector<std::string> words;
+    for (const std::string& name : names)
+        if (levels[name].size() > 1)
+            words.push_back(fmt::format("{} ({} levels)", name, levels[name].size()));
+    return words;
+}
+
+std::string design_clause(const StudyResults& results) {
+    std::set<std::pair<int, int>> trials;
+    std::map<std::size_t, int> shown;
+    for (const StudyTrial& trial : results.trials)
+        trials.emplace(trial.session, trial.number);
+    if (trials.empty())
+        return {};
+    const std::vector<std::string> factors = varied_factors(results);
+    std::string clause = as_counted(static_cast<std::int64_t>(trials.size()), "trial");
+    const double each = static_cast<double>(results.trials.size()) / static_cast<double>(trials.size());
+    if (each > 1.0)
+        clause += fmt::format(" with {} {:.3g} stimuli each", each == std::floor(each) ? "" : "about", each);
+    for (std::size_t at; (at = clause.find("  ")) != std::string::npos;)
+        clause.erase(at, 1);
+    if (!factors.empty())
+        clause += fmt::format("; what differs is {}", joined_words(factors));
+    return clause;
+}
+
+} // namespace
+
+StudyHeadline study_headline(const StudyResults& results, const StudyOptions& options) {
+    StudyHeadline headline;
+    std::vector<std::string> questions;
+    for (const NamedThing& task : tasks_asked(results))
+        if (!task.title.empty() && std::ranges::find(questions, task.title) == questions.end())
+            questions.push_back(task.title);
+    constexpr std::size_t most_questions = 4;
+    if (!questions.empty() && questions.size() <= most_questions)
+        for (const std::string& question : questions)
+            headline.question += (headline.question.empty() ? "" : " / ") + question;
+    add_sentence(headline.design, design_clause(results));
+    const StudyGlance& glance = results.glance;
+    std::vector<std::string> left_out;
+    for (const StudyObserver& one : results.observers)
+        if (!one.counts)
+            left_out.push_back(one.label);
+    add_sentence(
+        headline.sample,
+        fmt::format(
+            "N = {}{}{}",
+            as_counted(glance.observers, glance.any_simulated ? "simulated observer" : "observer"),
+            left_out.empty() ? ", none left out" : fmt::format(", without {}", joined_words(left_out)),
+            glance.excluded_trials > 0
+                ? fmt::format("; {} excluded", share_of(glance.excluded_trials, glance.trials, "trial"))
+                : "; no trial excluded"));
+    add_sentence(headline.result, result_clause(results, options));
+    return headline;
+}
+
+} // namespace overt
