@@ -105,6 +105,19 @@ std::vector<RecordedDatasetEntry> recorded(const DatasetSettings& dataset) {
     return entries;
 }
 
+void record_points(SessionHeader& header, std::span<const Object> objects) {
+    for (std::size_t i = 0; i < objects.size(); ++i)
+        for (const ObjectPoint& point : objects[i].points)
+            header.points.push_back(
+                {.object = static_cast<int>(i),
+                 .name = point.name,
+                 .triangle = point.site.triangle,
+                 .barycentric = point.site.barycentric,
+                 .position = point.position,
+                 .vertex = point.vertex,
+                 .part = objects[i].mesh.part_names[objects[i].mesh.triangle_parts[point.site.triangle]]});
+}
+
 } // namespace
 
 SessionHeader make_session_header(const Protocol& protocol, const Schedule& schedule,
@@ -141,6 +154,7 @@ SessionHeader make_session_header(const Protocol& protocol, const Schedule& sche
         header.stimuli.push_back(
             {stimulus, library.source_of(stimulus), {}, library.made_from_hash(stimulus)});
     describe_objects(header, protocol, objects, library, with_prepared_maps);
+    record_points(header, objects);
     for (std::size_t list = 0; list < stimulus_lists.size(); ++list)
         record_entries(header, list, entries_of(protocol, list));
     return header;

@@ -17,8 +17,8 @@ struct ShownProbe {
     int visible_refreshes = 0; ///< of these, at which the place was seen, and the mark drawn
     // At the first flip.
     bool was_visible = false;
-    ScreenPoint at; ///< of the screen, also where it is hidden
-    Attitude truth; ///< of the surface
+    ScreenPoint at = {}; ///< of the screen, also where it is hidden
+    Attitude truth = {}; ///< of the surface
 };
 
 } // namespace overt

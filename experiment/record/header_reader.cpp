@@ -165,6 +165,27 @@ void read_design(const SQLite::Database& database, SessionHeader& header) {
     read_motions(database, header);
 }
 
+void read_points(const SQLite::Database& database, SessionHeader& header) {
+    if (!has_table(database, "point"))
+        return;
+    for (Query row(database,
+                   "SELECT object, name, triangle, weight_a, weight_b, weight_c, x, y, z, vertex, part "
+                   "FROM point ORDER BY n");
+         row.step();) {
+        RecordedPoint& point = header.points.emplace_back();
+        std::int64_t triangle = 0;
+        std::optional<std::int64_t> vertex;
+        row.read(point.object, point.name, triangle, point.barycentric.x, point.barycentric.y,
+                 point.barycentric.z, point.position.x, point.position.y, point.position.z, vertex,
+                 point.part);
+        point.triangle = static_cast<std::uint32_t>(triangle);
+        if (vertex)
+            point.vertex = static_cast<std::uint32_t>(*vertex);
+        if (point.object < 0 || static_cast<std::size_t>(point.object) >= header.objects.size())
+            throw RecordError(fmt::format("table point: there is no object {}", point.object));
+    }
+}
+
 void read_objects(const SQLite::Database& database, SessionHeader& header) {
     header.objects = read_table(database, object_table());
     for (Query row(database, "SELECT object, name FROM part ORDER BY object, part"); row.step();) {
@@ -249,6 +270,7 @@ SessionHeader read_session_header(const SQLite::Database& database) {
     read_characterisation(database, header);
     read_design(database, header);
     read_objects(database, header);
+    read_points(database, header);
     read_lists(database, header);
     // Imports of earlier programs have the motion of a protocol, which nothing went through, and one pose.
     if (knows_no_stimulus(header) && header.animations.size() == 1 &&

@@ -87,6 +87,16 @@ void insert_slots(SQLite::Database& database, const SessionHeader& header) {
                       slot.size_px.x, slot.size_px.y);
 }
 
+void insert_points(SQLite::Database& database, const SessionHeader& header) {
+    int n = 0;
+    for (const RecordedPoint& point : header.points)
+        insert_values(database, "INTO point", point.object, n++, point.name,
+                      static_cast<std::int64_t>(point.triangle), point.barycentric.x, point.barycentric.y,
+                      point.barycentric.z, point.position.x, point.position.y, point.position.z,
+                      point.vertex ? std::optional(static_cast<std::int64_t>(*point.vertex)) : std::nullopt,
+                      point.part);
+}
+
 void insert_objects(SQLite::Database& database, const SessionHeader& header) {
     int index = 0;
     for (const RecordedObject& object : header.objects) {
@@ -131,6 +141,7 @@ void create_session_file(const std::filesystem::path& file, const SessionHeader&
         insert_lists(database, header);
         insert_slots(database, header);
         insert_objects(database, header);
+        insert_points(database, header);
         SealWriter(database).begin(0);
         transaction.commit();
     } catch (const SQLite::Exception& reason) {

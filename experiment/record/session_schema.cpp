@@ -178,6 +178,33 @@ CREATE TABLE IF NOT EXISTS match_setting (
 ) STRICT, WITHOUT ROWID;
 )sql";
 
+const char* const probe_tables_sql = R"sql(
+CREATE TABLE IF NOT EXISTS point (
+    object INTEGER NOT NULL, n INTEGER NOT NULL, name TEXT NOT NULL, triangle INTEGER NOT NULL,
+    weight_a REAL NOT NULL, weight_b REAL NOT NULL, weight_c REAL NOT NULL, x REAL NOT NULL, y REAL NOT NULL,
+    z REAL NOT NULL, vertex INTEGER, part TEXT NOT NULL,
+    PRIMARY KEY (object, n)
+) STRICT, WITHOUT ROWID;
+CREATE TABLE IF NOT EXISTS shown_probe (
+    trial_id INTEGER NOT NULL, n INTEGER NOT NULL, step INTEGER NOT NULL, id TEXT NOT NULL, point TEXT NOT NULL,
+    place INTEGER NOT NULL, shown_refreshes INTEGER NOT NULL, visible_refreshes INTEGER NOT NULL,
+    was_visible INTEGER NOT NULL CHECK (was_visible IN (0, 1)), x_px REAL NOT NULL, y_px REAL NOT NULL,
+    slant_deg REAL NOT NULL, tilt_deg REAL NOT NULL,
+    PRIMARY KEY (trial_id, n)
+) STRICT, WITHOUT ROWID;
+CREATE TABLE IF NOT EXISTS gauge_setting (
+    trial_id INTEGER NOT NULL, n INTEGER NOT NULL, probe TEXT NOT NULL, point TEXT NOT NULL,
+    start_slant_deg REAL NOT NULL, start_tilt_deg REAL NOT NULL, slant_deg REAL NOT NULL, tilt_deg REAL NOT NULL,
+    at_limit INTEGER NOT NULL CHECK (at_limit IN (0, 1)), true_slant_deg REAL, true_tilt_deg REAL,
+    frame INTEGER, is_visible INTEGER,
+    PRIMARY KEY (trial_id, n)
+) STRICT, WITHOUT ROWID;
+CREATE TABLE IF NOT EXISTS gauge_change (
+    trial_id INTEGER NOT NULL, n INTEGER NOT NULL, slant_deg REAL NOT NULL, tilt_deg REAL NOT NULL,
+    PRIMARY KEY (trial_id, n)
+) STRICT, WITHOUT ROWID;
+)sql";
+
 const char* const slot_tables_sql = R"sql(
 CREATE TABLE IF NOT EXISTS slot (
     slot INTEGER PRIMARY KEY, id TEXT NOT NULL, title TEXT NOT NULL, left_px INTEGER NOT NULL,
@@ -290,7 +317,7 @@ void make_session_tables(SQLite::Database& database) {
         database.exec(sql);
     for (const char* const sql :
          {session_schema_sql, box_tables_sql, observer_tables_sql, ledger_tables_sql, answer_tables_sql,
-          slot_tables_sql, gaze_tables_sql, device_tables_sql, option_tables_sql})
+          probe_tables_sql, slot_tables_sql, gaze_tables_sql, device_tables_sql, option_tables_sql})
         database.exec(with_stimulus_columns(sql));
     for (const StimulusList& list : stimulus_lists)
         if (list.name != object_table().name) // which has more columns
@@ -303,6 +330,7 @@ void complete_session_tables(SQLite::Database& database) {
     database.exec(ledger_tables_sql);
     database.exec(with_stimulus_columns(slot_tables_sql));
     database.exec(answer_tables_sql);
+    database.exec(probe_tables_sql);
     if (!has_column(database, "flip", "step"))
         database.exec("ALTER TABLE flip ADD COLUMN step INTEGER NOT NULL DEFAULT 0");
     if (!has_column(database, "step", "places"))

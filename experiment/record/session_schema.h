@@ -39,6 +39,9 @@ extern const char* const observer_tables_sql;
 extern const char* const answer_tables_sql; ///< what was answered by keys, the mouse or boxes
 extern const char* const ledger_tables_sql;
 
+/// The same for the tables of places on surfaces, of the marks there, and of what was set with gauges.
+extern const char* const probe_tables_sql;
+
 /// The same for the tables of slots, and of what was shown in them.
 extern const char* const slot_tables_sql;
 

@@ -12,8 +12,10 @@
 
 namespace overt {
 
-AnswerAsking::AnswerAsking(SessionState& state, OperatorControl& control, const Schedule& schedule)
-    : state_(state), control_(control), schedule_(schedule), ranks_(ranks_in_tasks(schedule.trials)) {}
+AnswerAsking::AnswerAsking(SessionState& state, OperatorControl& control, const Schedule& schedule,
+                           const ShownProbes& probes)
+    : state_(state), control_(control), schedule_(schedule), probes_(probes),
+      ranks_(ranks_in_tasks(schedule.trials)) {}
 
 void AnswerAsking::begin_trial(const Trial& trial, const TrialPlan& plan, ObjectTurning& turning,
                                bool is_practice) {
@@ -75,8 +77,10 @@ void AnswerAsking::begin_watched_step(std::size_t number, SessionTime since, boo
         is_awaiting_ = false;
         return;
     }
-    if (!is_awaiting_) {
-        state_.ports.panel.offer(current_ ? current_->offers() : std::vector<AnswerOffer>());
+    // Where a gauge stands is known once its stimulus is shown.
+    const bool shows_gauge = current_ && current_->gauge() && plan_->steps[number].kind == StepKind::show;
+    if (!is_awaiting_ || shows_gauge) {
+        offer();
         state_.ports.panel.await_answer(since, trial_);
         is_awaiting_ = true;
         tell_opening();
@@ -99,6 +103,15 @@ std::optional<AnswerSheet::SetLevel> AnswerAsking::level_of(int place) const noe
         if (const std::optional<AnswerSheet::SetLevel> level = sheet->level_of(place))
             return level;
     return std::nullopt;
+}
+
+/// Tells the panel what can be answered; of gauges, with the surface where they stand.
+void AnswerAsking::offer() {
+    std::vector<AnswerOffer> offers = current_ ? current_->offers() : std::vector<AnswerOffer>();
+    for (AnswerOffer& of : offers)
+        if (const Answering* const gauge = of.attitude ? current_->gauge() : nullptr)
+            of.true_attitude = probes_.truth_at(gauge->form().probe);
+    state_.ports.panel.offer(offers);
 }
 
 /// What the step waits for stands with its stimulus, where the protocol has a place for it.
@@ -245,7 +258,7 @@ OperatorControl::Press AnswerAsking::ask(std::size_t number, const std::optional
         current_->pause(since - std::max(looked, onset));
         current_->begin_step();
         if (!is_awaiting_ || since != onset) {
-            ports.panel.offer(current_->offers());
+            offer();
             ports.panel.await_answer(since, trial_);
             is_awaiting_ = true;
             opening_told_.reset();
@@ -264,7 +277,7 @@ OperatorControl::Press AnswerAsking::ask(std::size_t number, const std::optional
         if (current_->page() != page) {
             page = current_->page();
             current_->begin_step();
-            ports.panel.offer(current_->offers());
+            offer();
             opening_told_.reset();
         }
         tell_opening();

@@ -12,13 +12,15 @@
 #include "experiment/design/trial_plan.h"
 #include "experiment/session/object_turning.h"
 #include "experiment/session/operator_control.h"
+#include "experiment/session/shown_probes.h"
 
 namespace overt {
 
 class AnswerAsking {
   public:
     /// All must outlive this. Of the schedule: who observes, the seed, and the order of its trials.
-    AnswerAsking(SessionState& state, OperatorControl& control, const Schedule& schedule);
+    AnswerAsking(SessionState& state, OperatorControl& control, const Schedule& schedule,
+                 const ShownProbes& probes);
 
     /// Forgets the trial before. All must outlive the trial. `turning`: objects that inputs turn before they
     /// answer anything.
@@ -39,6 +41,13 @@ class AnswerAsking {
     void stimulus_gone(SessionTime offset) noexcept;
     /// What a match sets this place of the trial to; nothing: none does.
     std::optional<AnswerSheet::SetLevel> level_of(int place) const noexcept;
+    /// The gauge that is set while this step shows its stimulus; null: none is.
+    const Answering* gauge(std::size_t number) const noexcept {
+        return is_awaiting_ && sheet_at(number) == current_ && plan_->steps[number].ends_by_answer() &&
+                       current_
+                   ? current_->gauge()
+                   : nullptr;
+    }
     /// The answers that this step waits for were given since it began.
     bool has_ended(std::size_t number) const noexcept;
     /// They had been given before it began: a screen that only waits for them is passed over.
@@ -66,10 +75,12 @@ class AnswerAsking {
     void put_beside(std::size_t number);
     void offer_turning(std::size_t number, SessionTime since);
     void take_away();
+    void offer();
 
     SessionState& state_;
     OperatorControl& control_;
     const Schedule& schedule_;
+    const ShownProbes& probes_;
     std::vector<int> ranks_;
     const Trial* trial_ = nullptr;
     const TrialPlan* plan_ = nullptr;

@@ -30,9 +30,10 @@ constexpr double smallest_wall_step_s = 0.1;
 TrialRun::TrialRun(SessionState& state, OperatorControl& control, const ScreenPoint& screen_centre,
                    const Schedule& schedule)
     : state_(state), control_(control), drift_checks_(state, control, screen_centre),
-      answers_(state, control), asking_(state, control, schedule), seed_(schedule.seed),
-      cycles_(page_cycles(state.protocol)), poses_(poses_of(state.protocol)), shown_(cycles_.front()),
-      ledger_(shown_, WhenLate::drop), watch_(screen_geometry_of(state.protocol), state.protocol.display) {
+      answers_(state, control), probes_(state.protocol, state.ports),
+      asking_(state, control, schedule, probes_), seed_(schedule.seed), cycles_(page_cycles(state.protocol)),
+      poses_(poses_of(state.protocol)), shown_(cycles_.front()), ledger_(shown_, WhenLate::drop),
+      watch_(screen_geometry_of(state.protocol), state.protocol.display) {
     for (UsedTracker& used : state.trackers())
         feeds_.push_back({used, TrackerFeed(used.tracker), {}});
 }
@@ -55,10 +56,12 @@ TrialRun::Attempt TrialRun::run(const Trial& trial, const std::optional<Trial>& 
     const Clock::Disturbance before = state_.ports.clock.disturbance();
     Running running{.trial = trial, .next = next, .is_practice = is_practice, .attempt = attempt};
     running.plan = plan_trial(state_.protocol, seed_, trial, is_practice);
+    probes_.begin_trial(trial);
     turning_.begin_trial(state_.protocol, trial, seed_, is_practice);
     asking_.begin_trial(trial, running.plan, turning_, is_practice);
     run_steps(running);
     asking_.finish(attempt.outcome);
+    probes_.complete(attempt.outcome.given);
     note_disturbance(before);
     mark_result(trial, attempt);
     state_.write_down();
@@ -98,6 +101,9 @@ void TrialRun::begin_show(Running& running, std::size_t number) {
     begin_steering(step);
     if (!has_shown_)
         state_.ports.presenter.take_swap_modes(); // those before are not the presentation's
+    TrialOutcome& outcome = running.attempt.outcome;
+    probes_.begin_show(step, static_cast<int>(outcome.steps.size()) + 1,
+                       slots_.frames(shown_.entry_at(0).frame, 0), outcome.probes);
     await_end(running, number, state_.now());
     add_row(running, step);
     onset_text_ = shows_ == 0 ? "SYNCTIME" : step_text(step);
@@ -234,8 +240,10 @@ void TrialRun::present(Running& running, std::size_t number) {
         // Show the frame that the plan has next, or that the observer moved to, and learn when it was lit.
         steer();
         state_.markers.before_flip(ledger_.next_refresh(), ledger_.next().frame, presenter);
-        note_flip(
-            ledger_.enter(presenter.flip_slots(slots_.frames(ledger_.next().frame, ledger_.next_refresh()))));
+        const std::span<const AnimationFrameIndex> frames =
+            slots_.frames(ledger_.next().frame, ledger_.next_refresh());
+        probes_.before_flip(frames, asking_.gauge(number), running.attempt.outcome.probes);
+        note_flip(ledger_.enter(presenter.flip_slots(frames)));
         // Take what the observer answers, and remember what the operator pressed, here or at the tracker's
         // host.
         if (ledger_.shown_refreshes() == 1)

@@ -12,6 +12,7 @@
 #include "experiment/session/drift_checks.h"
 #include "experiment/session/gaze_watch.h"
 #include "experiment/session/object_turning.h"
+#include "experiment/session/shown_probes.h"
 #include "experiment/session/step_screens.h"
 #include "experiment/session/tracker_feed.h"
 #include "experiment/timing/refresh_ledger.h"
@@ -97,6 +98,7 @@ class TrialRun {
     OperatorControl& control_;
     DriftChecks drift_checks_;
     AnswerTaking answers_;
+    ShownProbes probes_;
     AnswerAsking asking_;
     ObjectTurning turning_;
     std::uint64_t seed_;            ///< of the session, from which steps are drawn

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "experiment/record/read/match_rows.h"
+#include "experiment/record/read/probe_records.h"
 #include "experiment/record/sql.h"
 #include "experiment/record/stimulus_columns.h"
 
@@ -283,6 +284,7 @@ std::vector<TrialRecord> read_trials(const SQLite::Database& database) {
     add_given_answers(database, trials);
     add_matches(database, trials);
     add_answer_inputs(database, trials);
+    add_probes(database, trials);
     add_slots(database, trials);
     return trials;
 }

@@ -15,6 +15,7 @@
 #include "experiment/record/session_schema.h"
 #include "experiment/record/sql.h"
 #include "experiment/record/stimulus_columns.h"
+#include "experiment/record/write/probe_rows.h"
 
 namespace overt {
 namespace {
@@ -426,6 +427,7 @@ void RowWriter::write(const TrialFinish& finish) {
                       step.ended_by ? std::optional(name_of(*step.ended_by)) : std::nullopt, step.gaze_onset,
                       step.gaze_detected, text_of_places(step.places));
     write_answers(outcome);
+    write_probe_rows(database_, trial_counts_.trial_id, outcome);
     for (const int trial : outcome.left_out)
         insert_values(database_, "OR REPLACE INTO given_up", trial, sitting_, "the criterion was met");
     seals_.seal_trial(sitting_, trial_counts_.trial_id);
@@ -449,11 +451,11 @@ void RowWriter::write_matches(const TrialOutcome& outcome) {
                           set.low, set.high, set.reference, set.changes, set.reversals, set.stopped_low,
                           set.stopped_high);
         for (const MatchLevel& level : given.levels)
-            insert_values(database_,
-                          fmt::format("INTO match_level (trial_id, n, level, {}, first, second)",
-                                      stimulus_columns()),
-                          trial_counts_.trial_id, number, level.level, level.stimulus, level.values.front(),
-                          level.values.size() > 1 ? std::optional(level.values[1]) : std::nullopt);
+            insert_values(
+                database_,
+                fmt::format("INTO match_level (trial_id, n, level, {}, first, second)", stimulus_columns()),
+                trial_counts_.trial_id, number, level.level, level.stimulus, level.values.front(),
+                level.values.size() > 1 ? std::optional(level.values[1]) : std::nullopt);
     }
 }
 
