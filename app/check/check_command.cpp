@@ -17,6 +17,7 @@
 #include "app/stimuli/bake_estimate.h"
 #include "experiment/base/counted.h"
 #include "experiment/checks/design_report.h"
+#include "experiment/checks/opened_things.h"
 #include "experiment/design/answer_words.h"
 #include "experiment/design/procedure_trials.h"
 #include "experiment/design/schedule.h"
@@ -84,6 +85,13 @@ std::string steps_of_tasks(const Protocol& protocol) {
     return text;
 }
 
+nlohmann::ordered_json opened_json(const Protocol& protocol) {
+    auto list = nlohmann::ordered_json::array();
+    for (const OpenedThing& thing : opened_by(protocol))
+        list.push_back({{"kind", thing.kind}, {"whose", thing.whose}, {"what", thing.what}});
+    return list;
+}
+
 } // namespace
 
 int run_check(const CheckOptions& options) {
@@ -105,6 +113,7 @@ int run_check(const CheckOptions& options) {
             json["on_this_machine"] = to_json(stimuli->on_this_machine);
             json["frame_cost"] = to_json(stimuli->cost);
             json["spoken_answers"] = sound;
+            json["opens"] = opened_json(experiment->protocol);
             if (options.frames)
                 json["light"] = to_json(measure_light(*experiment));
         }
@@ -115,7 +124,8 @@ int run_check(const CheckOptions& options) {
             text = needs_of_person(stimuli->rendering, experiment->protocol) +
                    to_text(report_on(*experiment, options)) + steps_of_tasks(experiment->protocol) +
                    to_text(stimuli->silhouettes) + to_text(stimuli->rendering) +
-                   to_text(stimuli->on_this_machine) + sound + "\n";
+                   to_text(stimuli->on_this_machine) + sound + to_text(opened_by(experiment->protocol)) +
+                   "\n";
         if (experiment && options.frames)
             text += to_text(measure_light(*experiment));
     }
