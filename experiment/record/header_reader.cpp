@@ -198,14 +198,15 @@ void read_objects(const SQLite::Database& database, SessionHeader& header) {
     const bool knows_pixels = has_column(database, "stimulus", "made_from_sha256");
     for (Query row(database, fmt::format("SELECT {}, source, frames_sha256, {} FROM stimulus",
                                          stimulus_columns_of(database, "stimulus"),
-                                         knows_pixels ? "made_from_sha256" : "''")
+                                         knows_pixels ? "made_from_sha256, drawn_by" : "'', ''")
                                  .c_str());
          row.step();) {
         RecordedStimulus& stimulus = header.stimuli.emplace_back();
-        row.read(stimulus.stimulus, stimulus.source, stimulus.frames_sha256, stimulus.made_from_sha256);
+        row.read(stimulus.stimulus, stimulus.source, stimulus.frames_sha256, stimulus.made_from_sha256,
+                 stimulus.drawn_by);
         // What earlier programs called the hash of the frames is that of what they are made from.
         if (stimulus.made_from_sha256.empty())
-            std::swap(stimulus.frames_sha256, stimulus.made_from_sha256);
+            std::swap(stimulus.frames_sha256, stimulus.made_from_sha256, stimulus.drawn_by);
     }
     // In version 1 all maps were of triangles.
     Query version(database, "PRAGMA user_version");

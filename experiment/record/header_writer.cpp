@@ -111,10 +111,11 @@ void insert_objects(SQLite::Database& database, const SessionHeader& header) {
         ++index;
     }
     for (const RecordedStimulus& stimulus : header.stimuli)
-        insert_values(
-            database,
-            fmt::format("INTO stimulus ({}, source, frames_sha256, made_from_sha256)", stimulus_columns()),
-            stimulus.stimulus, stimulus.source, stimulus.frames_sha256, stimulus.made_from_sha256);
+        insert_values(database,
+                      fmt::format("INTO stimulus ({}, source, frames_sha256, made_from_sha256, drawn_by)",
+                                  stimulus_columns()),
+                      stimulus.stimulus, stimulus.source, stimulus.frames_sha256, stimulus.made_from_sha256,
+                      stimulus.drawn_by);
     for (const RecordedMap& map : header.maps)
         insert_values(database, "INTO map", map.viewed.object, map.viewed.view, map.pose.value, map.file,
                       map.sha256, map.made == RecordedMap::Made::prepared ? "prepared" : "live",

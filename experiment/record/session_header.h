@@ -129,6 +129,7 @@ struct RecordedStimulus {
     /// sessions of earlier programs, which knew only what frames are made from.
     ContentHash frames_sha256;
     ContentHash made_from_sha256 = {}; ///< of everything that the frames are made from, or of their files
+    std::string drawn_by = {};         ///< of live frames, what OpenGL says of its renderer; else empty
 
     /// Whether both are made from the same and, as far as both know their pixels, look the same.
     bool is_same_as(const RecordedStimulus& other) const {

@@ -26,7 +26,7 @@ CREATE TABLE part (object INTEGER NOT NULL, part INTEGER NOT NULL, name TEXT NOT
 CREATE TABLE entry_column (list TEXT NOT NULL, entry INTEGER NOT NULL, n INTEGER NOT NULL, name TEXT NOT NULL,
                            text TEXT NOT NULL, number REAL, PRIMARY KEY (list, entry, n)) STRICT, WITHOUT ROWID;
 CREATE TABLE stimulus (@stimulus, source TEXT NOT NULL, frames_sha256 TEXT NOT NULL,
-                       made_from_sha256 TEXT NOT NULL DEFAULT '',
+                       made_from_sha256 TEXT NOT NULL DEFAULT '', drawn_by TEXT NOT NULL DEFAULT '',
                        PRIMARY KEY (@indices)) STRICT, WITHOUT ROWID;
 CREATE TABLE pose (pose INTEGER PRIMARY KEY, angle_deg REAL NOT NULL) STRICT;
 CREATE TABLE animation_frame (motion INTEGER NOT NULL DEFAULT 0, frame INTEGER NOT NULL, pose INTEGER NOT NULL,

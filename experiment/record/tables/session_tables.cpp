@@ -72,6 +72,8 @@ RowLayout<RecordedStimulus> stimuli_layout(const SharedColumns& shared, const Se
          &RecordedStimulus::frames_sha256},
         {{"made_from_sha256", "SHA-256 of what the frames are made from"},
          &RecordedStimulus::made_from_sha256},
+        {{"drawn_by", "Of frames that OpenGL drew, what it says of its renderer"},
+         &RecordedStimulus::drawn_by},
         {{"mesh_file", "The object's mesh, relative to the session's directory"},
          of_object(header, &RecordedObject::mesh_file)},
         {{"mesh_sha256", "SHA-256 of the mesh"}, of_object(header, &RecordedObject::mesh_sha256)},
