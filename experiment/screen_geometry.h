@@ -7,6 +7,12 @@
 
 namespace overt {
 
+/// Where an image stands on the screen, pixel for pixel.
+struct ImageBox {
+    glm::ivec2 origin_px{0}, size_px{0}; ///< its top left pixel
+    friend bool operator==(const ImageBox&, const ImageBox&) = default;
+};
+
 /// A flat screen seen perpendicularly from the middle.
 struct ScreenGeometry {
     glm::ivec2 screen_px{1920, 1080};
@@ -22,6 +28,7 @@ struct ScreenGeometry {
     /// Pixels per degree at the middle of the screen, horizontally.
     double px_per_deg_at_centre() const;
 
+    ImageBox image_box() const { return {image_origin_px, image_px}; }
     ScreenPoint centre() const { return {0.5 * screen_px.x, 0.5 * screen_px.y}; }
 
     /// Angles from the middle of the screen to the middle of the image, to the right and up.

@@ -30,6 +30,8 @@ inline constexpr std::array stimulus_lists{
     StimulusList{"light", "lights", &Stimulus::light, false, true, false, "Under which light it was shown"},
     StimulusList{"motion", "motions", &Stimulus::motion, true, true, false, "In which motion it was shown"},
     StimulusList{"view", "views", &Stimulus::view, true, true, false, "In which view it was shown"},
+    StimulusList{"background", "backgrounds", &Stimulus::background, false, true, false,
+                 "Before which background it was shown"},
 };
 static_assert(stimulus_lists.size() * sizeof(int) == sizeof(Stimulus), "each index is one of a list");
 

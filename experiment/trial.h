@@ -9,14 +9,16 @@
 
 namespace overt {
 
-/// What the observer looks at: an object in a material, under a light, in a motion, in a view. Indices into
-/// the protocol's lists.
+/// What the observer looks at: an object in a material, under a light, in a motion, in a view, before a
+/// background. Indices into the protocol's lists. What is made of a stimulus for a slot whose image has
+/// another size than the first slot's has a view beyond the list: see Protocol::in_slot.
 struct Stimulus {
     int object = 0;
     int material = 0;
     int light = 0;
     int motion = 0;
     int view = 0;
+    int background = 0;
     friend constexpr auto operator<=>(const Stimulus&, const Stimulus&) = default;
 };
 

@@ -47,10 +47,9 @@ class Plans {
         const std::optional<Known> known = known_of(trial);
         if (!known)
             return std::nullopt;
-        const Stimulus& stimulus = known->stimulus;
-        const std::size_t object = scene_.index_of(stimulus);
+        const std::size_t object = scene_.index_of(known->shown);
         const std::optional<std::size_t> own = areas_[object].find(area);
-        const GazePlan plan = gaze_plan(scene_, seed, known->task, stimulus);
+        const GazePlan plan = gaze_plan(scene_, seed, known->task, known->shown.stimulus);
         double elsewhere = 1.0, spots = 0.0;
         for (int i = 0; i < plan.spot_count; ++i) {
             const GazePlan::Spot& spot = plan.spots[static_cast<std::size_t>(i)];
@@ -67,16 +66,16 @@ class Plans {
     std::vector<glm::dvec3> meant_places(const StudyTrial& trial, std::uint64_t seed, int repeats) const {
         std::vector<glm::dvec3> places;
         const std::optional<Known> known = known_of(trial);
-        const GazeTargets* const targets = known ? targets_[scene_.index_of(known->stimulus)].get() : nullptr;
+        const GazeTargets* const targets = known ? targets_[scene_.index_of(known->shown)].get() : nullptr;
         if (!targets)
             return places;
+        const Stimulus& stimulus = known->shown.stimulus;
         GazeScript script(scene_, observer_);
-        const SessionDuration end = from_seconds(scene_.animation_of(known->stimulus.motion).duration_s);
+        const SessionDuration end = from_seconds(scene_.animation_of(stimulus.motion).duration_s);
         for (int repeat = 0; repeat < repeats; ++repeat) {
-            script.compose(scene_, targets, turns_[static_cast<std::size_t>(known->stimulus.motion)],
-                           observer_,
+            script.compose(scene_, targets, turns_[static_cast<std::size_t>(stimulus.motion)], observer_,
                            RandomStream(seed, "meant places", static_cast<std::uint64_t>(repeat)).next_bits(),
-                           trial.number, gaze_plan(scene_, seed, known->task, known->stimulus));
+                           trial.number, gaze_plan(scene_, seed, known->task, stimulus));
             // The first was under way at the onset.
             for (const ScriptedFixation& fixation : script.fixations())
                 if (fixation.target && fixation.begin > SessionDuration{} && fixation.begin < end)
@@ -88,15 +87,21 @@ class Plans {
   private:
     struct Known {
         int task = 0;
-        Stimulus stimulus;
+        PlacedStimulus shown;
     };
     std::optional<Known> known_of(const StudyTrial& trial) const {
-        const Known known{number_of(trial.key("task"), protocol_->tasks),
-                          {number_of(trial.key("object"), protocol_->objects),
-                           number_of(trial.key("material"), protocol_->materials)}};
-        if (known.task < 0 || known.stimulus.object < 0 || known.stimulus.material < 0)
-            return std::nullopt;
-        return known;
+        Known known{number_of(trial.key("task"), protocol_->tasks), {}};
+        for (std::size_t list = 0; list < stimulus_lists.size(); ++list) {
+            const std::vector<std::string_view> ids = ids_in_list(*protocol_, list);
+            const std::string& id = trial.key(std::string(stimulus_lists[list].name));
+            const auto found = std::ranges::find(ids, id);
+            if (found == ids.end() && (ids.size() > 1 || !id.empty()))
+                return std::nullopt;
+            if (found != ids.end())
+                known.shown.stimulus.*stimulus_lists[list].index = static_cast<int>(found - ids.begin());
+        }
+        known.shown.slot = std::max(0, number_of(trial.key("slot"), protocol_->slots));
+        return known.task < 0 ? std::nullopt : std::optional(known);
     }
 
     const Protocol* protocol_;

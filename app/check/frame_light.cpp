@@ -20,7 +20,7 @@ std::vector<StimulusLight> measure_light(const Experiment& experiment) {
     StimulusLibrary library(*context, protocol, experiment.objects, cache_folder());
     ProgressBar bar;
     std::vector<StimulusLight> stimuli;
-    const std::vector<Stimulus> shown = all_stimuli(protocol);
+    const std::vector<Stimulus> shown = stimuli_in_slots(protocol);
     const int count = static_cast<int>(shown.size());
     // What a session would show; where it would be refused, the best that there is.
     if (const std::optional<FrameQuality> quality = library.quality_of_session(protocol.bake.least())) {
@@ -39,7 +39,7 @@ std::vector<StimulusLight> measure_light(const Experiment& experiment) {
             1 + static_cast<std::size_t>(*std::max_element(pages.begin(), pages.end())));
         parallel_for(static_cast<int>(counts.size()), [&](int page) {
             counts[static_cast<std::size_t>(page)] =
-                count_clipped(library.page(stimulus, page), protocol.display.background);
+                count_clipped(library.object_on_page(stimulus, page), protocol.display.background);
         });
         for (const ClippedPixels& page : counts) {
             light.clipped += page;

@@ -43,7 +43,7 @@ void make_light(StimulusLibrary& library, const Progress& show) {
 
 /// Of all stimuli: the session keeps them for looking at.
 void make_first_frames(StimulusLibrary& library) {
-    for (const Stimulus& stimulus : all_stimuli(library.cache().protocol()))
+    for (const Stimulus& stimulus : stimuli_in_slots(library.cache().protocol()))
         library.first_frame_file(stimulus);
 }
 

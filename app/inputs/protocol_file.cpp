@@ -57,7 +57,7 @@ Observer observer_labelled(const std::string& label) {
 
 Stimulus stimulus_called(const Protocol& protocol, const std::string& name) {
     std::vector<std::string> names;
-    for (const Stimulus& stimulus : all_stimuli(protocol)) {
+    for (const Stimulus& stimulus : stimuli_in_slots(protocol)) {
         names.push_back(stimulus_name(protocol, stimulus));
         // The first of those that begin so has the first entries of what is left out.
         const bool has_material = name.find('/') != std::string::npos;

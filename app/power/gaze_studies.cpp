@@ -165,8 +165,8 @@ std::vector<GazeStudies::LookedAt> GazeStudies::shows_of(const Trial& trial, std
         LookedAt show{places, begin, end, {}, {}};
         for (const int place : places) {
             const auto [stimulus, slot] = trial.shown(static_cast<std::size_t>(place));
-            show.shown.push_back({targets_[scene_.index_of(stimulus)].get(), scene_.screen_of_slot(slot),
-                                  gaze_plan(planned, seed, trial.task, stimulus),
+            show.shown.push_back({targets_[scene_.index_of({stimulus, slot})].get(),
+                                  scene_.screen_of_slot(slot), gaze_plan(planned, seed, trial.task, stimulus),
                                   &turns_[static_cast<std::size_t>(stimulus.motion)], slot});
         }
         script.compose(scene_, show.shown, observer_, seed,
@@ -197,7 +197,7 @@ std::vector<GazeStudies::LookedAt> GazeStudies::shows_of(const Trial& trial, std
 void GazeStudies::add_presentation(const Trial& trial, int place, std::uint64_t seed,
                                    const std::vector<LookedAt>& shows, StudyResults& results) const {
     const Trial seen = trial.only({place});
-    const std::size_t object = scene_.index_of(seen.stimulus);
+    const std::size_t object = scene_.index_of(seen.shown(0));
     StudyTrial shown;
     shown.session = static_cast<int>(results.sessions.size()) - 1;
     shown.object = static_cast<int>(object);

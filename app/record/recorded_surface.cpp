@@ -80,8 +80,8 @@ void RecordedSurfaces::load_maps(Surface& surface, const ViewedObject& viewed) c
     surface.mesh = recorded_mesh(mesh_file);
     if (hash_of_mesh(surface.mesh) != recorded.mesh_sha256)
         throw not_as_recorded(mesh_file, "mesh");
-    SceneView scene{{recorded.camera(viewed.view), header.display.screen.image_px}, surface.mesh.bounds()};
-    const glm::ivec2 image_px = header.display.screen.image_px;
+    const glm::ivec2 image_px = header.screen_of_view(viewed.view).image_px;
+    SceneView scene{{recorded.camera(viewed.view), image_px}, surface.mesh.bounds()};
     const std::size_t pixels = static_cast<std::size_t>(image_px.x) * static_cast<std::size_t>(image_px.y);
     const auto maps = maps_of(header, viewed, RecordedMap::Kind::triangles);
     surface.maps = std::make_unique<CoordinateMaps>(
@@ -107,7 +107,7 @@ void RecordedSurfaces::load_images(Surface& surface, const ViewedObject& viewed)
             const RecordedMap* const map = maps[static_cast<std::size_t>(pose.value)];
             return map ? read_coordinate_image(sound_file(*record_, *map)) : CoordinateImageFile{};
         },
-        header.display.screen.image_px);
+        header.screen_of_view(viewed.view).image_px);
 }
 
 } // namespace overt

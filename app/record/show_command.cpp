@@ -218,14 +218,14 @@ double kernel_sigma(const SessionHeader& header, const Stimulus& stimulus) {
     const double depth = glm::distance(camera.position, recorded.bounds.centre());
     const double image_height = 2.0 * depth * std::tan(0.5 * to_radians(camera.vertical_fov).value);
     return 0.5 * header.display.screen.px_per_deg_at_centre() * image_height /
-           header.display.screen.image_px.y;
+           header.screen_of_view(stimulus.view).image_px.y;
 }
 
 void write_picture(const SessionRecord& record, const TrialRecord& trial, const std::filesystem::path& file) {
     const SessionHeader& header = record.header();
     const int object = trial.trial.stimulus.object;
     RecordedSurfaces surfaces(record);
-    const SurfaceLookup* surface = surfaces.lookup_of(viewed(trial.trial.stimulus));
+    const SurfaceLookup* surface = surfaces.lookup_of(viewed_in(header, trial.trial));
     if (!surface)
         throw InputError(fmt::format("object \"{}\" has no map: there is no surface to show gaze on",
                                      header.objects[static_cast<std::size_t>(object)].id));
@@ -236,7 +236,7 @@ void write_picture(const SessionRecord& record, const TrialRecord& trial, const 
         if (joined.sight.surface)
             gaze.push_back(joined.sight.surface->position);
     }
-    const Stimulus stimulus = trial.trial.stimulus;
+    const Stimulus stimulus = header.in_slot(trial.trial.shown(0));
     TrialPictureContent content;
     content.surface = surface;
     content.bounds = header.objects[static_cast<std::size_t>(object)].bounds;

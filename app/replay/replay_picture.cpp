@@ -55,7 +55,7 @@ class TrialPictures {
         const std::string why_not = stimuli_.prepare(record, experiment_.protocol);
         if (!why_not.empty())
             throw InputError(why_not);
-        const Stimulus& stimulus = trial_.trial.stimulus;
+        const Stimulus stimulus = record.header().in_slot(trial_.trial.shown(0));
         pages_ = stimuli_.library().page_of_frame(stimulus);
         for (const RecordedStimulus& recorded : record.header().stimuli)
             if (recorded.stimulus == stimulus &&
@@ -68,12 +68,12 @@ class TrialPictures {
 
     const ShownFrames& frames() const { return frames_; }
     const TrialRecord& trial() const { return trial_; }
+    glm::ivec2 image_px() const { return record_.header().screen_of_slot(trial_.trial.slot).image_px; }
 
     LinearImage draw(const ShownFrame& shown) const {
-        const ScreenGeometry& screen = record_.header().display.screen;
-        LinearImage frame(screen.image_px);
+        LinearImage frame(image_px());
         if (shown.lit)
-            frame = stimuli_.library().page(trial_.trial.stimulus,
+            frame = stimuli_.library().page(record_.header().in_slot(trial_.trial.shown(0)),
                                             pages_[static_cast<std::size_t>(shown.lit->frame.value)]);
         return with_gaze(frame, shown, record_.header().display.background);
     }
@@ -84,7 +84,7 @@ class TrialPictures {
         if (record.header().stimuli.empty())
             throw InputError(fmt::format("{}: this session was imported: the program has no frames of it",
                                          record.directory().string()));
-        return surfaces.lookup_of(viewed(trial.trial.stimulus));
+        return surfaces.lookup_of(viewed_in(record.header(), trial.trial));
     }
 
     const SessionRecord& record_;
@@ -178,8 +178,7 @@ int draw_movie(const SessionRecord& record, const ReplayOptions& options) {
     require_room_for(options.movie, options.overwrite);
     const TrialPictures pictures(record, options);
     const ShownFrames& frames = pictures.frames();
-    MovieFile movie(options.movie, record.header().display.screen.image_px, frames.rate_hz(),
-                    options.overwrite);
+    MovieFile movie(options.movie, pictures.image_px(), frames.rate_hz(), options.overwrite);
     ProgressBar bar;
     auto told = nlohmann::ordered_json::array();
     for (int number = 1; number <= frames.count(); ++number) {

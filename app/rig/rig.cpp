@@ -115,14 +115,14 @@ void Rig::open(SimulatedFaults faults, SessionTime start) {
     display_.start(faults, start);
     const ScreenGeometry geometry = screen_geometry_of(*protocol_);
     if (!request_.draws_stimuli)
-        undrawn_ = std::make_unique<UndrawnFrames>(library_, geometry.image_px);
+        undrawn_ = std::make_unique<UndrawnFrames>(library_, *protocol_);
     const FrameSource& frames = undrawn_ ? static_cast<const FrameSource&>(*undrawn_) : library_;
     presenter_ =
         std::make_unique<PagePresenter>(display_.context(), display_.surface(), frames, geometry,
                                         protocol_->display, protocol_->screens, slot_places(*protocol_));
     if (maps_are_live())
-        live_maps_ = std::make_unique<LiveMaps>(display_.context(), objects_, library_.cache().poses(),
-                                                geometry.image_px, protocol_->slots.size());
+        live_maps_ =
+            std::make_unique<LiveMaps>(display_.context(), *protocol_, objects_, library_.cache().poses());
     simulated_answers_ = std::make_unique<SimulatedAnswers>(*protocol_, request_.seed);
     observer_ = std::make_unique<SimulatedObserver>(make_observed_scene(*protocol_, objects_, geometry),
                                                     request_.seed);

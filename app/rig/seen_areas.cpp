@@ -42,7 +42,7 @@ SeenAreas::SeenAreas(const Protocol& protocol, std::span<const Object> objects, 
     : protocol_(&protocol), objects_(objects), poses_(&poses) {}
 
 std::shared_ptr<const AreaView> SeenAreas::area_of(const PlacedStimulus& placed, const std::string& area) {
-    const Stimulus& stimulus = placed.stimulus;
+    const Stimulus stimulus = protocol_->in_slot(placed);
     const auto [made, is_new] = made_.try_emplace({stimulus, placed.slot, area});
     if (!is_new)
         return made->second;

@@ -1,6 +1,7 @@
 /// Stand-ins for the stimuli of a session that nobody sees.
 #pragma once
 
+#include "experiment/protocol/protocol.h"
 #include "render/presenter/frame_store.h"
 
 namespace overt {
@@ -10,17 +11,22 @@ namespace overt {
 /// encoding them would take nine tenths of such a session.
 class UndrawnFrames final : public FrameSource {
   public:
-    /// `frames` must outlive this; it tells how many there are.
-    UndrawnFrames(const FrameSource& frames, glm::ivec2 image_px) : frames_(&frames), picture_(image_px) {}
+    /// Both must outlive this; `frames` tells how many there are.
+    UndrawnFrames(const FrameSource& frames, const Protocol& protocol)
+        : frames_(&frames), protocol_(&protocol) {}
 
+    Stimulus in_slot(const PlacedStimulus& placed) const override { return frames_->in_slot(placed); }
     std::vector<int> page_of_frame(const Stimulus& stimulus) const override {
         return std::vector<int>(frames_->page_of_frame(stimulus).size(), 0);
     }
-    LinearImage page(const Stimulus&, int) const override { return picture_; }
+    LinearImage page(const Stimulus& stimulus, int) const override {
+        const ViewSettings& view = protocol_->view_of(stimulus);
+        return LinearImage({view.width_px, view.height_px}); // transparent
+    }
 
   private:
     const FrameSource* frames_;
-    LinearImage picture_; ///< transparent
+    const Protocol* protocol_;
 };
 
 } // namespace overt

@@ -25,7 +25,7 @@ void copy_into(const std::filesystem::path& from, const std::filesystem::path& t
         throw RecordError(fmt::format("{}: cannot be written: {}", to.string(), error.message()));
 }
 
-/// Of an object in one of so many views.
+/// Of an object in one of so many views, at each size that slots have.
 std::string map_name(const std::string& object, const ViewedObject& viewed, std::size_t views,
                      PoseIndex pose) {
     const std::string view = views > 1 ? fmt::format("view_{}/", viewed.view + 1) : "";
@@ -58,8 +58,8 @@ void describe_objects(SessionHeader& header, const Protocol& protocol, std::span
         recorded.unit = unit_of_lengths(protocol.objects[i]);
         recorded.origin = object.origin;
         const bool has_given_maps = library.cache().has_given_maps(static_cast<int>(i));
-        recorded.cameras.resize(protocol.views.size());
-        for (std::size_t view = 0; view < protocol.views.size(); ++view) {
+        recorded.cameras.resize(protocol.views_at_all_sizes());
+        for (std::size_t view = 0; view < recorded.cameras.size(); ++view) {
             const ViewedObject viewed{static_cast<int>(i), static_cast<int>(view)};
             if (!object.has_mesh() && !has_given_maps)
                 continue;
@@ -150,7 +150,7 @@ SessionHeader make_session_header(const Protocol& protocol, const Schedule& sche
     header.poses = library.cache().poses();
     for (const Task& task : protocol.tasks)
         header.tasks.push_back({task.id, task.question});
-    for (const Stimulus& stimulus : all_stimuli(protocol))
+    for (const Stimulus& stimulus : stimuli_in_slots(protocol))
         header.stimuli.push_back(
             {stimulus, library.source_of(stimulus), {}, library.made_from_hash(stimulus)});
     describe_objects(header, protocol, objects, library, with_prepared_maps);

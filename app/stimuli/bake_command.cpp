@@ -55,8 +55,9 @@ std::vector<Stimulus> stimuli_asked_for(const BakeOptions& options, const Protoc
         if (library.cache().is_ready_made(stimulus))
             throw InputError(fmt::format(
                 "--stimulus {}: the protocol gives its [[frames]]; there is nothing to bake", name));
-        if (std::find(stimuli.begin(), stimuli.end(), stimulus) == stimuli.end())
-            stimuli.push_back(stimulus);
+        for (const Stimulus& sized : at_all_sizes(protocol, stimulus))
+            if (std::find(stimuli.begin(), stimuli.end(), sized) == stimuli.end())
+                stimuli.push_back(sized);
     }
     if (stimuli.empty())
         stimuli = library.cache().rendered_stimuli();

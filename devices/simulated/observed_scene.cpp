@@ -27,7 +27,7 @@ ObservedScene make_observed_scene(const Protocol& protocol, std::span<const Obje
     ObservedScene scene;
     scene.screen = screen;
     scene.animations.assign(protocol.motions.begin(), protocol.motions.end());
-    scene.views = static_cast<int>(protocol.views.size());
+    scene.views = static_cast<int>(protocol.views_at_all_sizes());
     scene.refresh_hz = protocol.display.refresh_hz;
     scene.display_latency = from_seconds(1e-3 * protocol.display.latency_ms);
     for (const Object& object : objects) {
@@ -59,8 +59,10 @@ ObservedScene make_observed_scene(const Protocol& protocol, std::span<const Obje
                                  effect.spread});
     }
     if (!protocol.slot_entries.empty())
-        for (const Slot& slot : protocol.slots)
+        for (const Slot& slot : protocol.slots) {
             scene.slots.push_back(slot_geometry(protocol, slot));
+            scene.slot_views.push_back(slot.size * static_cast<int>(protocol.views.size()));
+        }
     for (const Task& task : protocol.tasks)
         for (const StepSettings& step : task.steps)
             if (step.kind == StepKind::show && (step.duration || step.ends_by_answer))

@@ -55,14 +55,15 @@ struct ObservedScene {
     ScreenGeometry screen;
     std::vector<Animation> animations = std::vector<Animation>(1); ///< by Stimulus::motion
     double refresh_hz = 120.0;
-    SessionDuration display_latency{};   ///< from vertical blank to the first row's light
-    std::vector<ObservedObject> objects; ///< see index_of(): each object in each view
-    int views = 1;
+    SessionDuration display_latency{};                      ///< from vertical blank to the first row's light
+    std::vector<ObservedObject> objects;                    ///< see index_of(): each object in each view
+    int views = 1;                                          ///< at all sizes that slots have
     std::vector<std::string> areas{std::string(head_area)}; ///< that gaze is meant for, without overlap
     std::vector<ObservedTask> tasks;                        ///< by Trial::task
     std::vector<ObservedEffect> effects = {};
     double share_sd = 0.0;                  ///< of the logit of each area's share, over observers
     std::vector<ScreenGeometry> slots = {}; ///< the screen with each slot's image; none: `screen` alone
+    std::vector<int> slot_views = {};       ///< by slot: from which view on are those of its size; none: 0
     double longest_step_s = 0.0; ///< of the steps of tasks that show something for a time of their own
 
     const ScreenGeometry& screen_of_slot(int slot) const {
@@ -79,10 +80,12 @@ struct ObservedScene {
     const Animation& animation_of(int motion) const { return animations[static_cast<std::size_t>(motion)]; }
     /// Of the longest show that there is.
     double longest_s() const;
-    /// Where `objects` has what is seen of a stimulus.
-    std::size_t index_of(const Stimulus& stimulus) const {
-        return static_cast<std::size_t>(stimulus.object) * static_cast<std::size_t>(views) +
-               static_cast<std::size_t>(stimulus.view);
+    /// Where `objects` has what is seen of a stimulus in its slot.
+    std::size_t index_of(const PlacedStimulus& shown) const {
+        const auto slot = static_cast<std::size_t>(shown.slot);
+        const int view = shown.stimulus.view + (slot < slot_views.size() ? slot_views[slot] : 0);
+        return static_cast<std::size_t>(shown.stimulus.object) * static_cast<std::size_t>(views) +
+               static_cast<std::size_t>(view);
     }
 };
 

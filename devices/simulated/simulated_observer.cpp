@@ -71,8 +71,9 @@ void SimulatedObserver::presentation_begins(const Trial& trial, int show) noexce
         const auto [stimulus, slot] = trial.shown(i);
         GazePlan plan = gaze_plan(scene_, seed_, trial.task, stimulus);
         favour_area(plan, favour);
-        presentation.shown.push_back({targets_[scene_.index_of(stimulus)].get(), scene_.screen_of_slot(slot),
-                                      plan, &motions_[static_cast<std::size_t>(stimulus.motion)].turn, slot,
+        presentation.shown.push_back({targets_[scene_.index_of({stimulus, slot})].get(),
+                                      scene_.screen_of_slot(slot), plan,
+                                      &motions_[static_cast<std::size_t>(stimulus.motion)].turn, slot,
                                       weight_of(slot, favour, count)});
     }
     presentation.script.compose(scene_, presentation.shown, settings_, seed_,

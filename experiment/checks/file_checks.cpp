@@ -48,6 +48,12 @@ void check_files(ProtocolExamination& examination) {
                               fmt::format("there is no file {}", light.probe),
                               remedy + "; \"gallery\" and \"overcast\" need none");
     }
+    for (std::size_t i = 0; i < protocol.backgrounds.size(); ++i) {
+        const std::string& picture = protocol.backgrounds[i].picture;
+        if (!picture.empty() && !is_file(picture))
+            examination.error({fmt::format("background[{}].picture", i)},
+                              fmt::format("there is no file {}", picture), remedy);
+    }
     for (std::size_t i = 0; i < protocol.objects.size(); ++i) {
         const ObjectSettings& object = protocol.objects[i];
         for (const auto& [key, file] :

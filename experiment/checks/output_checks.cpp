@@ -204,15 +204,14 @@ void check_tags(ProtocolExamination& examination) {
     }
     const ScreenGeometry geometry = screen_geometry_of(protocol);
     const std::optional<PatchPlace> patch = photodiode_patch_of(display);
-    std::vector<glm::ivec2> images_px = slot_places(protocol);
-    if (images_px.empty())
-        images_px.push_back(geometry.image_origin_px);
-    const std::vector<TagPlace> tags = gaze_tags_of(geometry, display, images_px);
+    std::vector<ImageBox> images = slot_places(protocol);
+    if (images.empty())
+        images.push_back(geometry.image_box());
+    const std::vector<TagPlace> tags = gaze_tags_of(geometry, display, images);
     for (const TagPlace& tag : tags) {
         const auto place = fmt::format("the tag in columns {} to {} and rows {} to {}", tag.origin_px.x,
                                        tag.end_px().x - 1, tag.origin_px.y, tag.end_px().y - 1);
-        if (std::ranges::any_of(images_px,
-                                [&](glm::ivec2 image) { return touches(tag, image, geometry.image_px); })) {
+        if (std::ranges::any_of(images, [&](const ImageBox& image) { return touches(tag, image); })) {
             examination.error({"display.tags_px"},
                               fmt::format("{} is closer than {} px to the stimulus", place, tag_distance_px),
                               "take smaller tags or a smaller stimulus");

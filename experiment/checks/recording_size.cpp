@@ -51,17 +51,21 @@ RecordingSize recording_size(const Protocol& protocol, std::span<const Object> o
     double mapped = 0.0;
     for (std::size_t i = 0; i < objects.size(); ++i)
         mapped += objects[i].has_mesh() || (i < protocol.objects.size() && !protocol.objects[i].lut.empty());
-    const ViewSettings& view = protocol.views.front(); // of one size in all views
-    const auto views = static_cast<double>(protocol.views.size());
-    const double picture_bytes = bytes_per_px * view.width_px * view.height_px;
+    // One picture, and one of its light, in each view at each size that slots have.
+    double picture_bytes = 0.0, light_bytes = 0.0;
+    for (std::size_t i = 0; i < protocol.views_at_all_sizes(); ++i) {
+        const ViewSettings& view = protocol.view_at(static_cast<int>(i));
+        const glm::ivec2 image_px(view.width_px, view.height_px);
+        const LightPictures light{.image_px = image_px, .square_px = light_square_px(image_px)};
+        picture_bytes += bytes_per_px * image_px.x * image_px.y;
+        light_bytes += bytes_per_px * static_cast<double>(light.squares());
+    }
     RecordingSize size;
     // SQLite's log holds a trial's rows until they are in the file.
     size.rows = records * bytes_at_first + (trials + 1) * trial_bytes;
-    size.maps = picture_bytes * mapped * views * poses_of(protocol).count();
-    const glm::ivec2 image_px(view.width_px, view.height_px);
-    const LightPictures light{.image_px = image_px, .square_px = light_square_px(image_px)};
-    const auto per_object = static_cast<double>(protocol.materials.size() * protocol.lights.size()) * views;
-    const double light_bytes = bytes_per_px * static_cast<double>(light.squares());
+    size.maps = picture_bytes * mapped * poses_of(protocol).count();
+    const auto per_object =
+        static_cast<double>(protocol.materials.size() * protocol.lights.size() * protocol.backgrounds.size());
     for (const Animation& motion : protocol.motions)
         size.pictures += per_object * (picture_bytes * object_count +
                                        light_bytes * mapped * static_cast<double>(motion.pictures().size()));

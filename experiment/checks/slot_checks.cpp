@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -107,6 +108,25 @@ void check_slot_place(ProtocolExamination& examination, const Slot& slot) {
               "take another corner for the square, or a smaller photodiode_px");
 }
 
+/// What another program has drawn has one size.
+void check_one_size(ProtocolExamination& examination) {
+    const Protocol& protocol = examination.protocol;
+    const auto other = std::ranges::find_if(protocol.slots, [](const Slot& slot) { return slot.size > 0; });
+    if (other == protocol.slots.end())
+        return;
+    const auto error = [&](const std::string& path, std::string_view what) {
+        examination.error({path},
+                          fmt::format("{} are of one size, and slots \"{}\" and \"{}\" are not", what,
+                                      protocol.slots.front().id, other->id),
+                          "give all slots one size, or have overt draw the stimuli");
+    };
+    if (!protocol.frames.empty())
+        error("frames[0]", "ready-made frames");
+    for (std::size_t i = 0; i < protocol.objects.size(); ++i)
+        if (!protocol.objects[i].lut.empty())
+            error(fmt::format("object[{}].lut", i), "ready-made maps");
+}
+
 void check_slots_of_task(ProtocolExamination& examination, std::size_t index) {
     const Protocol& protocol = examination.protocol;
     const Task& task = protocol.tasks[index];
@@ -177,28 +197,20 @@ void check_slots(ProtocolExamination& examination) {
     for (std::size_t i = 0; i < protocol.slot_entries.size(); ++i)
         are_places[i] = check_slot_entry(examination, i);
     bool are_all_places = true;
-    const glm::ivec2 size = slot_geometry(protocol, protocol.slots.front()).image_px;
     for (const Slot& slot : protocol.slots) {
         if (slot.entry < 0)
             continue;
         const auto entry = static_cast<std::size_t>(slot.entry);
         const int errors = examination.diagnostics().error_count();
-        const glm::ivec2 own_size = slot_geometry(protocol, slot).image_px;
         if (are_places[entry])
             check_slot_place(examination, slot);
-        if (are_places[entry] && own_size != size)
-            examination.error(
-                {slot_path(entry, "size_deg"), slot_path(entry, "width_deg"), slot_path(entry, "height_deg"),
-                 slot_path(entry, "id")},
-                fmt::format(
-                    "slot \"{}\" is {} x {} px large, slot \"{}\" {} x {} px: all slots are of one size",
-                    slot.id, own_size.x, own_size.y, protocol.slots.front().id, size.x, size.y));
         if (examination.diagnostics().error_count() > errors)
             are_places[entry] = false; // its further places would say the same again
         are_all_places = are_all_places && are_places[entry];
     }
     for (std::size_t i = 0; i < protocol.tasks.size() && are_all_places; ++i)
         check_slots_of_task(examination, i);
+    check_one_size(examination);
 }
 
 void check_slot_memory(ProtocolExamination& examination) {

@@ -22,6 +22,28 @@ std::vector<Stimulus> all_stimuli(const Protocol& protocol) {
     return stimuli;
 }
 
+std::vector<Stimulus> at_all_sizes(const Protocol& protocol, const Stimulus& stimulus) {
+    std::vector<Stimulus> all;
+    const auto views = static_cast<int>(protocol.views.size());
+    for (int view = stimulus.view; view < static_cast<int>(protocol.views_at_all_sizes()); view += views) {
+        all.push_back(stimulus);
+        all.back().view = view;
+    }
+    return all;
+}
+
+std::vector<Stimulus> stimuli_in_slots(const Protocol& protocol) {
+    std::vector<Stimulus> all = all_stimuli(protocol);
+    const std::vector<Stimulus> first = all;
+    const auto views = static_cast<int>(protocol.views.size());
+    for (int more = views; more < static_cast<int>(protocol.views_at_all_sizes()); more += views)
+        for (Stimulus stimulus : first) {
+            stimulus.view += more;
+            all.push_back(stimulus);
+        }
+    return all;
+}
+
 Stimulus stimulus_of(const Protocol& protocol, const FrameSequenceSettings& frames) {
     const std::vector<Stimulus> stimuli = all_stimuli(protocol);
     const auto found = std::ranges::find_if(
@@ -49,7 +71,7 @@ std::vector<PageCycle> page_cycles(const Protocol& protocol) {
 std::vector<ViewedObject> all_viewed_objects(const Protocol& protocol) {
     std::vector<ViewedObject> all;
     for (int object = 0; object < static_cast<int>(protocol.objects.size()); ++object) {
-        for (int view = 0; view < static_cast<int>(protocol.views.size()); ++view)
+        for (int view = 0; view < static_cast<int>(protocol.views_at_all_sizes()); ++view)
             all.push_back({object, view});
     }
     return all;
@@ -61,6 +83,13 @@ bool is_named(std::size_t list, std::size_t entries) {
 
 namespace {
 
+/// The first slot with the size of a view, if it is not the first size.
+std::string slot_of_size(const Protocol& protocol, int view) {
+    const int size = view / static_cast<int>(protocol.views.size());
+    const auto slot = std::ranges::find(protocol.slots, size, &Slot::size);
+    return size == 0 || slot == protocol.slots.end() ? "" : slot->id;
+}
+
 std::string joined(const Protocol& protocol, const Stimulus& stimulus, std::string ListEntry::*what,
                    std::string_view between) {
     std::string name;
@@ -70,8 +99,13 @@ std::string joined(const Protocol& protocol, const Stimulus& stimulus, std::stri
             continue;
         if (!name.empty())
             name += between;
-        name += entries[static_cast<std::size_t>(stimulus.*stimulus_lists[list].index)]->*what;
+        // Views count on with the sizes of slots.
+        name +=
+            entries[static_cast<std::size_t>(stimulus.*stimulus_lists[list].index) % entries.size()]->*what;
     }
+    const std::string slot = slot_of_size(protocol, stimulus.view);
+    if (!slot.empty())
+        name.append(between).append(slot);
     return name;
 }
 
@@ -90,14 +124,15 @@ std::string stimulus_title(const Protocol& protocol, const Stimulus& stimulus) {
 }
 
 std::string section_of_view(const Protocol& protocol, int view) {
-    return protocol.views.size() > 1 ? "[[view]] " + protocol.views[static_cast<std::size_t>(view)].id
-                                     : "[view]";
+    return protocol.views.size() > 1 ? "[[view]] " + protocol.view_at(view).id : "[view]";
 }
 
 std::string viewed_name(const Protocol& protocol, const ViewedObject& viewed, char between) {
     std::string name = protocol.objects[static_cast<std::size_t>(viewed.object)].id;
     if (protocol.views.size() > 1)
-        name += between + protocol.views[static_cast<std::size_t>(viewed.view)].id;
+        name += between + protocol.view_at(viewed.view).id;
+    if (const std::string slot = slot_of_size(protocol, viewed.view); !slot.empty())
+        name += between + slot;
     return name;
 }
 

@@ -226,6 +226,16 @@ struct LightSettings : ListEntry {
     double rotation_deg = 0.0; ///< turns the probe about the vertical
 };
 
+/// [[background]]: what the image of the stimulus shows where the object does not. [background] is the only
+/// one. One of the three; none: the display's background.
+struct BackgroundSettings : ListEntry {
+    std::optional<double> grey;       ///< linear, 0 … 1 of the display's white
+    std::optional<glm::dvec3> colour; ///< the display's own red, green and blue, linear, 0 … 1
+    /// A picture, linear (EXR, HDR) or sRGB, of Rec. 709 colours of which white is the display's, resolved
+    /// against the protocol's folder; as large as it must be to cover the image, about its middle.
+    std::string picture;
+};
+
 /// [[motion]]: how an object turns. [animation] is the only one.
 struct MotionSettings : ListEntry, Animation {};
 
@@ -371,12 +381,16 @@ struct Protocol {
     std::vector<SimulatedEffect> simulated_effects;
     BreakSettings breaks;
     RepeatSettings repeat;
-    // A stimulus is an entry of each. There is always a light, a motion and a view.
+    // A stimulus is an entry of each. There is always a light, a motion, a view and a background.
     std::vector<ObjectSettings> objects;
     std::vector<MaterialSettings> materials;
     std::vector<LightSettings> lights = std::vector<LightSettings>(1);
     std::vector<MotionSettings> motions = std::vector<MotionSettings>(1);
     std::vector<ViewSettings> views = std::vector<ViewSettings>(1);
+    std::vector<BackgroundSettings> backgrounds = std::vector<BackgroundSettings>(1);
+    /// For each further size that slots have (Slot::size), in their order: all views, of that size. What is
+    /// drawn for such a slot counts its views on from those of the list.
+    std::vector<ViewSettings> views_in_slots;
     std::vector<FrameSequenceSettings> frames;
     std::vector<PointListSettings> point_lists; ///< of places on the surfaces
     std::vector<TrialTable> trial_tables;       ///< of the tasks that name one
@@ -395,8 +409,24 @@ struct Protocol {
     const MotionSettings& motion_of(const Stimulus& of) const {
         return motions.at(static_cast<std::size_t>(of.motion));
     }
-    const ViewSettings& view_of(const Stimulus& of) const {
-        return views.at(static_cast<std::size_t>(of.view));
+    const ViewSettings& view_of(const Stimulus& of) const { return view_at(of.view); }
+    const BackgroundSettings& background_of(const Stimulus& of) const {
+        return backgrounds.at(static_cast<std::size_t>(of.background));
+    }
+
+    /// A view at each size that slots have: those of the list first, at the size of the first slot.
+    const ViewSettings& view_at(int view) const {
+        const auto at = static_cast<std::size_t>(view);
+        return at < views.size() ? views[at] : views_in_slots.at(at - views.size());
+    }
+    std::size_t views_at_all_sizes() const { return views.size() + views_in_slots.size(); }
+
+    /// The stimulus as its slot shows it: what frames, maps and cameras are found by. Slots of one size have
+    /// the same.
+    Stimulus in_slot(const PlacedStimulus& placed) const {
+        Stimulus shown = placed.stimulus;
+        shown.view += slots.at(static_cast<std::size_t>(placed.slot)).size * static_cast<int>(views.size());
+        return shown;
     }
 
     std::filesystem::path file;         ///< where it was read
@@ -406,8 +436,9 @@ struct Protocol {
 };
 
 /// Where the entries of each of `stimulus_lists` are, in their order.
-inline constexpr std::tuple entries_of_lists{&Protocol::objects, &Protocol::materials, &Protocol::lights,
-                                             &Protocol::motions, &Protocol::views};
+inline constexpr std::tuple entries_of_lists{&Protocol::objects, &Protocol::materials,
+                                             &Protocol::lights,  &Protocol::motions,
+                                             &Protocol::views,   &Protocol::backgrounds};
 static_assert(std::tuple_size_v<decltype(entries_of_lists)> == stimulus_lists.size());
 
 /// The entries of a list as what all lists' entries have in common; for as long as the protocol's lists stay

@@ -40,6 +40,15 @@ const KeyTable& protocol_keys() {
              "`[[light]]`.",
              {},
              "light"},
+            {"background",
+             &Protocol::backgrounds,
+             background(),
+             "What the image of the stimulus, or its slot, shows where the object does not: `grey`, `colour` "
+             "or `picture`, without any the grey of `[display]`, which is everywhere else on the screen. One "
+             "section `[background]`, or several, `[[background]]`, which are a factor like all lists. "
+             "Ready-made frames without alpha hide it.",
+             {},
+             "background"},
             {"bake", &Protocol::bake, bake(),
              "How stimuli are rendered that are not given as `[[frames]]`. `overt bake` does it, and keeps "
              "each frame; see [bake.md](bake.md)."},

@@ -91,7 +91,7 @@ void complete(Protocol& protocol) {
             sequence.files = (folder_of(protocol, fmt::format("frames[{}]", i)) / sequence.files).string();
     }
     protocol.slots = written_out(protocol.slot_entries);
-    fit_view_to_slots(protocol);
+    fit_views_to_slots(protocol);
     if (!protocol.display.characterisation_file.empty())
         protocol.display.characterisation_file =
             folder_of(protocol, "display.characterisation") / protocol.display.characterisation_file;
@@ -103,6 +103,11 @@ void complete(Protocol& protocol) {
         // What the observer turns has a frame for each pose.
         if (motion.kind == MotionKind::observer)
             motion.frame_count = std::clamp(motion.by_observer.pose_count(), 1, most_frames);
+    }
+    for (std::size_t i = 0; i < protocol.backgrounds.size(); ++i) {
+        std::string& picture = protocol.backgrounds[i].picture;
+        if (!picture.empty())
+            picture = (folder_of(protocol, fmt::format("background[{}].picture", i)) / picture).string();
     }
     for (std::size_t i = 0; i < protocol.lights.size(); ++i) {
         LightSettings& light = protocol.lights[i];

@@ -87,29 +87,47 @@ ScreenGeometry slot_geometry(const Protocol& protocol, const Slot& slot) {
     return geometry;
 }
 
-std::vector<glm::ivec2> slot_places(const Protocol& protocol) {
-    std::vector<glm::ivec2> places;
+std::vector<ImageBox> slot_places(const Protocol& protocol) {
+    std::vector<ImageBox> places;
     for (const Slot& slot : protocol.slots)
         if (slot.entry >= 0)
-            places.push_back(slot_geometry(protocol, slot).image_origin_px);
+            places.push_back(slot_geometry(protocol, slot).image_box());
     return places;
 }
 
-void fit_view_to_slots(Protocol& protocol) {
+namespace {
+
+ViewSettings at_size(ViewSettings view, glm::ivec2 size_px, const DisplaySettings& display) {
+    if (size_px == glm::ivec2(view.width_px, view.height_px))
+        return view;
+    if (view.camera_position && !view.vertical_fov_deg) {
+        const double height_mm = view.height_px * display.height_mm / display.height_px;
+        view.vertical_fov_deg =
+            to_degrees({2.0 * std::atan(0.5 * height_mm / display.viewing_distance_mm)}).value;
+    }
+    view.width_px = size_px.x;
+    view.height_px = size_px.y;
+    return view;
+}
+
+} // namespace
+
+void fit_views_to_slots(Protocol& protocol) {
     if (protocol.slots.front().entry < 0)
         return; // the only slot is made of the view
-    const glm::ivec2 size = slot_geometry(protocol, protocol.slots.front()).image_px;
-    for (ViewSettings& view : protocol.views) {
-        if (size == glm::ivec2(view.width_px, view.height_px))
-            continue;
-        if (view.camera_position && !view.vertical_fov_deg) {
-            const double height_mm = view.height_px * protocol.display.height_mm / protocol.display.height_px;
-            view.vertical_fov_deg =
-                to_degrees({2.0 * std::atan(0.5 * height_mm / protocol.display.viewing_distance_mm)}).value;
-        }
-        view.width_px = size.x;
-        view.height_px = size.y;
+    std::vector<glm::ivec2> sizes_px;
+    for (Slot& slot : protocol.slots) {
+        const glm::ivec2 size_px = slot_geometry(protocol, slot).image_px;
+        const auto known = std::ranges::find(sizes_px, size_px);
+        slot.size = static_cast<int>(known - sizes_px.begin());
+        if (known == sizes_px.end())
+            sizes_px.push_back(size_px);
     }
+    for (std::size_t size = 1; size < sizes_px.size(); ++size)
+        for (const ViewSettings& view : protocol.views)
+            protocol.views_in_slots.push_back(at_size(view, sizes_px[size], protocol.display));
+    for (ViewSettings& view : protocol.views)
+        view = at_size(view, sizes_px.front(), protocol.display);
 }
 
 ScreenPoint middle_of_slot(const Protocol& protocol, int slot) {

@@ -32,6 +32,7 @@ struct Slot {
     // What is left out is as [view] has it.
     std::optional<double> right_deg, up_deg, width_deg, height_deg;
     int entry = -1; ///< of the file's [[slot]]; none of the one that a protocol without them has
+    int size = 0;   ///< of its image, counted among the different ones of all slots
 };
 
 /// The places of all entries, in their order; of none, one "centre", where [view] has the stimulus.
@@ -41,13 +42,14 @@ std::vector<Slot> written_out(const std::vector<SlotSettings>& entries);
 /// even, since some outputs join pixels in pairs.
 ScreenGeometry slot_geometry(const Protocol& protocol, const Slot& slot);
 
-/// The top left pixel of each slot's image; none without [[slot]], where the only one is the image's.
-std::vector<glm::ivec2> slot_places(const Protocol& protocol);
+/// Where each slot's image stands; none without [[slot]], where the only one is the view's.
+std::vector<ImageBox> slot_places(const Protocol& protocol);
 
-/// Gives the images of [view] the size of the slots, which all have the same. Where the camera is fitted to
-/// an object, and where its field of view is written, the object takes the same share of the image as before;
-/// a camera whose place alone is written gets the field of view that it had.
-void fit_view_to_slots(Protocol& protocol);
+/// Counts the sizes that the slots' images have, and gives the views those sizes: the first to the views of
+/// the list, each further one to copies of them (Protocol::views_in_slots). Where the camera is fitted to an
+/// object, and where its field of view is written, the object takes the same share of the image as before; a
+/// camera whose place alone is written gets the field of view that it had.
+void fit_views_to_slots(Protocol& protocol);
 
 /// The middle of a slot's image on the screen. `slot`: index into the protocol's slots.
 ScreenPoint middle_of_slot(const Protocol& protocol, int slot);

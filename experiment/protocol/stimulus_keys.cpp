@@ -94,6 +94,22 @@ std::vector<Key> light() {
         true);
 }
 
+std::vector<Key> background() {
+    using B = BackgroundSettings;
+    return entry_keys<B>(
+        {
+            {"grey", &B::grey, range(0, 1).left_out("that of `[display] background`"),
+             "Linear grey, 1 being the display's white."},
+            {"colour", &B::colour, range(0, 1).left_out("see `grey`"),
+             "Linear red, green and blue of the display, 1 being each at its fullest."},
+            {"picture", &B::picture, left_out("see `grey`"),
+             "A picture behind the object, by its path from the protocol's folder: EXR or HDR, linear, or "
+             "PNG, JPEG or TIFF, sRGB, of Rec. 709 colours of which white is the display's white. It is "
+             "made as large as it must be to cover the image, about its middle."},
+        },
+        true);
+}
+
 std::vector<Key> motion() {
     using M = MotionSettings;
     using A = Animation;

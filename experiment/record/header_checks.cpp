@@ -110,8 +110,14 @@ void check_header(const SessionHeader& header, const std::filesystem::path& file
                             header.objects[static_cast<std::size_t>(map.viewed.object)].cameras),
                fmt::format("the object or the pose of map \"{}\"", map.file));
     }
-    for (const RecordedStimulus& stimulus : header.stimuli)
-        demand(is_stimulus(stimulus.stimulus, header, counts), "the object or the material of a stimulus");
+    for (const RecordedStimulus& stimulus : header.stimuli) {
+        Stimulus of_list = stimulus.stimulus;
+        of_list.view %= static_cast<int>(std::max<std::size_t>(1, header.views.size()));
+        demand(is_stimulus(of_list, header, counts) &&
+                   is_index(stimulus.stimulus.view,
+                            header.objects[static_cast<std::size_t>(of_list.object)].cameras),
+               "the object or the material of a stimulus");
+    }
     for (const Trial& trial : header.schedule.trials)
         demand(is_index(trial.task, header.tasks) && is_stimulus(trial.stimulus, header, counts) &&
                    (header.blocks.empty() || is_index(trial.block, header.blocks)),

@@ -54,6 +54,44 @@ Factors factors_of(const SessionHeader& header) {
     return Factors(sources);
 }
 
+namespace {
+
+/// The first slot of each size.
+std::vector<int> slots_of_sizes(const SessionHeader& header) {
+    std::vector<int> first;
+    for (std::size_t slot = 0; slot < header.slots.size(); ++slot)
+        if (std::ranges::none_of(first, [&](int had) {
+                return header.slots[static_cast<std::size_t>(had)].size_px == header.slots[slot].size_px;
+            }))
+            first.push_back(static_cast<int>(slot));
+    return first;
+}
+
+int views_of_list(const SessionHeader& header) {
+    return static_cast<int>(std::max<std::size_t>(1, header.views.size()));
+}
+
+} // namespace
+
+Stimulus SessionHeader::in_slot(const PlacedStimulus& placed) const {
+    Stimulus shown = placed.stimulus;
+    if (placed.slot < 0 || static_cast<std::size_t>(placed.slot) >= slots.size())
+        return shown;
+    const std::vector<int> first = slots_of_sizes(*this);
+    const auto size = std::ranges::find_if(first, [&](int slot) {
+        return slots[static_cast<std::size_t>(slot)].size_px ==
+               slots[static_cast<std::size_t>(placed.slot)].size_px;
+    });
+    shown.view += static_cast<int>(size - first.begin()) * views_of_list(*this);
+    return shown;
+}
+
+ScreenGeometry SessionHeader::screen_of_view(int view) const {
+    const std::vector<int> first = slots_of_sizes(*this);
+    const auto size = static_cast<std::size_t>(view / views_of_list(*this));
+    return size > 0 && size < first.size() ? screen_of_slot(first[size]) : display.screen;
+}
+
 std::string stimulus_name(const SessionHeader& header, const Stimulus& stimulus, std::string_view between) {
     std::string name;
     for (std::size_t list = 0; list < stimulus_lists.size(); ++list) {
@@ -62,8 +100,12 @@ std::string stimulus_name(const SessionHeader& header, const Stimulus& stimulus,
             continue;
         if (!name.empty())
             name += between;
-        name += entries.at(static_cast<std::size_t>(stimulus.*stimulus_lists[list].index)).id;
+        const auto entry = static_cast<std::size_t>(stimulus.*stimulus_lists[list].index);
+        name += entries[entry % entries.size()].id; // views count on with the sizes of slots
     }
+    if (const auto size = static_cast<std::size_t>(stimulus.view / views_of_list(header)); size > 0)
+        if (const std::vector<int> first = slots_of_sizes(header); size < first.size())
+            name.append(between).append(header.slots[static_cast<std::size_t>(first[size])].id);
     return name;
 }
 

@@ -107,7 +107,8 @@ struct RecordedObject {
     ContentHash mesh_sha256;
     std::string mesh_file;               ///< relative to the session's directory; empty without a mesh
     std::vector<std::string> part_names; ///< by PartIndex
-    /// By view; a field of view of 0 if it is not known, as ready-made maps may leave it.
+    /// By view, at each size that slots have (SessionHeader::in_slot); a field of view of 0 if it is not
+    /// known, as ready-made maps may leave it.
     std::vector<Camera> cameras = std::vector<Camera>(1);
     glm::dvec3 axis_point{0.0}; ///< through which the vertical axis of the turn goes
     Bounds bounds;              ///< by which the maps are coded
@@ -198,8 +199,8 @@ struct SessionHeader {
     std::vector<RecordedTask> tasks;
     std::vector<RecordedObject> objects;
     std::vector<ListEntry> materials;
-    std::vector<ListEntry> lights = {}, motions = {},
-                           views = {}; ///< none: there is one, with the list's name
+    std::vector<ListEntry> lights = {}, motions = {}, views = {},
+                           backgrounds = {}; ///< none: there is one, with the list's name
     std::vector<RecordedStimulus> stimuli;
     std::vector<RecordedMap> maps;
     std::vector<RecordedPoint> points = {}; ///< of all objects, list by list
@@ -216,6 +217,13 @@ struct SessionHeader {
         return make_page_cycle(animation_of(stimulus), poses.frames_of(stimulus.motion), display.refresh_hz);
     }
 
+    /// The stimulus as its slot shows it: what frames, maps and cameras are found by. Views count on from
+    /// those of the list for each further size that slots' images have, in the order of the slots.
+    Stimulus in_slot(const PlacedStimulus& placed) const;
+
+    /// The screen with an image of the size that belongs to such a view (in_slot).
+    ScreenGeometry screen_of_view(int view) const;
+
     /// The screen with a slot's image on it.
     ScreenGeometry screen_of_slot(int slot) const {
         ScreenGeometry screen = display.screen;
@@ -227,10 +235,15 @@ struct SessionHeader {
     }
 };
 
+/// What the maps of a presentation show: the trial's stimulus in its slot.
+inline ViewedObject viewed_in(const SessionHeader& header, const Trial& trial) {
+    return viewed(header.in_slot(trial.shown(0)));
+}
+
 /// Where the entries of each of `stimulus_lists` are, in their order.
 inline constexpr std::tuple recorded_lists{&SessionHeader::objects, &SessionHeader::materials,
-                                           &SessionHeader::lights, &SessionHeader::motions,
-                                           &SessionHeader::views};
+                                           &SessionHeader::lights,  &SessionHeader::motions,
+                                           &SessionHeader::views,   &SessionHeader::backgrounds};
 static_assert(std::tuple_size_v<decltype(recorded_lists)> == stimulus_lists.size());
 
 /// The entries of a list, at least one; of objects what all lists have. `list`: index into `stimulus_lists`.

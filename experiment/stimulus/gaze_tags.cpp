@@ -38,7 +38,7 @@ bool touches(const TagPlace& tag, glm::ivec2 origin_px, glm::ivec2 size_px) {
 }
 
 std::vector<TagPlace> gaze_tags_of(const ScreenGeometry& geometry, const DisplaySettings& display,
-                                   std::span<const glm::ivec2> images_px) {
+                                   std::span<const ImageBox> images) {
     if (display.tags_px == 0)
         return {};
     const glm::ivec2 size(display.tags_px), first(0, reserved_rows(display.output)),
@@ -46,16 +46,16 @@ std::vector<TagPlace> gaze_tags_of(const ScreenGeometry& geometry, const Display
     const std::array<int, 2> columns{first.x, last.x};
     const std::array<int, 3> rows{first.y, (first.y + last.y) / 2, last.y};
     const std::optional<PatchPlace> patch = photodiode_patch_of(display);
-    if (images_px.empty())
-        images_px = {&geometry.image_origin_px, 1};
+    const ImageBox only = geometry.image_box();
+    if (images.empty())
+        images = {&only, 1};
     std::vector<TagPlace> tags;
     int id = 0;
     for (const int row : rows) {
         for (const int column : columns) {
             const TagPlace tag{id++, row != rows[1], {column, row}, size};
             bool is_free =
-                std::ranges::none_of(
-                    images_px, [&](glm::ivec2 image) { return touches(tag, image, geometry.image_px); }) &&
+                std::ranges::none_of(images, [&](const ImageBox& image) { return touches(tag, image); }) &&
                 !(patch && touches(tag, patch->origin_px, patch->size_px));
             for (const TagPlace& other : tags)
                 is_free = is_free && !touches(tag, other.origin_px, other.size_px);

@@ -33,13 +33,15 @@ struct TagPlace {
 /// photodiode leave room; texts stand between them. The ids are the same whichever are left out: row by row
 /// from the top left. Corners are given in any case: whether they are free is for the check of protocols to
 /// say.
-/// `images_px`: the top left pixels of images of that size in slots; none: there is one, as `geometry` has
-/// it.
+/// `images`: where images stand in slots; none: there is one, as `geometry` has it.
 std::vector<TagPlace> gaze_tags_of(const ScreenGeometry& geometry, const DisplaySettings& display,
-                                   std::span<const glm::ivec2> images_px = {});
+                                   std::span<const ImageBox> images = {});
 
 /// Whether a tag is closer than tag_distance_px to this rectangle of the screen.
 bool touches(const TagPlace& tag, glm::ivec2 origin_px, glm::ivec2 size_px);
+inline bool touches(const TagPlace& tag, const ImageBox& image) {
+    return touches(tag, image.origin_px, image.size_px);
+}
 
 /// What the tags span, from the black border of the first to that of the last: the surface that a tracker
 /// knows by them.

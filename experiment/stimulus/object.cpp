@@ -180,7 +180,7 @@ MadeMesh make_mesh(const ObjectSettings& settings, const std::filesystem::path& 
 Object place_object(const ObjectSettings& settings, const Protocol& protocol, const MadeMesh* made) {
     Object object;
     object.id = settings.id;
-    object.scenes.resize(protocol.views.size());
+    object.scenes.resize(protocol.views_at_all_sizes());
     if (!made) {
         if (!settings.lut.empty()) {
             Mesh names_alone;
@@ -194,7 +194,7 @@ Object place_object(const ObjectSettings& settings, const Protocol& protocol, co
     object.origin = made->origin;
     object.remarks = made->remarks;
     for (std::size_t i = 0; i < object.scenes.size(); ++i) {
-        const ViewSettings& view = protocol.views[i];
+        const ViewSettings& view = protocol.view_at(static_cast<int>(i));
         SceneView& scene = object.scenes[i];
         scene.view.image_px = {view.width_px, view.height_px};
         scene.bounds = object.mesh->bounds();

@@ -128,13 +128,13 @@ TextureArray::TextureArray(const GlContext& context, glm::ivec2 size_px, int lay
     expect_depth(context, GL_TEXTURE_2D_ARRAY, format);
 }
 
-void TextureArray::upload_from_buffer(int layer, std::size_t bytes) {
+void TextureArray::upload_from_buffer(int layer, glm::ivec2 size_px) {
     const GlFormat pixel = gl_format(format_);
-    OVERT_EXPECTS(layer >= 0 && layer < layers_ && bytes == bytes_in(size_px_, format_));
+    OVERT_EXPECTS(layer >= 0 && layer < layers_ && glm::all(glm::lessThanEqual(size_px, size_px_)));
     const GladGLContext& gl = name_.context().gl();
     gl.BindTexture(GL_TEXTURE_2D_ARRAY, *name_);
     gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    gl.TexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, layer, size_px_.x, size_px_.y, 1, pixel.format, pixel.type,
+    gl.TexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, layer, size_px.x, size_px.y, 1, pixel.format, pixel.type,
                      nullptr);
     gl.BindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
     throw_on_gl_error(name_.context(), "uploading a page");

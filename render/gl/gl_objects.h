@@ -72,9 +72,9 @@ class TextureArray {
   public:
     TextureArray(const GlContext& context, glm::ivec2 size_px, int layers, PixelFormat format);
 
-    /// One page, row by row, in the format's own component type, from the start of the buffer that is bound
-    /// to GL_PIXEL_UNPACK_BUFFER and holds that many bytes; unbinds it.
-    void upload_from_buffer(int layer, std::size_t bytes);
+    /// So many columns and rows of a page at its top left, row by row, in the format's own component type,
+    /// from the start of the buffer that is bound to GL_PIXEL_UNPACK_BUFFER; unbinds it.
+    void upload_from_buffer(int layer, glm::ivec2 size_px);
     GLuint name() const { return *name_; }
     glm::ivec2 size_px() const { return size_px_; }
     int layers() const { return layers_; }

@@ -20,18 +20,53 @@ int staged_pages() { return std::min(processors() + 1, 8); }
 } // namespace
 
 FrameStore::FrameStore(const GlContext& context, const FrameSource& source, const DisplayEncoder& encoder,
-                       glm::ivec2 origin_px, glm::ivec2 image_px, std::size_t budget_bytes)
-    : context_(&context), source_(&source), encoder_(&encoder), origin_px_(origin_px), image_px_(image_px),
-      budget_bytes_(budget_bytes), patch_(encoder.patch_of(origin_px, image_px)) {}
+                       std::vector<ImageBox> slots, std::size_t budget_bytes)
+    : context_(&context), source_(&source), encoder_(&encoder), slots_(std::move(slots)),
+      budget_bytes_(budget_bytes) {
+    OVERT_EXPECTS(!slots_.empty());
+    for (const ImageBox& slot : slots_) {
+        patches_.push_back(encoder.patch_of(slot.origin_px, slot.size_px));
+        layer_px_ = glm::max(layer_px_, patches_.back().size_px);
+    }
+}
 
 FrameStore::~FrameStore() = default;
 
-std::size_t FrameStore::page_bytes() const { return bytes_in(patch_.size_px, encoder_->format()); }
+bool FrameStore::is_same(const SlotPicture& a, const SlotPicture& b) const noexcept {
+    return a.stimulus == b.stimulus && slots_[static_cast<std::size_t>(a.slot)].size_px ==
+                                           slots_[static_cast<std::size_t>(b.slot)].size_px;
+}
 
-int FrameStore::pages_of(std::span<const Stimulus> stimuli) const {
+bool FrameStore::are_same(std::span<const SlotPicture> a, std::span<const SlotPicture> b) const noexcept {
+    return std::ranges::equal(
+        a, b, [this](const SlotPicture& one, const SlotPicture& other) { return is_same(one, other); });
+}
+
+std::vector<SlotPicture> FrameStore::pictures_of(std::span<const PlacedStimulus> shown) const {
+    std::vector<SlotPicture> pictures;
+    for (const PlacedStimulus& placed : shown) {
+        OVERT_EXPECTS(placed.slot >= 0 && static_cast<std::size_t>(placed.slot) < slots_.size());
+        const SlotPicture picture{source_->in_slot(placed), placed.slot};
+        if (std::ranges::none_of(pictures, [&](const SlotPicture& had) { return is_same(had, picture); }))
+            pictures.push_back(picture);
+    }
+    return pictures;
+}
+
+std::size_t FrameStore::picture_of(const StoredStimuli& stored, const PlacedStimulus& placed) const {
+    const SlotPicture wanted{source_->in_slot(placed), placed.slot};
+    const auto found =
+        std::ranges::find_if(stored.pictures, [&](const SlotPicture& had) { return is_same(had, wanted); });
+    OVERT_EXPECTS(found != stored.pictures.end());
+    return static_cast<std::size_t>(found - stored.pictures.begin());
+}
+
+std::size_t FrameStore::page_bytes() const { return bytes_in(layer_px_, encoder_->format()); }
+
+int FrameStore::pages_of(std::span<const SlotPicture> pictures) const {
     int pages = 0;
-    for (const Stimulus& stimulus : stimuli)
-        pages += 1 + std::ranges::max(source_->page_of_frame(stimulus));
+    for (const SlotPicture& picture : pictures)
+        pages += 1 + std::ranges::max(source_->page_of_frame(picture.stimulus));
     return pages;
 }
 
@@ -41,22 +76,23 @@ bool FrameStore::fits_beside_current(int pages) const {
     return page_bytes() * static_cast<std::size_t>(layers) <= budget_bytes_;
 }
 
-bool FrameStore::is_current(std::span<const Stimulus> stimuli) const noexcept {
-    return is_loaded_ && std::ranges::equal(stored_[current_].stimuli, stimuli);
+bool FrameStore::is_current(std::span<const SlotPicture> pictures) const noexcept {
+    return is_loaded_ && are_same(stored_[current_].pictures, pictures);
 }
 
-bool FrameStore::is_expected(std::span<const Stimulus> stimuli) const noexcept {
-    return expected_ && std::ranges::equal(*expected_, stimuli);
+bool FrameStore::is_expected(std::span<const SlotPicture> pictures) const noexcept {
+    return expected_ && are_same(*expected_, pictures);
 }
 
-void FrameStore::begin(std::span<const Stimulus> stimuli, int threads) {
+void FrameStore::begin(std::span<const SlotPicture> pictures, int threads) {
     StoredStimuli& stored = spare();
-    stored.stimuli.assign(stimuli.begin(), stimuli.end());
+    stored.pictures.assign(pictures.begin(), pictures.end());
     stored.page_of_frame.clear();
     stored.first_page.clear();
     stored.pages = 0;
-    for (const Stimulus& stimulus : stimuli) {
-        std::vector<int>& page_of_frame = stored.page_of_frame.emplace_back(source_->page_of_frame(stimulus));
+    for (const SlotPicture& picture : pictures) {
+        std::vector<int>& page_of_frame =
+            stored.page_of_frame.emplace_back(source_->page_of_frame(picture.stimulus));
         const int pages = 1 + std::ranges::max(page_of_frame);
         for (int& page : page_of_frame)
             page += stored.pages;
@@ -68,26 +104,31 @@ void FrameStore::begin(std::span<const Stimulus> stimuli, int threads) {
         throw InputError(
             fmt::format("{} {:.0f} MB in the frame store, which may take {:.0f}: "
                         "allow more with display.frame_store_mb, or show fewer or smaller frames",
-                        stimuli.size() == 1 ? "a stimulus takes" : "the stimuli of a trial take",
+                        pictures.size() == 1 ? "a stimulus takes" : "the stimuli of a trial take",
                         1e-6 * static_cast<double>(bytes), 1e-6 * static_cast<double>(budget_bytes_)));
     }
     if (!stored.textures || stored.textures->layers() < stored.pages ||
         !fits_beside_current(stored.textures->layers())) {
         stored.textures.reset();
-        stored.textures.emplace(*context_, patch_.size_px, stored.pages, encoder_->format());
+        stored.textures.emplace(*context_, layer_px_, stored.pages, encoder_->format());
     }
     if (!staging_)
         staging_.emplace(*context_, staged_pages(), page_bytes());
-    expected_ = stored.stimuli;
+    expected_ = stored.pictures;
     loader_.emplace(
         *staging_, stored.pages,
-        [this, of = stored.stimuli, first_page = stored.first_page](int page, LinearImage& room,
-                                                                    std::span<std::byte> into) {
+        [this, of = stored.pictures, first_page = stored.first_page](int page, LinearImage& room,
+                                                                     std::span<std::byte> into) {
             const auto after = std::ranges::upper_bound(first_page, page) - first_page.begin();
             const auto index = static_cast<std::size_t>(after - 1);
-            const LinearImage& picture = source_->read_page(of[index], page - first_page[index], room);
-            OVERT_EXPECTS(picture.size_px == image_px_);
-            encoder_->encode(picture, origin_px_, into);
+            const auto slot = static_cast<std::size_t>(of[index].slot);
+            const LinearImage& picture =
+                source_->read_page(of[index].stimulus, page - first_page[index], room);
+            OVERT_EXPECTS(picture.size_px == slots_[slot].size_px);
+            const glm::ivec2 size_px = patches_[slot].size_px;
+            encoder_->encode(picture, slots_[slot].origin_px,
+                             into.first(bytes_in(size_px, encoder_->format())));
+            return size_px;
         },
         threads);
 }
@@ -98,23 +139,24 @@ void FrameStore::forget_expected() {
     failure_ = nullptr;
 }
 
-const StoredStimuli& FrameStore::load(std::span<const Stimulus> stimuli) {
-    if (is_current(stimuli))
+const StoredStimuli& FrameStore::load(std::span<const PlacedStimulus> shown) {
+    const std::vector<SlotPicture> pictures = pictures_of(shown);
+    if (is_current(pictures))
         return stored_[current_];
-    if (failure_ && is_expected(stimuli)) {
+    if (failure_ && is_expected(pictures)) {
         const std::exception_ptr failure = failure_;
         forget_expected();
         std::rethrow_exception(failure);
     }
-    if (!is_expected(stimuli)) {
+    if (!is_expected(pictures)) {
         forget_expected();
-        if (!fits_beside_current(pages_of(stimuli))) {
+        if (!fits_beside_current(pages_of(pictures))) {
             // They take the place of those that were shown.
             spare().textures.reset();
             current_ = 1 - current_;
             is_loaded_ = false;
         }
-        begin(stimuli, processors());
+        begin(pictures, processors());
     }
     if (loader_) {
         try {
@@ -133,18 +175,20 @@ const StoredStimuli& FrameStore::load(std::span<const Stimulus> stimuli) {
     return stored_[current_];
 }
 
-void FrameStore::expect(std::span<const Stimulus> stimuli) noexcept {
-    if (is_current(stimuli) || is_expected(stimuli))
-        return;
-    forget_expected();
+void FrameStore::expect(std::span<const PlacedStimulus> shown) noexcept {
+    std::vector<SlotPicture> pictures;
     try {
+        pictures = pictures_of(shown);
+        if (is_current(pictures) || is_expected(pictures))
+            return;
+        forget_expected();
         // Somebody answers meanwhile, and time stamps are taken: one processor stays free where there are
         // more.
-        if (fits_beside_current(pages_of(stimuli)))
-            begin(stimuli, std::max(1, processors() - 1));
+        if (fits_beside_current(pages_of(pictures)))
+            begin(pictures, std::max(1, processors() - 1));
     } catch (...) {
         failure_ = std::current_exception();
-        expected_.emplace(stimuli.begin(), stimuli.end());
+        expected_ = std::move(pictures);
     }
 }
 

@@ -26,12 +26,12 @@ void PageLoader::work() {
         place_freed_.wait(lock, [&] { return stopping_ || next_page_ == pages_ || !free_places_.empty(); });
         if (stopping_ || next_page_ == pages_)
             return;
-        const ReadyPage mine{free_places_.back(), next_page_++};
+        ReadyPage mine{free_places_.back(), next_page_++};
         free_places_.pop_back();
         lock.unlock();
         std::exception_ptr failure;
         try {
-            fill_(mine.page, picture, staging_->open(mine.place));
+            mine.size_px = fill_(mine.page, picture, staging_->open(mine.place));
         } catch (...) {
             failure = std::current_exception();
         }
@@ -65,7 +65,7 @@ void PageLoader::hand_over(TextureArray& to, bool all) {
         const std::optional<ReadyPage> ready = take_ready(all);
         if (!ready)
             return;
-        staging_->hand_over(ready->place, to, ready->page);
+        staging_->hand_over(ready->place, to, ready->page, ready->size_px);
         ++handed_over_;
         {
             const std::scoped_lock lock(mutex_);

@@ -17,9 +17,9 @@ namespace overt {
 
 class PageLoader {
   public:
-    /// Writes the bytes of a page, by way of a picture that is used again for further pages. Called from
-    /// several threads at once; may throw.
-    using FillPage = std::function<void(int page, LinearImage& by_way_of, std::span<std::byte> into)>;
+    /// Writes the bytes of a page to the begin of `into`, by way of a picture that is used again for further
+    /// pages, and gives its columns and rows. Called from several threads at once; may throw.
+    using FillPage = std::function<glm::ivec2(int page, LinearImage& by_way_of, std::span<std::byte> into)>;
 
     /// Begins at once, with at most `threads` threads. `staging` must outlive this, and nobody else use it
     /// meanwhile.
@@ -37,6 +37,7 @@ class PageLoader {
   private:
     struct ReadyPage {
         int place, page;
+        glm::ivec2 size_px{0};
     };
     void work();
     std::optional<ReadyPage> take_ready(bool wait);

@@ -42,16 +42,16 @@ bool has_colour_table(OutputMode mode) { return row_of(mode).shows == ShownLight
 
 PagePresenter::PagePresenter(const GlContext& context, DisplaySurface& surface, const FrameSource& frames,
                              const ScreenGeometry& geometry, const DisplaySettings& display,
-                             ScreenSettings screens, std::vector<glm::ivec2> slots_px)
+                             ScreenSettings screens, std::vector<ImageBox> slots)
     : context_(&context), surface_(&surface), geometry_(geometry),
       display_(of_size(display, geometry.screen_px)), screens_(std::move(screens)), encoder_(display_),
       background_(context, geometry.screen_px, encoder_.format()),
       picture_(context, geometry.screen_px, encoder_.format()),
-      store_(context, frames, encoder_, slots_px.empty() ? geometry.image_origin_px : slots_px.front(),
-             geometry.image_px, static_cast<std::size_t>(display.frame_store_mb * 1e6)),
-      page_target_(context), slots_px_(std::move(slots_px)) {
-    if (slots_px_.empty())
-        slots_px_.push_back(geometry.image_origin_px);
+      store_(context, frames, encoder_, slots.empty() ? std::vector{geometry.image_box()} : slots,
+             static_cast<std::size_t>(display.frame_store_mb * 1e6)),
+      page_target_(context), slots_(std::move(slots)) {
+    if (slots_.empty())
+        slots_.push_back(geometry.image_box());
     check_depth();
     // Where a driver dithers at all, it must not when bytes are to arrive as they are.
     context.gl().Disable(GL_DITHER);
@@ -99,18 +99,21 @@ void PagePresenter::check_depth() const {
         throw GraphicsError(fmt::format("{} sends messages in rows of {} pixels, the screen has only {}",
                                         name_of(display_.output), colour_table_row_.size(), screen.x));
     }
-    for (const glm::ivec2 slot_px : slots_px_)
-        check_place(slot_px);
+    for (std::size_t slot = 0; slot < slots_.size(); ++slot)
+        check_place(slot);
 }
 
-void PagePresenter::check_place(glm::ivec2 slot_px) const {
-    const glm::ivec2 screen = geometry_.screen_px, first = slot_px, end = first + geometry_.image_px;
-    // A page is encoded once for all slots: pixels must be joined in pairs alike in each, and filters reach
-    // alike beside it.
-    const ScreenPatch patch = encoder_.patch_of(slot_px, geometry_.image_px);
-    const ScreenPatch& pages = store_.patch();
+void PagePresenter::check_place(std::size_t slot) const {
+    const ImageBox& at = slots_[slot];
+    const glm::ivec2 screen = geometry_.screen_px, first = at.origin_px, end = first + at.size_px;
+    // A page is encoded once for all slots of its size: pixels must be joined in pairs alike in each, and
+    // filters reach alike beside it.
+    const auto alike =
+        static_cast<std::size_t>(std::ranges::find(slots_, at.size_px, &ImageBox::size_px) - slots_.begin());
+    const ScreenPatch &patch = store_.patch(static_cast<int>(slot)),
+                      &pages = store_.patch(static_cast<int>(alike));
     OVERT_EXPECTS(patch.size_px == pages.size_px &&
-                  patch.origin_px - slot_px == pages.origin_px - slots_px_.front());
+                  patch.origin_px - at.origin_px == pages.origin_px - slots_[alike].origin_px);
     if (first.x < 0 || first.y < reserved_rows(display_.output) || end.x > screen.x || end.y > screen.y) {
         throw GraphicsError(
             fmt::format("a stimulus in columns {} to {} and rows {} to {} leaves the screen of {} x {}, or "
@@ -120,44 +123,20 @@ void PagePresenter::check_place(glm::ivec2 slot_px) const {
     }
 }
 
-namespace {
-
-/// Each stimulus once, in the order of slots.
-std::vector<Stimulus> distinct(std::span<const PlacedStimulus> shown) {
-    std::vector<Stimulus> stimuli;
-    for (const PlacedStimulus& placed : shown)
-        if (std::ranges::find(stimuli, placed.stimulus) == stimuli.end())
-            stimuli.push_back(placed.stimulus);
-    return stimuli;
-}
-
-} // namespace
-
 void PagePresenter::load_slots(std::span<const PlacedStimulus> shown) {
     if (loaded_ && std::ranges::equal(shown_, shown))
         return;
     loaded_ = nullptr;
-    const std::vector<Stimulus> stimuli = distinct(shown);
-    const StoredStimuli& stored = store_.load(stimuli);
+    const StoredStimuli& stored = store_.load(shown);
     in_slots_.clear();
-    for (const PlacedStimulus& placed : shown) {
-        const glm::ivec2 slot_px = slots_px_.at(static_cast<std::size_t>(placed.slot));
-        in_slots_.push_back(
-            {static_cast<std::size_t>(std::ranges::find(stimuli, placed.stimulus) - stimuli.begin()),
-             encoder_.patch_of(slot_px, geometry_.image_px).origin_px});
-    }
+    for (const PlacedStimulus& placed : shown)
+        in_slots_.push_back({store_.picture_of(stored, placed), store_.patch(placed.slot)});
     shown_.assign(shown.begin(), shown.end());
     loaded_ = &stored;
     clear_picture();
 }
 
-void PagePresenter::expect_slots(std::span<const PlacedStimulus> shown) noexcept {
-    try {
-        store_.expect(distinct(shown));
-    } catch (const std::bad_alloc&) {
-        // It is loaded when its time comes.
-    }
-}
+void PagePresenter::expect_slots(std::span<const PlacedStimulus> shown) noexcept { store_.expect(shown); }
 
 void PagePresenter::clear_picture(bool for_stimulus) noexcept {
     blit(context_->gl(), for_stimulus ? around_stimuli() : background_, picture_, {0, 0}, {0, 0},
@@ -174,12 +153,12 @@ void PagePresenter::put_page(InSlot& slot, int page) noexcept {
     // A frame is held for several refreshes: what is there need not be drawn again.
     if (page == slot.page_on_canvas)
         return;
-    const glm::ivec2 size = store_.patch().size_px;
+    const auto& [origin_px, size_px] = slot.patch;
     if (page < 0) {
-        blit(context_->gl(), around_stimuli(), picture_, slot.patch_px, slot.patch_px, size);
+        blit(context_->gl(), around_stimuli(), picture_, origin_px, origin_px, size_px);
     } else {
         page_target_.attach_layer(*loaded_->textures, page);
-        blit(context_->gl(), page_target_, picture_, {0, 0}, slot.patch_px, size);
+        blit(context_->gl(), page_target_, picture_, {0, 0}, origin_px, size_px);
     }
     slot.page_on_canvas = page;
     if (page < 0)
@@ -210,34 +189,37 @@ void PagePresenter::put_masks(const Screen& screen) {
         const auto index = static_cast<std::size_t>(place);
         const bool is_loaded = index < shown_.size();
         ScreenGeometry at = geometry_;
-        if (is_loaded)
-            at.image_origin_px = slots_px_.at(static_cast<std::size_t>(shown_[index].slot));
+        if (is_loaded) {
+            const ImageBox& slot = slots_.at(static_cast<std::size_t>(shown_[index].slot));
+            at.image_origin_px = slot.origin_px;
+            at.image_px = slot.size_px;
+        }
         if (screen.kind == Screen::Kind::noise)
             put_on(picture_, draw_noise(screen, at, place).picture, at.image_origin_px);
         else if (is_loaded && loaded_)
-            put_scrambled(lit_last_with(index), at.image_origin_px, screen, place);
+            put_scrambled(lit_last_with(index), at.image_box(), screen, place);
     }
 }
 
 /// On the card, so that it takes no longer than a screen: encoded pages, in squares of even columns, since
 /// some outputs join pixels in pairs. What is left at the edges stays empty.
-void PagePresenter::put_scrambled(const InSlot& slot, glm::ivec2 slot_px, const Screen& screen, int place) {
+void PagePresenter::put_scrambled(const InSlot& slot, const ImageBox& at, const Screen& screen, int place) {
     const double wished_px = screen.noise_cell.value * geometry_.px_per_deg_at_centre();
     const int side = std::max(2, 2 * static_cast<int>(std::lround(0.5 * wished_px)));
-    const glm::ivec2 squares = geometry_.image_px / side;
-    const glm::ivec2 first = (geometry_.image_px - squares * side) / 4 * 2;
+    const glm::ivec2 squares = at.size_px / side;
+    const glm::ivec2 first = (at.size_px - squares * side) / 4 * 2;
     std::vector<int> order(static_cast<std::size_t>(squares.x * squares.y));
     std::iota(order.begin(), order.end(), 0);
     RandomStream(screen.noise_seed, "mask squares", static_cast<std::uint64_t>(place))
         .shuffle(std::span(order));
-    const int page = slot.last_page >= 0 ? slot.last_page : loaded_->page_of(slot.stimulus, 0);
+    const int page = slot.last_page >= 0 ? slot.last_page : loaded_->page_of(slot.picture, 0);
     page_target_.attach_layer(*loaded_->textures, page);
     const auto corner = [&](int square) {
         return first + side * glm::ivec2(square % squares.x, square / squares.x);
     };
     for (std::size_t i = 0; i < order.size(); ++i)
-        blit(context_->gl(), page_target_, picture_, corner(order[i]) + slot_px - slot.patch_px,
-             corner(static_cast<int>(i)) + slot_px, {side, side});
+        blit(context_->gl(), page_target_, picture_, corner(order[i]) + at.origin_px - slot.patch.origin_px,
+             corner(static_cast<int>(i)) + at.origin_px, {side, side});
 }
 
 void PagePresenter::make_patch() {
@@ -261,7 +243,7 @@ void PagePresenter::put_patch(bool white) noexcept {
 
 /// They stand on the background, and so on every screen and beside every frame.
 void PagePresenter::put_tags() {
-    for (const TagPlace& tag : gaze_tags_of(geometry_, display_, slots_px_)) {
+    for (const TagPlace& tag : gaze_tags_of(geometry_, display_, slots_)) {
         LinearImage picture(tag.size_px);
         const int module_px = tag.size_px.x / tag_modules;
         for (int y = 0; y < tag.size_px.y; ++y) {
@@ -360,9 +342,9 @@ FlipReport PagePresenter::flip_slots(std::span<const AnimationFrameIndex> frames
     for (std::size_t i = 0; i < frames.size(); ++i) {
         InSlot& slot = in_slots_[i];
         const int frame = frames[i].value;
-        OVERT_EXPECTS(frame < static_cast<int>(loaded_->page_of_frame[slot.stimulus].size()));
+        OVERT_EXPECTS(frame < static_cast<int>(loaded_->page_of_frame[slot.picture].size()));
         if (frame >= 0)
-            put_page(slot, loaded_->page_of(slot.stimulus, frame));
+            put_page(slot, loaded_->page_of(slot.picture, frame));
         is_new_frame = is_new_frame || frame != slot.frame_on_canvas;
         slot.frame_on_canvas = frame;
     }

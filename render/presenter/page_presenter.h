@@ -24,12 +24,12 @@ inline constexpr std::string_view interrupted_reason = "interrupted by a signal"
 
 class PagePresenter final : public Presenter {
   public:
-    /// All references must outlive the presenter. `slots_px`: the top left pixel of each slot's image, all in
-    /// even or all in odd columns; none: there is one, where `geometry` has the image. Throws GraphicsError,
+    /// All references must outlive the presenter. `slots`: where each slot's image stands, all in even or all
+    /// in odd columns; none: there is one, where `geometry` has the image. Throws GraphicsError,
     /// also if the display's framebuffer has other bits per channel than the output mode sends.
     PagePresenter(const GlContext& context, DisplaySurface& surface, const FrameSource& frames,
                   const ScreenGeometry& geometry, const DisplaySettings& display, ScreenSettings screens,
-                  std::vector<glm::ivec2> slots_px = {});
+                  std::vector<ImageBox> slots = {});
 
     DisplayTiming timing() const override { return surface_->timing(); }
     void load_slots(std::span<const PlacedStimulus> shown) override;
@@ -79,10 +79,10 @@ class PagePresenter final : public Presenter {
     void clear_picture(bool for_stimulus = false) noexcept;
     /// A loaded stimulus in its slot.
     struct InSlot {
-        std::size_t stimulus = 0; ///< of the stored ones
-        glm::ivec2 patch_px{0};   ///< top left pixel of what its pages cover
-        int page_on_canvas = -1;  ///< -1: the background, or another screen
-        int last_page = -1;       ///< that was on the canvas; -1: none was yet
+        std::size_t picture = 0;   ///< of the stored ones
+        ScreenPatch patch;         ///< what its pages cover
+        int page_on_canvas = -1;   ///< -1: the background, or another screen
+        int last_page = -1;        ///< that was on the canvas; -1: none was yet
         std::int64_t last_lit = 0; ///< how many pages had been put on the canvas then
         int frame_on_canvas = -1;
     };
@@ -93,8 +93,8 @@ class PagePresenter final : public Presenter {
     const InSlot& lit_last_with(std::size_t index) const;
     /// Noise, or squares of what was shown last, in the slots of what is loaded.
     void put_masks(const Screen& screen);
-    void put_scrambled(const InSlot& slot, glm::ivec2 slot_px, const Screen& screen, int place);
-    void check_place(glm::ivec2 slot_px) const;
+    void put_scrambled(const InSlot& slot, const ImageBox& at, const Screen& screen, int place);
+    void check_place(std::size_t slot) const;
     void put_tags();
     /// A picture at a place of the screen, and what its encoding changes around it.
     Framebuffer encoded(const LinearImage& picture, glm::ivec2 origin) const;
@@ -131,7 +131,7 @@ class PagePresenter final : public Presenter {
     };
     Beside beside_;
     const Framebuffer& around_stimuli() const { return beside_.picture ? *beside_.picture : background_; }
-    std::vector<glm::ivec2> slots_px_;
+    std::vector<ImageBox> slots_;
     const StoredStimuli* loaded_ = nullptr; ///< null: nothing
     std::vector<PlacedStimulus> shown_;     ///< what is loaded
     std::vector<InSlot> in_slots_;          ///< the same

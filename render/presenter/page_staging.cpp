@@ -45,12 +45,12 @@ void PageStaging::unmap(std::size_t place) const noexcept {
     gl.UnmapBuffer(GL_PIXEL_UNPACK_BUFFER);
 }
 
-void PageStaging::hand_over(int place, TextureArray& to, int layer) {
+void PageStaging::hand_over(int place, TextureArray& to, int layer, glm::ivec2 size_px) {
     const auto index = static_cast<std::size_t>(place);
     OVERT_EXPECTS(index < open_.size() && !open_[index].empty());
     unmap(index); // and leaves it bound: pages come from it
     open_[index] = {};
-    to.upload_from_buffer(layer, bytes_each_);
+    to.upload_from_buffer(layer, size_px);
     map(index);
 }
 

@@ -23,9 +23,9 @@ class PageStaging {
     /// The memory of a place.
     std::span<std::byte> open(int place) const { return open_[static_cast<std::size_t>(place)]; }
 
-    /// Sends what was written to a place to a layer of a texture array whose layers have that size, and opens
-    /// the place anew. The card copies when it gets to it. Throws GraphicsError.
-    void hand_over(int place, TextureArray& to, int layer);
+    /// Sends the `size_px` columns and rows that were written to a place to the top left of a layer of a
+    /// texture array, and opens the place anew. The card copies when it gets to it. Throws GraphicsError.
+    void hand_over(int place, TextureArray& to, int layer, glm::ivec2 size_px);
 
   private:
     void map(std::size_t place);

@@ -93,11 +93,12 @@ void FrameMaker::draw_live_frame(const Stimulus& stimulus, const Pose& pose, con
     const SceneView& scene = cache_->scene_of(stimulus);
     const std::filesystem::path file = cache_->frame_file_of(stimulus, quality, pose);
     std::filesystem::create_directories(file.parent_path());
-    if (!renderer_ || live_light_ != stimulus.light) {
+    if (!renderer_ || live_light_ != stimulus.light || live_size_px_ != scene.view.image_px) {
         renderer_.emplace(*context_, cache_->protocol().light_of(stimulus), scene.view.image_px);
         live_material_ = -1;
     }
     live_light_ = stimulus.light;
+    live_size_px_ = scene.view.image_px;
     if (live_material_ != stimulus.material)
         renderer_->set_material(cache_->material_of(stimulus));
     live_material_ = stimulus.material;

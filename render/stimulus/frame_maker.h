@@ -42,7 +42,9 @@ class FrameMaker {
     std::optional<BakeScene> scene_;
     int scene_object_ = -1, scene_material_ = -1;
     std::optional<StimulusRenderer> renderer_;
-    int live_light_ = -1, live_material_ = -1; ///< that the renderer is prepared for
+    // That the renderer is prepared for.
+    int live_light_ = -1, live_material_ = -1;
+    glm::ivec2 live_size_px_{0};
 };
 
 } // namespace overt

@@ -11,10 +11,10 @@ constexpr int reads_at_once = 4;
 
 } // namespace
 
-LiveMaps::LiveMaps(const GlContext& context, std::span<const Object> objects, const PoseTable& poses,
-                   glm::ivec2 image_px, std::size_t slots)
-    : image_px_(image_px), pass_(context, image_px) {
-    lit_.reserve(slots);
+LiveMaps::LiveMaps(const GlContext& context, const Protocol& protocol, std::span<const Object> objects,
+                   const PoseTable& poses)
+    : protocol_(&protocol) {
+    lit_.reserve(protocol.slots.size());
     for (std::size_t index = 0; index < objects.size(); ++index) {
         const Object& object = objects[index];
         views_ = object.scenes.size();
@@ -24,6 +24,8 @@ LiveMaps::LiveMaps(const GlContext& context, std::span<const Object> objects, co
             figure.viewed = {static_cast<int>(index), static_cast<int>(view)};
             if (!object.has_mesh())
                 continue;
+            figure.image_px = object.scenes[view].view.image_px;
+            figure.pass = &pass_of(context, figure.image_px);
             figure.buffers = buffers_.back().get();
             for (const Degrees angle : poses.angles)
                 figure.clip_from_object.push_back(clip_from_centred_object(object.scenes[view], angle));
@@ -31,16 +33,24 @@ LiveMaps::LiveMaps(const GlContext& context, std::span<const Object> objects, co
             figure.maps.resize(poses.angles.size());
         }
     }
+}
+
+LiveMaps::Pass& LiveMaps::pass_of(const GlContext& context, glm::ivec2 image_px) {
+    for (const std::unique_ptr<Pass>& pass : passes_)
+        if (pass->drawing.target().size_px() == image_px)
+            return *pass;
+    Pass& pass = *passes_.emplace_back(std::make_unique<Pass>(CoordinatePass(context, image_px)));
     for (int i = 0; i < reads_at_once; ++i)
-        reads_.push_back(
+        pass.reads.push_back(
             {std::make_unique<PixelReadback>(context, image_px, PixelFormat::r32ui), nullptr, 0});
+    return pass;
 }
 
 void LiveMaps::presentation_begins(const Trial& lit, int) noexcept {
     collect(true); // a show may follow another directly
     lit_.clear();
     for (std::size_t i = 0; i < lit.shown_count() && lit_.size() < lit_.capacity(); ++i) {
-        lit_.push_back(&figure_of(viewed(lit.shown(i).stimulus)));
+        lit_.push_back(&figure_of(viewed(protocol_->in_slot(lit.shown(i)))));
         make_ready(*lit_.back());
     }
 }
@@ -49,9 +59,9 @@ void LiveMaps::make_ready(Figure& figure) noexcept {
     for (std::size_t pose = 0; pose < figure.states.size(); ++pose) {
         if (figure.states[pose] != State::missing)
             continue;
-        figure.maps[pose].size_px = image_px_;
-        figure.maps[pose].codes.resize(static_cast<std::size_t>(image_px_.x) *
-                                       static_cast<std::size_t>(image_px_.y));
+        figure.maps[pose].size_px = figure.image_px;
+        figure.maps[pose].codes.resize(static_cast<std::size_t>(figure.image_px.x) *
+                                       static_cast<std::size_t>(figure.image_px.y));
     }
 }
 
@@ -69,11 +79,12 @@ void LiveMaps::draw(Figure& figure, PoseIndex index) noexcept {
     const auto pose = static_cast<std::size_t>(index.value);
     if (!figure.buffers || figure.states[pose] != State::missing)
         return;
-    for (Read& read : reads_) {
+    CoordinatePass& drawing = figure.pass->drawing;
+    for (Read& read : figure.pass->reads) {
         if (read.pixels->under_way())
             continue;
-        pass_.render(*figure.buffers, figure.clip_from_object[pose]);
-        read.pixels->start(pass_.target());
+        drawing.render(*figure.buffers, figure.clip_from_object[pose]);
+        read.pixels->start(drawing.target());
         read.figure = &figure;
         read.pose = index.value;
         figure.states[pose] = State::under_way;
@@ -83,12 +94,14 @@ void LiveMaps::draw(Figure& figure, PoseIndex index) noexcept {
 }
 
 void LiveMaps::collect(bool wait) noexcept {
-    for (Read& read : reads_) {
-        if (!read.pixels->under_way())
-            continue;
-        const auto pose = static_cast<std::size_t>(read.pose);
-        if (read.pixels->finish(std::as_writable_bytes(std::span(read.figure->maps[pose].codes)), wait))
-            read.figure->states[pose] = State::done;
+    for (const std::unique_ptr<Pass>& pass : passes_) {
+        for (Read& read : pass->reads) {
+            if (!read.pixels->under_way())
+                continue;
+            const auto pose = static_cast<std::size_t>(read.pose);
+            if (read.pixels->finish(std::as_writable_bytes(std::span(read.figure->maps[pose].codes)), wait))
+                read.figure->states[pose] = State::done;
+        }
     }
 }
 

@@ -25,11 +25,10 @@ struct LiveMap {
 /// it allocates and throws nothing, and never waits for the card.
 class LiveMaps final : public PresentationListener {
   public:
-    /// `objects` must outlive this. Uploads all meshes. Throws GraphicsError, or InputError as depth_range
-    /// does.
-    /// `slots`: most that are lit at once.
-    LiveMaps(const GlContext& context, std::span<const Object> objects, const PoseTable& poses,
-             glm::ivec2 image_px, std::size_t slots = 1);
+    /// `protocol`, whose slots are lit, and `objects` must outlive this. Uploads all meshes. Throws
+    /// GraphicsError, or InputError as depth_range does.
+    LiveMaps(const GlContext& context, const Protocol& protocol, std::span<const Object> objects,
+             const PoseTable& poses);
 
     void presentation_begins(const Trial& lit, int show) noexcept override;
     void flipped(const FlipRecord& flip) noexcept override;
@@ -43,9 +42,13 @@ class LiveMaps final : public PresentationListener {
 
   private:
     enum class State : std::uint8_t { missing, under_way, done };
+    /// What draws images of one size.
+    struct Pass;
     /// An object in a view.
     struct Figure {
         ViewedObject viewed;
+        glm::ivec2 image_px{0};
+        Pass* pass = nullptr;
         const MeshBuffers* buffers = nullptr;    ///< null without a mesh
         std::vector<glm::mat4> clip_from_object; ///< by pose
         std::vector<State> states;               ///< by pose
@@ -56,6 +59,11 @@ class LiveMaps final : public PresentationListener {
         Figure* figure = nullptr;
         int pose = 0;
     };
+    struct Pass {
+        CoordinatePass drawing;
+        std::vector<Read> reads;
+    };
+    Pass& pass_of(const GlContext& context, glm::ivec2 image_px);
     void collect(bool wait) noexcept;
     void make_ready(Figure& figure) noexcept;
     void draw(Figure& figure, PoseIndex pose) noexcept;
@@ -64,12 +72,11 @@ class LiveMaps final : public PresentationListener {
                         static_cast<std::size_t>(viewed.view)];
     }
 
-    glm::ivec2 image_px_;
-    CoordinatePass pass_;
-    std::size_t views_ = 1;
+    const Protocol* protocol_;
+    std::vector<std::unique_ptr<Pass>> passes_;
+    std::size_t views_ = 1;                             ///< at all sizes
     std::vector<std::unique_ptr<MeshBuffers>> buffers_; ///< by object
     std::vector<Figure> figures_;                       ///< by object, then by view
-    std::vector<Read> reads_;
     std::vector<Figure*> lit_; ///< on the screen, in the order of the trial; room for all slots
 };
 

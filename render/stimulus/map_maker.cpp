@@ -78,7 +78,7 @@ bool MapMaker::draw_missing_map(const ViewedObject& viewed, PoseIndex pose) {
 
 TriangleMap MapMaker::draw_map(const ViewedObject& viewed, PoseIndex pose) {
     const SceneView& scene = cache_->objects()[static_cast<std::size_t>(viewed.object)].scene(viewed.view);
-    if (!coordinate_pass_)
+    if (!coordinate_pass_ || coordinate_pass_->target().size_px() != scene.view.image_px)
         coordinate_pass_.emplace(*context_, scene.view.image_px);
     return {scene.view.image_px,
             coordinate_pass_->draw(buffers_of(viewed.object, false), scene, cache_->poses().angle_of(pose))};

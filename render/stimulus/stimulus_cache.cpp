@@ -35,13 +35,13 @@ StimulusCache::Pictures StimulusCache::pictures_of_motion(const Animation& motio
 }
 
 std::vector<Stimulus> StimulusCache::rendered_stimuli() const {
-    std::vector<Stimulus> stimuli = all_stimuli(*protocol_);
+    std::vector<Stimulus> stimuli = stimuli_in_slots(*protocol_);
     std::erase_if(stimuli, [&](const Stimulus& stimulus) { return is_ready_made(stimulus); });
     return stimuli;
 }
 
 std::vector<Stimulus> StimulusCache::stimuli_with_surface() const {
-    std::vector<Stimulus> stimuli = all_stimuli(*protocol_);
+    std::vector<Stimulus> stimuli = stimuli_in_slots(*protocol_);
     std::erase_if(stimuli, [&](const Stimulus& stimulus) {
         return !object_of(stimulus).has_mesh() && !has_given_maps(stimulus.object);
     });
@@ -168,7 +168,7 @@ std::filesystem::path StimulusCache::map_file(const ViewedObject& viewed, PoseIn
 }
 
 SceneView StimulusCache::scene_of_given_maps(const ViewedObject& viewed) const {
-    const ViewSettings& view = protocol_->views[static_cast<std::size_t>(viewed.view)];
+    const ViewSettings& view = protocol_->view_at(viewed.view);
     SceneView scene;
     scene.view.camera.vertical_fov.value = 0.0;
     scene.view.image_px = {view.width_px, view.height_px};

@@ -10,6 +10,7 @@
 #include "experiment/base/whole_file.h"
 #include "experiment/protocol/protocol_keys.h"
 #include "render/signal/display_light.h"
+#include "render/stimulus/background_picture.h"
 #include "render/stimulus/given_maps.h"
 #include "render/stimulus/ready_made_frames.h"
 
@@ -23,7 +24,7 @@ StimulusLibrary::StimulusLibrary(const GlContext& context, const Protocol& proto
 }
 
 void StimulusLibrary::take_frames(const FrameQuality& quality) {
-    for (const Stimulus& stimulus : all_stimuli(*protocol_))
+    for (const Stimulus& stimulus : stimuli_in_slots(*protocol_))
         qualities_[stimulus] = quality;
 }
 
@@ -33,7 +34,7 @@ glm::ivec2 StimulusLibrary::image_px(const Stimulus& stimulus) const {
 }
 
 void StimulusLibrary::prepare_frames(const Progress& progress, BakeQuality least) {
-    for (const Stimulus& stimulus : all_stimuli(*protocol_)) {
+    for (const Stimulus& stimulus : stimuli_in_slots(*protocol_)) {
         if (const FrameSequenceSettings* sequence = cache_.sequence_of(stimulus))
             check_frame_sizes(*sequence, protocol_->motion_of(stimulus).frame_count, image_px(stimulus));
     }
@@ -108,6 +109,31 @@ LinearImage StimulusLibrary::page_on_screen(const Stimulus& stimulus, int page) 
 }
 
 const LinearImage& StimulusLibrary::read_page(const Stimulus& stimulus, int page, LinearImage& room) const {
+    const LinearImage& object = read_object(stimulus, page, room);
+    if (is_displays_own(protocol_->background_of(stimulus)))
+        return object;
+    if (&object != &room)
+        room = object;
+    put_before(room, background_of(stimulus));
+    return room;
+}
+
+const LinearImage& StimulusLibrary::background_of(const Stimulus& stimulus) const {
+    const std::scoped_lock lock(backgrounds_mutex_);
+    const auto [made, is_new] = backgrounds_.try_emplace({stimulus.background, stimulus.view});
+    if (is_new)
+        made->second =
+            draw_background(protocol_->background_of(stimulus), image_px(stimulus), protocol_->display);
+    return made->second;
+}
+
+LinearImage StimulusLibrary::object_on_page(const Stimulus& stimulus, int page) const {
+    LinearImage image;
+    read_object(stimulus, page, image);
+    return image;
+}
+
+const LinearImage& StimulusLibrary::read_object(const Stimulus& stimulus, int page, LinearImage& room) const {
     if (const FrameSequenceSettings* sequence = cache_.sequence_of(stimulus)) {
         read_linear_image(frame_file(*sequence, {page}), sequence->encoding,
                           sequence->colour_space == FrameColours::rec709 ? FileColours::as_rec709
@@ -136,6 +162,16 @@ std::string StimulusLibrary::source_of(const Stimulus& stimulus) const {
 }
 
 ContentHash StimulusLibrary::made_from_hash(const Stimulus& stimulus) const {
+    ContentHash object = object_hash(stimulus);
+    const BackgroundSettings& background = protocol_->background_of(stimulus);
+    if (is_displays_own(background))
+        return object;
+    ContentHasher hasher;
+    hasher.add(std::string_view(object)).add(std::string_view(hash_of_background(background)));
+    return hasher.finish();
+}
+
+ContentHash StimulusLibrary::object_hash(const Stimulus& stimulus) const {
     ContentHasher hasher;
     const auto& light = protocol_->display.characterisation;
     if (const FrameSequenceSettings* sequence = cache_.sequence_of(stimulus)) {
@@ -169,7 +205,7 @@ LightPictures StimulusLibrary::light_of(const Stimulus& stimulus) const {
     const std::span<const int> picture_of = cache_.picture_of_frame(stimulus);
     parallel_for(light.pictures, [&](int number) {
         const auto frame = std::ranges::find(picture_of, number) - picture_of.begin();
-        const LinearImage picture = page(stimulus, page_of[static_cast<std::size_t>(frame)]);
+        const LinearImage picture = object_on_page(stimulus, page_of[static_cast<std::size_t>(frame)]);
         const glm::ivec2 size = light.size();
         const std::size_t begin = light.squares() * static_cast<std::size_t>(number);
         std::vector<double> luminance(light.squares()), coverage(light.squares());
@@ -200,7 +236,7 @@ std::optional<std::filesystem::path> StimulusLibrary::light_file(const Stimulus&
         return std::nullopt;
     // The angles are not in the frames' hash.
     ContentHasher hasher;
-    hasher.add(std::string_view(made_from_hash(stimulus)));
+    hasher.add(std::string_view(object_hash(stimulus)));
     for (const Pose& pose : cache_.pictures_of(stimulus))
         hasher.add(pose.object.value);
     const std::filesystem::path file = cache_.light_file(hasher.finish());

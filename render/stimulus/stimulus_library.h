@@ -3,6 +3,8 @@
 #pragma once
 
 #include <map>
+#include <mutex>
+#include <utility>
 
 #include "experiment/maps/light_pictures.h"
 #include "render/presenter/frame_store.h"
@@ -44,9 +46,14 @@ class StimulusLibrary final : public FrameSource {
     /// The frames that page() gives of a stimulus that is not ready-made.
     const FrameQuality& quality_of_frames(const Stimulus& stimulus) const;
 
+    Stimulus in_slot(const PlacedStimulus& placed) const override { return protocol_->in_slot(placed); }
     std::vector<int> page_of_frame(const Stimulus& stimulus) const override;
+    /// Before the stimulus's background, opaque; where that is the display's own, with alpha.
     LinearImage page(const Stimulus& stimulus, int page) const override;
     const LinearImage& read_page(const Stimulus& stimulus, int page, LinearImage& room) const override;
+    /// The page with the object alone, whatever is behind it: colours are multiplied by alpha, which is its
+    /// coverage.
+    LinearImage object_on_page(const Stimulus& stimulus, int page) const;
     /// The page as a screen shows it: over the display's background, opaque.
     LinearImage page_on_screen(const Stimulus& stimulus, int page) const;
 
@@ -67,6 +74,9 @@ class StimulusLibrary final : public FrameSource {
     std::filesystem::path first_frame_file(const Stimulus& stimulus) const;
 
   private:
+    const LinearImage& read_object(const Stimulus& stimulus, int page, LinearImage& room) const;
+    const LinearImage& background_of(const Stimulus& stimulus) const;
+    ContentHash object_hash(const Stimulus& stimulus) const;
     LightPictures light_of(const Stimulus& stimulus) const;
     glm::ivec2 image_px(const Stimulus& stimulus) const;
 
@@ -75,6 +85,9 @@ class StimulusLibrary final : public FrameSource {
     MapMaker maps_;
     FrameMaker frames_;
     std::map<Stimulus, FrameQuality> qualities_; ///< of each stimulus's frames
+    /// By background and view, once a page needed them; pages are read by several threads.
+    mutable std::mutex backgrounds_mutex_;
+    mutable std::map<std::pair<int, int>, LinearImage> backgrounds_;
 };
 
 } // namespace overt

@@ -214,7 +214,7 @@ std::vector<std::string> condition_texts(const SessionHeader& header, const Tria
         texts.push_back(fmt::format("!V TRIAL_VAR {} {}", name, value));
     }
     texts.front() += fmt::format(" attempt={}", trial.attempt);
-    if (const RecordedStimulus* const stimulus = stimulus_of(header, trial.trial.stimulus))
+    if (const RecordedStimulus* const stimulus = stimulus_of(header, header.in_slot(trial.trial.shown(0))))
         texts.push_back(fmt::format("!V TRIAL_VAR frames {}", ascii_of(stimulus->source)));
     std::ranges::move(interest_areas(header, trial.trial), std::back_inserter(texts));
     return texts;

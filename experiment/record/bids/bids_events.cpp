@@ -160,7 +160,8 @@ RowLayout<BidsEvent> events_layout(const SessionHeader& header, SessionTime zero
     layout.add<BidsEvent>({
         {{"frames", "How the frames that were shown had been made"},
          [&header](const TrialRecord& attempt) {
-             return of_maybe(stimulus_of(header, attempt.trial.stimulus), &RecordedStimulus::source);
+             return of_maybe(stimulus_of(header, header.in_slot(attempt.trial.shown(0))),
+                             &RecordedStimulus::source);
          }},
         {timing_column(), timing_of(header)},
         {{"missed_refreshes",

@@ -152,7 +152,7 @@ void write_presentations(const SessionRecord& record, const TrialRecord& trial, 
         const TrialRecord seen = trial.seen_in(place);
         const int object = seen.trial.stimulus.object;
         parts.push_back(part_cells_of(record.header(), object, TableFormat::tsv));
-        SampleJoin(record, seen, lookup_for(viewed(seen.trial.stimulus))).join(samples, in_slot);
+        SampleJoin(record, seen, lookup_for(viewed_in(record.header(), seen.trial))).join(samples, in_slot);
         for (std::size_t i = 0; i < samples.size(); ++i) {
             // Of two slots at one place, the one that was lit then.
             const bool is_here = !in_slot[i].is_elsewhere && in_slot[i].image_px;
@@ -207,7 +207,8 @@ BidsGazeCounts write_bids_gaze(const SessionRecord& record, int run, const Looku
             continue;
         }
         const int object = trial.trial.stimulus.object;
-        const SampleJoin join(record, trial, has_places ? lookup_for(viewed(trial.trial.stimulus)) : nullptr);
+        const SampleJoin join(record, trial,
+                              has_places ? lookup_for(viewed_in(record.header(), trial.trial)) : nullptr);
         const std::vector<std::string> parts = part_cells_of(record.header(), object, TableFormat::tsv);
         const std::string_view slot = record.header().slots[static_cast<std::size_t>(trial.trial.slot)].id;
         const auto take = [&](std::span<const GazeSample> samples) {

@@ -32,8 +32,8 @@ auto of_origin(const SessionHeader& header, int axis) {
 auto of_scale(const SessionHeader& header, double ObjectScale::*what) {
     return [&header, what](const RecordedStimulus& row) {
         const RecordedObject& of = item(header.objects, row.stimulus.object);
-        const auto scale =
-            object_scale(of.camera(row.stimulus.view), of.axis_point, header.display.screen, of.unit);
+        const auto scale = object_scale(of.camera(row.stimulus.view), of.axis_point,
+                                        header.screen_of_view(row.stimulus.view), of.unit);
         return of_maybe(scale, [what](const ObjectScale& known) {
             return Fixed{known.*what, scale_decimals};
         });

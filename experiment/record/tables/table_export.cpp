@@ -131,8 +131,8 @@ class TableExport {
 void TableExport::begin_object(const ViewedObject& viewed, const SurfaceLookup* lookup) {
     const RecordedObject& recorded = item(header_.objects, viewed.object);
     lookup_ = lookup;
-    scale_ = object_scale(recorded.camera(viewed.view), recorded.axis_point, header_.display.screen,
-                          recorded.unit);
+    scale_ = object_scale(recorded.camera(viewed.view), recorded.axis_point,
+                          header_.screen_of_view(viewed.view), recorded.unit);
     ways_.reset();
     const auto* maps = dynamic_cast<const CoordinateMaps*>(lookup);
     if (maps && scale_)
@@ -362,11 +362,11 @@ TableExportCounts export_tables(const SessionRecord& record, const LookupFor& lo
     const std::vector<TrialRecord> presentations = record.presentations();
     for (const TrialRecord& trial : presentations)
         if (trial.counts)
-            seen.insert(viewed(trial.trial.stimulus));
+            seen.insert(viewed_in(record.header(), trial.trial));
     for (const ViewedObject& object : seen) {
         tables.begin_object(object, lookup_for(object));
         for (const TrialRecord& trial : presentations) {
-            if (!trial.counts || viewed(trial.trial.stimulus) != object)
+            if (!trial.counts || viewed_in(record.header(), trial.trial) != object)
                 continue;
             tables.join_samples(trial);
             if (options.progress && trial.place == 0)

@@ -128,7 +128,7 @@ bool is_same_object(const SessionHeader& a, const ViewedObject& in_a, const Sess
         std::sort(maps.begin(), maps.end());
         return maps;
     };
-    const ScreenGeometry &screen = a.display.screen, &other_screen = b.display.screen;
+    const ScreenGeometry screen = a.screen_of_view(in_a.view), other_screen = b.screen_of_view(in_b.view);
     // Maps are looked up by the number of the pose.
     const auto same_angle = [](Degrees one_angle, Degrees other_angle) {
         return one_angle.value == other_angle.value;
@@ -147,17 +147,20 @@ StudyObject describe_object(const SessionHeader& header, const ViewedObject& vie
     StudyObject object;
     object.id = recorded.id;
     object.title = recorded.title;
-    if (recorded.cameras.size() > 1)
-        object.title += ", " + (static_cast<std::size_t>(viewed.view) < header.views.size()
-                                    ? header.views[static_cast<std::size_t>(viewed.view)].title
-                                    : fmt::format("view {}", viewed.view + 1));
+    // Views count on from those of the list, for each further size that slots have.
+    const std::size_t views = std::max<std::size_t>(1, header.views.size()),
+                      view = static_cast<std::size_t>(viewed.view);
+    if (views > 1)
+        object.title += ", " + header.views[view % views].title;
+    if (recorded.cameras.size() > views)
+        object.title += fmt::format(", at {} px", header.screen_of_view(viewed.view).image_px.y);
     object.part_names = recorded.part_names;
     object.areas = Areas(recorded.part_names);
     object.camera = recorded.camera(viewed.view);
     object.axis_point = recorded.axis_point;
     object.unit = recorded.unit;
     object.origin = recorded.origin;
-    object.screen = header.display.screen;
+    object.screen = header.screen_of_view(viewed.view);
     return object;
 }
 

@@ -215,8 +215,10 @@ class StudyReader {
                     !std::filesystem::exists(file))
                     continue;
                 try {
-                    light.emplace(std::move(key), LightScores(read_light_pictures(
-                                                      file, header.display.screen.image_px, pictures)));
+                    light.emplace(
+                        std::move(key),
+                        LightScores(read_light_pictures(
+                            file, header.screen_of_view(stimulus.stimulus.view).image_px, pictures)));
                 } catch (const InputError& error) {
                     results().remarks.push_back(
                         fmt::format("The light of a stimulus is left out: {}", error.what()));
@@ -228,7 +230,7 @@ class StudyReader {
 
     static const LightScores* light_of(const LightOfStimuli& light, const SessionHeader& header,
                                        const TrialRecord& trial) {
-        const RecordedStimulus* const stimulus = stimulus_of(header, trial.trial.stimulus);
+        const RecordedStimulus* const stimulus = stimulus_of(header, header.in_slot(trial.trial.shown(0)));
         const auto found = stimulus ? light.find(light_key(header, *stimulus)) : light.end();
         return found == light.end() ? nullptr : &found->second;
     }
@@ -275,7 +277,8 @@ class StudyReader {
     }
 
     bool is_of(std::size_t session, const TrialRecord& trial, int object) const {
-        const auto own = open_[session].objects.find(viewed(trial.trial.stimulus));
+        const auto own =
+            open_[session].objects.find(viewed_in(open_[session].record().header(), trial.trial));
         return trial.gives_results() && own != open_[session].objects.end() && own->second == object;
     }
 
@@ -364,7 +367,8 @@ class StudyReader {
                 for (StudyKey& key : read.trial.keys)
                     if (key.column == "observer")
                         key.value = results().sessions[session].observer;
-                read.trial.object = open_[session].objects.at(viewed(trials[t].trial.stimulus));
+                read.trial.object =
+                    open_[session].objects.at(viewed_in(open_[session].record().header(), trials[t].trial));
                 read.trial.first_fixation = results().fixations.size();
                 read.trial.fixations = read.fixations.size();
                 for (StudyFixation& fixation : read.fixations) {

@@ -54,7 +54,7 @@ struct Store {
               display.output = OutputMode::native_8bit;
               return display;
           }()),
-          store(*context, pages, encoder, {10, 20}, page_px, budget_bytes) {}
+          store(*context, pages, encoder, {{{10, 20}, page_px}}, budget_bytes) {}
 
     /// The greys of all pages, as the card has them.
     std::vector<int> greys(const StoredStimuli& stimulus) const {
@@ -107,7 +107,7 @@ TEST_CASE("a stimulus has its own pages on the card, whether or not it was expec
 
 TEST_CASE("the stimuli of a trial lie one after another, each once", "[gl]") {
     Store bench;
-    const std::vector<Stimulus> two{{1, 0}, {3, 0}};
+    const std::vector<PlacedStimulus> two{{{1, 0}, 0}, {{3, 0}, 0}, {{1, 0}, 0}};
     std::vector<int> all = truth({1, 0});
     const std::vector<int> second = truth({3, 0});
     all.insert(all.end(), second.begin(), second.end());

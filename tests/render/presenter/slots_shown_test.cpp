@@ -40,10 +40,17 @@ struct ScreenOfSlots {
     PagePresenter presenter;
 
     ScreenOfSlots(const GlContext& context, const DisplaySettings& display_settings, glm::ivec2 image_origin,
-                  std::vector<glm::ivec2> slots)
+                  const std::vector<glm::ivec2>& slots)
         : settings(display_settings),
           display(context, clock, 120.0, row_of(display_settings.output).framebuffer_bits),
-          presenter(context, display, pages, geometry_at(image_origin), settings, {}, std::move(slots)) {}
+          presenter(context, display, pages, geometry_at(image_origin), settings, {}, places_at(slots)) {}
+
+    static std::vector<ImageBox> places_at(const std::vector<glm::ivec2>& origins) {
+        std::vector<ImageBox> places;
+        for (const glm::ivec2 origin : origins)
+            places.push_back({origin, slot_px});
+        return places;
+    }
 
     static ScreenGeometry geometry_at(glm::ivec2 origin) {
         ScreenGeometry geometry;

@@ -41,9 +41,10 @@ TEST_CASE("maps drawn while frames are shown are those drawn before, each pose o
     const std::vector<Object> objects = one_bust();
     const Animation animation;
     const PoseTable poses = distinct_poses(animation);
+    const Protocol protocol;
     for (const ContextKind kind : test::headless_kinds) {
         const auto context = make_headless_context(kind);
-        LiveMaps live(*context, objects, poses, small_px);
+        LiveMaps live(*context, protocol, objects, poses);
         present(live, animation, poses);
         const std::vector<LiveMap> maps = live.take_finished();
         REQUIRE(maps.size() == poses.angles.size());
