@@ -34,7 +34,7 @@ SeenPoints::SeenPoints(const Protocol& protocol, std::span<const Object> objects
 
 std::shared_ptr<const ProbeView> SeenPoints::point_of(const PlacedStimulus& placed,
                                                       const std::string& point) {
-    const Stimulus& stimulus = placed.stimulus;
+    const Stimulus stimulus = protocol_->in_slot(placed);
     if (made_.size() > most_kept)
         made_.clear();
     const auto [made, is_new] =
