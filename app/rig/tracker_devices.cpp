@@ -65,7 +65,7 @@ MadeTracker make_tracker(const TrackerParts& parts, bool virtual_time) {
     }
     const CalibrationKeys& keys = parts.protocol.calibration;
     const bool calibrates = made.tracker->calibrates_itself();
-    if (keys.by == CalibratedBy::tracker && !calibrates)
+    if (keys.by == CalibratedBy::tracker && !calibrates && !device.is_calibrated_elsewhere)
         throw InputError(fmt::format("the eye tracker \"{}\" cannot calibrate itself: write "
                                      "[calibration] by = \"overt\"",
                                      kind.name));

@@ -8,6 +8,7 @@
 #include "app/cli/terminal_output.h"
 #include "app/rig/output_verification.h"
 #include "app/session/session_messages.h"
+#include "devices/tracker/sample_rate_watch.h"
 #include "experiment/base/whole_file.h"
 #include "experiment/ports/event_kinds.h"
 #include "experiment/record/read/session_faults.h"
@@ -80,18 +81,26 @@ void note_tracker(const RecordedTracker& recorded, const Clock& clock) {
     const auto note = [&](const std::string& what) {
         recorded.store.event({clock.now(), -1, tracker_event, what});
     };
-    note(fmt::format("{}{}{}: {} Hz, {}", tracker.name, tracker.model.empty() ? "" : ", ", tracker.model,
+    note(fmt::format("{}{}{}: {:.6g} Hz, {}", tracker.name, tracker.model.empty() ? "" : ", ", tracker.model,
                      tracker.sample_rate_hz,
                      tracker.both_eyes          ? "both eyes"
                      : tracker.eye == Eye::left ? "left eye"
                                                 : "right eye"));
+    const auto warn = [&](const std::string& of_the_rate) {
+        note(of_the_rate);
+        fmt::print(stderr, "the {} {}\n", name_of(recorded), of_the_rate);
+    };
+    const bool is_measured = tracker.told_rate_hz > 0.0;
+    if (is_measured && !is_same_rate(tracker.sample_rate_hz, tracker.told_rate_hz))
+        warn(fmt::format(
+            "sends {:.5g} samples a second where it says {:g} Hz: tables and exports go by what came",
+            tracker.sample_rate_hz, tracker.told_rate_hz));
     const double wished_hz = recorded.wish.rate_hz;
-    if (std::abs(tracker.sample_rate_hz - wished_hz) > 1e-3 * wished_hz && tracker.sample_rate_hz > 0.0) {
-        const std::string granted = fmt::format("samples at {:g} Hz where the protocol wishes {:g} Hz",
-                                                tracker.sample_rate_hz, wished_hz);
-        note(granted);
-        fmt::print(stderr, "the {} {}\n", name_of(recorded), granted);
-    }
+    const bool is_as_wished = is_measured ? is_same_rate(tracker.sample_rate_hz, wished_hz)
+                                          : std::abs(tracker.sample_rate_hz - wished_hz) <= 1e-3 * wished_hz;
+    if (!is_as_wished && tracker.sample_rate_hz > 0.0)
+        warn(fmt::format("samples at {:.5g} Hz where the protocol wishes {:g} Hz", tracker.sample_rate_hz,
+                         wished_hz));
 }
 
 void end_tracker(const RecordedTracker& recorded, const Clock& clock) {

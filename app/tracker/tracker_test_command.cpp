@@ -14,6 +14,7 @@
 #include "devices/host/clocks.h"
 #include "devices/simulated/simulated_observer.h"
 #include "experiment/base/error.h"
+#include "experiment/base/scratch_folder.h"
 
 namespace overt {
 
@@ -49,6 +50,9 @@ nlohmann::ordered_json json_of(const TrackerDescription& description, const Stre
     nlohmann::ordered_json json{{"tracker", description.name},
                                 {"model", description.model},
                                 {"granted_rate_hz", description.sample_rate_hz},
+                                {"told_rate_hz", description.told_rate_hz > 0.0
+                                                     ? nlohmann::ordered_json(description.told_rate_hz)
+                                                     : nlohmann::ordered_json()},
                                 {"both_eyes", description.both_eyes},
                                 {"seconds", seconds},
                                 {"samples", figures.samples()},
@@ -77,9 +81,11 @@ nlohmann::ordered_json json_of(const TrackerDescription& description, const Stre
 
 void print(const TrackerDescription& description, const StreamFigures& figures, double seconds,
            double processor_s, bool lost) {
-    fmt::print("{}{}{}: {} of {:.0f} Hz\n", description.name, description.model.empty() ? "" : ", ",
-               description.model, description.both_eyes ? "both eyes" : "one eye",
-               description.sample_rate_hz);
+    fmt::print("{}{}{}: {} of {:.6g} Hz{}\n", description.name, description.model.empty() ? "" : ", ",
+               description.model, description.both_eyes ? "both eyes" : "one eye", description.sample_rate_hz,
+               description.told_rate_hz > 0.0
+                   ? fmt::format(", measured (it says {:g} Hz)", description.told_rate_hz)
+                   : "");
     for (const Eye eye : {Eye::left, Eye::right}) {
         if (!figures.has(eye))
             continue;
@@ -148,6 +154,11 @@ int run_tracker_test(const TrackerTestOptions& options) {
     bar.finish();
     if (!lost)
         read_clocks(*tracker, figures);
+    // What the tracker's host keeps of the test is ended there, and thrown away here.
+    const ScratchFolder thrown_away("overt-tracker-test");
+    for (const std::string& sentence : tracker->finish(thrown_away.path().string(), {}))
+        if (sentence.find(thrown_away.path().string()) == std::string::npos)
+            fmt::print(stderr, "{}\n", sentence);
     if (options.json)
         fmt::print("{}\n", json_of(tracker->description(), figures, seconds, processor_s, lost).dump(2));
     else

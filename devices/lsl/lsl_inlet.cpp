@@ -1,12 +1,12 @@
 #include "devices/lsl/lsl_inlet.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "devices/lsl/lsl_known_apps.h"
 #include "devices/tracker/tracker_device.h"
 #include "devices/tracker/tracker_seconds.h"
 #include "experiment/base/error.h"
@@ -17,8 +17,6 @@ namespace {
 constexpr std::int32_t buffered_s = 60;
 constexpr int most_channels = 1024;
 constexpr int samples_at_once = 4096;
-/// liblsl advises to look for a second or two.
-constexpr SessionDuration second_stream = std::chrono::seconds(2);
 constexpr SessionDuration rate_time = std::chrono::seconds(1);
 
 /// What liblsl's documents promise of a correction where it tells no uncertainty: "below 1 ms".
@@ -46,36 +44,6 @@ LslInlet::LslInlet(LslInletSettings settings, const Clock& clock)
 
 LslInlet::~LslInlet() = default;
 
-LslOwned<LslStreamInfo> LslInlet::find_stream() {
-    const bool by_name = !settings_.stream.empty();
-    std::array<LslStreamInfo*, 32> found{};
-    // Of a type, a second one is waited for, to see that there is one only.
-    const SessionDuration waiting =
-        by_name ? settings_.patience : std::min(settings_.patience, second_stream);
-    const std::int32_t count = library_->resolve_byprop(
-        found.data(), static_cast<std::uint32_t>(found.size()), by_name ? "name" : "type",
-        by_name ? settings_.stream.c_str() : settings_.type.c_str(), by_name ? 1 : 2, to_seconds(waiting));
-    std::vector<LslOwned<LslStreamInfo>> streams;
-    for (std::int32_t i = 0; i < count; ++i)
-        streams.emplace_back(found[static_cast<std::size_t>(i)], LslRelease{library_.get()});
-    if (streams.empty())
-        throw DeviceError(
-            fmt::format("No stream of {} \"{}\" is on the network; start the tracker's program and "
-                        "its output to the Lab Streaming Layer, and let UDP port 16571 through "
-                        "the firewalls.",
-                        by_name ? "name" : "type", by_name ? settings_.stream : settings_.type));
-    if (streams.size() > 1) {
-        std::string names;
-        for (const auto& stream : streams)
-            names += fmt::format("{}\"{}\" on {}", names.empty() ? "" : ", ",
-                                 text_of(library_->get_name(stream.get())),
-                                 text_of(library_->get_hostname(stream.get())));
-        throw DeviceError(fmt::format("{} streams could be meant: {}; name one that is there once.",
-                                      streams.size(), names));
-    }
-    return std::move(streams.front());
-}
-
 std::string LslInlet::identity(LslStreamInfo* info) const {
     const std::string source = text_of(library_->get_source_id(info));
     return fmt::format("{} on {}{}{}, liblsl {}", name_, text_of(library_->get_hostname(info)),
@@ -85,7 +53,7 @@ std::string LslInlet::identity(LslStreamInfo* info) const {
 TrackerDescription LslInlet::connect(const TrackerWish& wish) {
     if (!library_)
         library_ = load_lsl(settings_.library);
-    const LslOwned<LslStreamInfo> found = find_stream();
+    const LslOwned<LslStreamInfo> found = find_lsl_stream(*library_, settings_.stream, settings_.patience);
     name_ = fmt::format("\"{}\"", text_of(library_->get_name(found.get())));
     const std::int32_t format = library_->get_channel_format(found.get());
     const int count = library_->get_channel_count(found.get());
@@ -106,7 +74,10 @@ TrackerDescription LslInlet::connect(const TrackerWish& wish) {
         throw DeviceError(fmt::format("The stream {} does not tell what is in it (error {}): see whether a "
                                       "firewall lets TCP ports 16572 to 16604 through.",
                                       name_, error));
-    layout_.emplace(channels_of(*library_, info.get()), settings_.layout, wish, name_);
+    const std::vector<LslChannel> channels = channels_of(*library_, info.get());
+    const LslKnownApp known =
+        with_known_app(settings_.layout, text_of(library_->get_name(info.get())), channels);
+    layout_.emplace(channels, known.settings, wish, name_);
     values_.assign(static_cast<std::size_t>(count), 0.0);
     is_lost_ = false;
     library_->open_stream(inlet_.get(), to_seconds(settings_.patience), &error);
@@ -119,7 +90,10 @@ TrackerDescription LslInlet::connect(const TrackerWish& wish) {
     TrackerDescription description;
     description.name = "Lab Streaming Layer";
     description.model = identity(info.get());
-    description.sample_rate_hz = measure_rate(nominal_hz);
+    if (!known.app.empty())
+        description.model += fmt::format(", channels as {} has them", known.app);
+    description.sample_rate_hz = measure_rate();
+    description.told_rate_hz = nominal_hz;
     description.eye = layout_->eye();
     description.both_eyes = layout_->measures_both_eyes();
     // The first correction takes its time; it is better spent here than in a recording.
@@ -127,7 +101,14 @@ TrackerDescription LslInlet::connect(const TrackerWish& wish) {
     return description;
 }
 
-double LslInlet::measure_rate(double nominal_hz) {
+SetupOutcome LslInlet::set_up(SetupScreen&) {
+    SetupOutcome outcome;
+    outcome.method = "the tracker's own program, before the session";
+    outcome.message = fmt::format("by the program that sends the stream {}, before the session", name_);
+    return outcome;
+}
+
+double LslInlet::measure_rate() {
     std::vector<TrackerTime> times;
     SessionTime end = clock_.now() + settings_.patience;
     while (clock_.now() < end && !is_lost_) {
@@ -141,9 +122,7 @@ double LslInlet::measure_rate(double nominal_hz) {
     if (times.empty())
         throw DeviceError(
             fmt::format("The stream {} sends nothing; see whether its tracker measures.", name_));
-    if (nominal_hz > 0.0)
-        return nominal_hz;
-    // Of a stream without a rate, how many samples come in a second.
+    // A stream's own word is what somebody once wrote into a program.
     const double span_s = std::chrono::duration<double>(times.back() - times.front()).count();
     return times.size() > 2 && span_s > 0.0 ? static_cast<double>(times.size() - 1) / span_s : 1.0;
 }
@@ -217,12 +196,13 @@ template <> TrackerDevice tracker_device_of<kind_called<TrackerKind>("lsl")>() {
     return {.make_driver = [](const TrackerParts& parts) -> std::unique_ptr<TrackerDriver> {
                 const TrackerSettings& keys = parts.protocol.tracker;
                 LslInletSettings settings;
-                settings.stream = keys.address;
+                settings.stream = parse_lsl_choice(keys.address);
                 for (const std::string& channel : keys.channels)
                     settings.layout.assignments.push_back(parse_lsl_assignment(channel));
                 settings.layout.unit = keys.unit;
                 settings.layout.y_is_up = keys.y_is_up;
                 settings.layout.least_confidence = keys.least_confidence;
+                settings.layout.missing = keys.missing;
                 return std::make_unique<LslInlet>(settings, parts.clock);
             },
             .can_do = "what the stream has; its maker's program or overt calibrates",
@@ -230,7 +210,8 @@ template <> TrackerDevice tracker_device_of<kind_called<TrackerKind>("lsl")>() {
                 [] {
                     load_lsl({});
                     return std::string("its library is there");
-                }};
+                },
+            .is_calibrated_elsewhere = true};
 }
 
 } // namespace overt

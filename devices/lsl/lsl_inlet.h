@@ -8,15 +8,15 @@
 
 #include "devices/lsl/lsl_gaze_layout.h"
 #include "devices/lsl/lsl_library.h"
+#include "devices/lsl/lsl_stream_search.h"
 #include "devices/tracker/tracker_driver.h"
 #include "experiment/ports/clock.h"
 
 namespace overt {
 
 struct LslInletSettings {
-    std::string library;       ///< file of liblsl; empty: see load_lsl()
-    std::string stream;        ///< its name; empty: the only one of that type
-    std::string type = "Gaze"; ///< of streams, where no name is given
+    std::string library;    ///< file of liblsl; empty: see load_lsl()
+    LslStreamChoice stream; ///< empty: the only one of gaze
     LslLayoutSettings layout;
     SessionDuration patience = std::chrono::seconds(5);
     /// Of a recording in which no sample comes: the tracker is lost. Streams without a rate may send nothing
@@ -25,7 +25,8 @@ struct LslInletSettings {
 };
 
 /// Samples carry the stream's own time stamps; the clock is read by the exchange of times that liblsl makes
-/// in the background. The stream's program calibrates by itself before the session.
+/// in the background. The rate is what comes, whatever the stream says. The stream's program calibrates by
+/// itself before the session.
 class LslInlet final : public TrackerDriver {
   public:
     /// `clock` must go by the machine's monotonic time, as liblsl's does, and outlive the driver.
@@ -33,15 +34,16 @@ class LslInlet final : public TrackerDriver {
     ~LslInlet() override;
 
     TrackerDescription connect(const TrackerWish& wish) override;
+    /// Nothing is to be done: says who has calibrated.
+    SetupOutcome set_up(SetupScreen& setup_screen) override;
     void start() override;
     void stop() noexcept override {}
     RecordingState read(TrackerItemSink& sink, SessionTime deadline) noexcept override;
     std::optional<ClockPair> read_clocks() noexcept override;
 
   private:
-    LslOwned<LslStreamInfo> find_stream();
     std::string identity(LslStreamInfo* info) const;
-    double measure_rate(double nominal_hz);
+    double measure_rate();
     std::optional<TrackerTime> pull(double timeout_s) noexcept;
 
     LslInletSettings settings_;

@@ -11,12 +11,14 @@ LslLibrary::LslLibrary(const SharedLibrary& library) : file_(library.file()) {
     const auto require = [&](auto*& function, const char* name) { library.require(function, name, missing); };
     require(local_clock, "lsl_local_clock");
     require(resolve_byprop, "lsl_resolve_byprop");
+    require(resolve_all, "lsl_resolve_all");
     require(create_streaminfo, "lsl_create_streaminfo");
     require(destroy_streaminfo, "lsl_destroy_streaminfo");
     require(get_name, "lsl_get_name");
     require(get_type, "lsl_get_type");
     require(get_source_id, "lsl_get_source_id");
     require(get_hostname, "lsl_get_hostname");
+    require(get_uid, "lsl_get_uid");
     require(get_channel_count, "lsl_get_channel_count");
     require(get_channel_format, "lsl_get_channel_format");
     require(get_nominal_srate, "lsl_get_nominal_srate");

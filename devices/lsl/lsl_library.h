@@ -37,6 +37,7 @@ class LslLibrary {
 
     std::int32_t (*resolve_byprop)(LslStreamInfo** buffer, std::uint32_t size, const char* property,
                                    const char* value, std::int32_t minimum, double timeout_s) = nullptr;
+    std::int32_t (*resolve_all)(LslStreamInfo** buffer, std::uint32_t size, double wait_s) = nullptr;
     LslStreamInfo* (*create_streaminfo)(const char* name, const char* type, std::int32_t channels,
                                         double rate_hz, std::int32_t format, const char* source_id) = nullptr;
     void (*destroy_streaminfo)(LslStreamInfo*) = nullptr;
@@ -44,6 +45,7 @@ class LslLibrary {
     const char* (*get_type)(LslStreamInfo*) = nullptr;
     const char* (*get_source_id)(LslStreamInfo*) = nullptr;
     const char* (*get_hostname)(LslStreamInfo*) = nullptr;
+    const char* (*get_uid)(LslStreamInfo*) = nullptr;
     std::int32_t (*get_channel_count)(LslStreamInfo*) = nullptr;
     std::int32_t (*get_channel_format)(LslStreamInfo*) = nullptr;
     double (*get_nominal_srate)(LslStreamInfo*) = nullptr;

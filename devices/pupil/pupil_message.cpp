@@ -79,6 +79,18 @@ std::optional<PupilDatum> read_pupil_datum(std::string_view bytes) noexcept {
     return datum;
 }
 
+std::optional<double> read_gaze_time(std::string_view bytes) noexcept {
+    MsgpackReader reader(bytes);
+    std::optional<double> time_s;
+    const bool is_map = reader.each_entry([&](std::string_view key) {
+        if (key != "timestamp")
+            return false;
+        time_s = finite(reader.number());
+        return true;
+    });
+    return is_map ? time_s : std::nullopt;
+}
+
 std::optional<SurfaceGaze> read_surface_gaze(MsgpackReader& reader) noexcept {
     std::optional<double> time_s, confidence;
     bool has_place = false;

@@ -25,6 +25,10 @@ struct PupilDatum {
 /// Nothing if the bytes are no such map, or lack eye, time or confidence.
 std::optional<PupilDatum> read_pupil_datum(std::string_view bytes) noexcept;
 
+/// The time of a map of gaze in the scene camera's picture, from the topics "gaze.…", in seconds of Pupil
+/// time; nothing if the bytes are no such map.
+std::optional<double> read_gaze_time(std::string_view bytes) noexcept;
+
 /// Gaze on a surface, from the topic "surfaces.<name>".
 struct SurfaceGaze {
     glm::dvec2 place{}; ///< share of the surface: (0, 0) bottom left, (1, 1) top right

@@ -1,5 +1,6 @@
 #include "devices/pupil/pupil_samples.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "devices/tracker/tracker_seconds.h"
@@ -20,17 +21,37 @@ PupilSamples::PupilSamples(const TrackerWish& wish, const SurfaceOnScreen& surfa
                            double least_confidence) noexcept
     : PupilSamples(wish.eye, wish.both_eyes, surface, least_confidence) {}
 
-void PupilSamples::take(const PupilDatum& pupil) noexcept {
-    std::optional<PupilDatum>& known = pupils_[static_cast<std::size_t>(pupil.eye)];
-    // Each picture is measured in 2D and in 3D; what only one of them tells is kept.
-    PupilDatum merged = pupil;
-    if (known && known->time_s == pupil.time_s) {
-        if (!merged.diameter_mm)
-            merged.diameter_mm = known->diameter_mm;
-        if (!merged.eye_mm)
-            merged.eye_mm = known->eye_mm;
+void PupilHistory::take(const PupilDatum& pupil) noexcept {
+    PupilDatum* known = nullptr;
+    for (std::size_t i = 0; i < count_ && !known; ++i)
+        if (pupils_[i].time_s == pupil.time_s)
+            known = &pupils_[i];
+    if (!known) {
+        pupils_[next_] = pupil;
+        next_ = (next_ + 1) % pupils_.size();
+        count_ = std::min(count_ + 1, pupils_.size());
+        return;
     }
-    known = merged;
+    PupilDatum merged = pupil;
+    if (!merged.diameter_mm)
+        merged.diameter_mm = known->diameter_mm;
+    if (!merged.eye_mm)
+        merged.eye_mm = known->eye_mm;
+    *known = merged;
+}
+
+const PupilDatum* PupilHistory::nearest(double time_s) const noexcept {
+    const PupilDatum* best = nullptr;
+    for (std::size_t i = 0; i < count_; ++i) {
+        const double apart_s = std::abs(pupils_[i].time_s - time_s);
+        if (apart_s <= pupil_reach_s && (!best || apart_s < std::abs(best->time_s - time_s)))
+            best = &pupils_[i];
+    }
+    return best;
+}
+
+void PupilSamples::take(const PupilDatum& pupil) noexcept {
+    pupils_[static_cast<std::size_t>(pupil.eye)].take(pupil);
 }
 
 void PupilSamples::put_eye(Eye eye, const SurfaceGaze& gaze, bool is_its_own,
@@ -44,9 +65,8 @@ void PupilSamples::put_eye(Eye eye, const SurfaceGaze& gaze, bool is_its_own,
     detail.sampled_at = last_time_;
     detail.eye = eye;
     detail.confidence = is_its_own ? static_cast<float>(gaze.confidence) : 0.0f;
-    const std::optional<PupilDatum>& pupil = pupils_[static_cast<std::size_t>(eye)];
-    if (pupil && pupil->confidence >= least_confidence_ &&
-        std::abs(pupil->time_s - gaze.time_s) <= pupil_reach_s) {
+    const PupilDatum* const pupil = pupils_[static_cast<std::size_t>(eye)].nearest(gaze.time_s);
+    if (pupil && pupil->confidence >= least_confidence_) {
         if (pupil->diameter_mm)
             sample.pupil_area = static_cast<float>(*pupil->diameter_mm);
         detail.eye_mm = pupil->eye_mm;

@@ -1,7 +1,6 @@
 #include "devices/pupil/pupil_tracker.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -16,7 +15,7 @@ namespace overt {
 namespace {
 
 constexpr std::string_view calibration_topic = "notify.calibration.";
-constexpr std::string_view pupil_topic = "pupil.";
+constexpr std::string_view pupil_topic = "pupil.", gaze_topic = "gaze.";
 
 constexpr SessionDuration rate_time = std::chrono::seconds(1);
 constexpr SessionDuration calibration_slice = std::chrono::milliseconds(20);
@@ -32,6 +31,26 @@ std::string packed(const nlohmann::json& map) {
     return bytes;
 }
 
+/// How often something comes by its own times; what is not later than all before is told a second time, or is
+/// dropped when it is recorded.
+class CountedTimes {
+  public:
+    void take(double time_s) {
+        if (count_ > 0 && time_s <= last_s_)
+            return;
+        if (count_++ == 0)
+            first_s_ = time_s;
+        last_s_ = time_s;
+    }
+    int count() const { return count_; }
+    /// 0 for fewer than three.
+    double rate_hz() const { return count_ < 3 ? 0.0 : (count_ - 1) / (last_s_ - first_s_); }
+
+  private:
+    int count_ = 0;
+    double first_s_ = 0.0, last_s_ = 0.0;
+};
+
 /// Pupil time of a session time, in seconds.
 double pupil_time_s(SessionTime at, const ClockPair& clocks) {
     const SessionTime middle = clocks.before + (clocks.after - clocks.before) / 2;
@@ -44,7 +63,12 @@ PupilTracker::PupilTracker(PupilSettings settings, const Clock& clock)
     : settings_(std::move(settings)), clock_(clock),
       surface_topic_(fmt::format("surfaces.{}", settings_.surface)) {}
 
-PupilTracker::~PupilTracker() = default;
+PupilTracker::~PupilTracker() { end_recording(); }
+
+bool PupilTracker::end_recording() noexcept {
+    return !link_ || !std::exchange(is_recording_, false) ||
+           link_->ask("r", clock_.now() + settings_.patience).has_value();
+}
 
 bool PupilTracker::tell(const char* subject, std::string_view content) noexcept {
     return link_->notify(subject, content, clock_.now() + settings_.patience);
@@ -66,7 +90,9 @@ TrackerDescription PupilTracker::connect(const TrackerWish& wish) {
     tell("start_plugin", packed({{"subject", "start_plugin"},
                                  {"name", "Annotation_Capture"},
                                  {"args", nlohmann::json::object()}}));
-    description.sample_rate_hz = measure_rate();
+    const Rates rates = measure_rates();
+    description.sample_rate_hz = rates.gaze_hz > 0.0 ? rates.gaze_hz : rates.camera_hz;
+    description.told_rate_hz = rates.camera_hz;
     description.eye = wish.eye;
     description.both_eyes = wish.both_eyes;
     const SurfaceOnScreen whole{{0.0, 0.0},
@@ -76,29 +102,35 @@ TrackerDescription PupilTracker::connect(const TrackerWish& wish) {
     return description;
 }
 
-double PupilTracker::measure_rate() {
-    // The eye's camera tells, whatever of its pictures becomes gaze.
-    link_->subscribe(std::string(pupil_topic));
-    std::vector<double> times_s;
+PupilTracker::Rates PupilTracker::measure_rates() {
+    // Gaze is told once Pupil Capture is calibrated, and on the surface while its markers are seen; the eye's
+    // camera tells in any case.
+    for (const std::string& topic : {std::string(pupil_topic), std::string(gaze_topic), surface_topic_})
+        link_->subscribe(topic);
+    CountedTimes camera, gaze, on_surface;
     PupilMessage message;
     const SessionTime give_up = clock_.now() + settings_.patience;
     SessionTime end = give_up;
     while (clock_.now() < end && link_->receive(message, end)) {
-        const std::optional<PupilDatum> pupil = read_pupil_datum(message.content);
-        if (!pupil || pupil->eye != wish_.eye)
-            continue;
-        if (times_s.empty())
-            end = std::min(give_up, clock_.now() + rate_time);
-        if (times_s.empty() || pupil->time_s > times_s.back())
-            times_s.push_back(pupil->time_s);
+        if (message.topic == surface_topic_) {
+            read_surface(message.content, [&](const SurfaceGaze& each) { on_surface.take(each.time_s); });
+        } else if (message.topic.starts_with(gaze_topic)) {
+            if (const std::optional<double> time_s = read_gaze_time(message.content))
+                gaze.take(*time_s);
+        } else if (const auto pupil = read_pupil_datum(message.content); pupil && pupil->eye == wish_.eye) {
+            if (camera.count() == 0)
+                end = std::min(give_up, clock_.now() + rate_time);
+            camera.take(pupil->time_s);
+        }
     }
-    link_->unsubscribe(std::string(pupil_topic));
-    if (times_s.size() < 3)
+    for (const std::string& topic : {std::string(pupil_topic), std::string(gaze_topic), surface_topic_})
+        link_->unsubscribe(topic);
+    if (camera.count() < 3)
         throw DeviceError(fmt::format(
             "Pupil Capture at {} tells nothing of the {} eye; switch on the detection "
             "of eye {} in it, or name the other eye.",
             link_->name(), wish_.eye == Eye::left ? "left" : "right", wish_.eye == Eye::left ? 1 : 0));
-    return std::round(static_cast<double>(times_s.size() - 1) / (times_s.back() - times_s.front()));
+    return {camera.rate_hz(), on_surface.count() > 2 ? on_surface.rate_hz() : gaze.rate_hz()};
 }
 
 SetupOutcome PupilTracker::set_up(SetupScreen& setup_screen) {
@@ -220,9 +252,8 @@ void PupilTracker::send(const TrackerMark& mark) noexcept {
 
 std::vector<std::string> PupilTracker::finish(const std::string&, const EyeTracker::FileProgress&) {
     std::vector<std::string> said;
-    if (link_ && is_recording_ && !link_->ask("r", clock_.now() + settings_.patience))
+    if (!end_recording())
         said.emplace_back("Pupil Capture did not answer when its recording was to end: end it in its window");
-    is_recording_ = false;
     if (samples_ && has_started_ && !has_surface_)
         said.push_back(
             fmt::format("no gaze came on the surface \"{}\": see in Pupil Capture that a surface of "

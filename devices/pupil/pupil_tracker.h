@@ -52,7 +52,15 @@ class PupilTracker final : public TrackerDriver {
                                     const EyeTracker::FileProgress& progress) override;
 
   private:
-    double measure_rate();
+    /// What comes in a second, of the wished eye's camera and of gaze: the matching of both eyes tells more
+    /// gaze than a camera takes pictures, or less.
+    struct Rates {
+        double camera_hz = 0.0;
+        double gaze_hz = 0.0; ///< on the surface, or where that is not seen at all; 0: none came
+    };
+    Rates measure_rates();
+    /// Of Pupil Capture, where it records for us; false: it did not answer.
+    bool end_recording() noexcept;
     void take_published(const PupilMessage& message, TrackerItemSink& sink) noexcept;
     void drop_published() noexcept;
     bool tell(const char* subject, std::string_view content) noexcept;

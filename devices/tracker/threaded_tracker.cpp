@@ -23,11 +23,15 @@ constexpr int last_readings = 3;
 /// Puts items into the ring and tells of those that had no room.
 class ThreadedTracker::RingSink final : public TrackerItemSink {
   public:
-    RingSink(SpscRing<TrackerItem>& ring, SampleListener* listener) : ring_(ring), listener_(listener) {}
+    RingSink(SpscRing<TrackerItem>& ring, SampleListener* listener, SampleRateWatch& rate)
+        : ring_(ring), listener_(listener), rate_(rate) {}
 
     void put(const TrackerItem& item) noexcept override {
-        if (const auto* sample = std::get_if<GazeSample>(&item); sample && listener_)
-            listener_->measured(*sample);
+        if (const auto* sample = std::get_if<GazeSample>(&item)) {
+            rate_.take(*sample);
+            if (listener_)
+                listener_->measured(*sample);
+        }
         if (lost_ > 0) {
             if (!ring_.try_push(TrackerGap{TrackerGap::Reason::overflow, last_, lost_})) {
                 count_loss(item);
@@ -50,6 +54,7 @@ class ThreadedTracker::RingSink final : public TrackerItemSink {
 
     SpscRing<TrackerItem>& ring_;
     SampleListener* listener_;
+    SampleRateWatch& rate_;
     TrackerTime last_{};
     std::int64_t lost_ = 0;
 };
@@ -96,7 +101,8 @@ void ThreadedTracker::stop_recording() {
 }
 
 void ThreadedTracker::record(const std::stop_token& stop) noexcept {
-    RingSink sink(items_, listener_);
+    rate_.begin();
+    RingSink sink(items_, listener_, rate_);
     SessionTime clocks_due = clock_->now() + between_clock_readings;
     int readings_left = last_readings;
     while (readings_left > 0) {
@@ -156,6 +162,8 @@ void ThreadedTracker::reconnect() {
 std::vector<std::string> ThreadedTracker::finish(const std::string& folder, const FileProgress& progress) {
     stop_recording();
     std::vector<std::string> said = driver_->finish(folder, progress);
+    if (std::optional<std::string> rate = rate_.warning(description_))
+        said.push_back(std::move(*rate));
     if (const std::int64_t lost = lost_marks_)
         said.push_back(std::to_string(lost) + " messages for the tracker's file were lost: too many at once");
     return said;

@@ -6,6 +6,7 @@
 #include <memory>
 #include <thread>
 
+#include "devices/tracker/sample_rate_watch.h"
 #include "devices/tracker/tracker_driver.h"
 #include "experiment/base/spsc_ring.h"
 #include "experiment/ports/clock.h"
@@ -61,7 +62,8 @@ class ThreadedTracker final : public EyeTracker {
     std::atomic<RecordingState> state_{RecordingState::running};
     std::atomic<std::int64_t> lost_marks_{0};
     SampleListener* listener_ = nullptr;
-    std::jthread thread_; ///< while it records
+    SampleRateWatch rate_; ///< the thread's while it records
+    std::jthread thread_;  ///< while it records
 };
 
 } // namespace overt

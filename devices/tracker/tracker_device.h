@@ -37,6 +37,8 @@ struct TrackerDevice {
     std::string (*look_for)() = nullptr;
     /// Of what is no hardware.
     std::unique_ptr<EyeTracker> (*make_tracker)(const TrackerParts& parts) = nullptr;
+    /// A program of its maker can have calibrated it before the session: `by = "tracker"` is that.
+    bool is_calibrated_elsewhere = false;
 };
 
 template <TrackerKind kind> TrackerDevice tracker_device_of();

@@ -32,12 +32,30 @@ LSL_CALL double lsl_local_clock() {
 LSL_CALL std::int32_t lsl_library_version() { return 116; }
 
 #ifndef FAKE_LSL_BROKEN
+/// As the real one: what has answered once there are `minimum`, in the order of the answers, and no more.
 LSL_CALL std::int32_t lsl_resolve_byprop(Info** buffer, std::uint32_t size, const char* property,
-                                         const char* value, std::int32_t, double) {
+                                         const char* value, std::int32_t minimum, double) {
+    const std::scoped_lock lock(fake_lsl()->mutex);
+    const auto property_of = [name = std::string(property)](const FakeStream& stream) {
+        return name == "name"        ? stream.name
+               : name == "type"      ? stream.type
+               : name == "source_id" ? stream.source
+               : name == "hostname"  ? stream.host
+                                     : stream.uid;
+    };
+    std::uint32_t count = 0;
+    for (const Info& stream : fake_lsl()->network)
+        if (property_of(*stream) == value && count < size && static_cast<std::int32_t>(count) < minimum) {
+            buffer[count++] = new Info(stream);
+            ++fake_lsl()->infos;
+        }
+    return static_cast<std::int32_t>(count);
+}
+LSL_CALL std::int32_t lsl_resolve_all(Info** buffer, std::uint32_t size, double) {
     const std::scoped_lock lock(fake_lsl()->mutex);
     std::uint32_t count = 0;
     for (const Info& stream : fake_lsl()->network)
-        if ((std::string(property) == "name" ? stream->name : stream->type) == value && count < size) {
+        if (count < size) {
             buffer[count++] = new Info(stream);
             ++fake_lsl()->infos;
         }
@@ -66,6 +84,7 @@ LSL_CALL const char* lsl_get_name(Info* info) { return (*info)->name.c_str(); }
 LSL_CALL const char* lsl_get_type(Info* info) { return (*info)->type.c_str(); }
 LSL_CALL const char* lsl_get_source_id(Info* info) { return (*info)->source.c_str(); }
 LSL_CALL const char* lsl_get_hostname(Info* info) { return (*info)->host.c_str(); }
+LSL_CALL const char* lsl_get_uid(Info* info) { return (*info)->uid.c_str(); }
 LSL_CALL std::int32_t lsl_get_channel_count(Info* info) { return (*info)->channels; }
 LSL_CALL std::int32_t lsl_get_channel_format(Info* info) { return (*info)->format; }
 LSL_CALL double lsl_get_nominal_srate(Info* info) { return (*info)->rate_hz; }

@@ -26,7 +26,7 @@ struct FakeXml {
 };
 
 struct FakeStream {
-    std::string name, type, source, host = "tracker-pc";
+    std::string name, type, source, host = "tracker-pc", uid;
     int channels = 0, format = 2;
     double rate_hz = 0.0;
     FakeXml desc{"desc", {}, {}, nullptr};

@@ -61,8 +61,55 @@ TEST_CASE("a stream of gaze is found by its type and tells what it is", "[unit]"
     CHECK(description.both_eyes);
     // 250 samples in a second of the stream's own clock, however fast they come.
     CHECK(description.sample_rate_hz == Approx(250.0).epsilon(0.01));
+    CHECK(description.told_rate_hz == 0.0);
+}
+
+TEST_CASE("a stream's rate is what comes of it, and what it says is told beside it", "[unit]") {
+    FedStream fed;
     fed.stream->rate_hz = 1000.0;
-    CHECK(fed.connect().sample_rate_hz == 1000.0);
+    const TrackerDescription description = fed.connect();
+    CHECK(description.sample_rate_hz == Approx(250.0).epsilon(0.01));
+    CHECK(description.told_rate_hz == 1000.0);
+}
+
+TEST_CASE("a stream of gaze is told by whatever its program calls its type", "[unit]") {
+    FedStream fed;
+    const auto markers = fed.bench.add_gaze("other");
+    markers->type = "Markers";
+    for (const char* type : {"gaze", "EyeTracking", "Eyetracker", "ET", "Eye-Tracking"}) {
+        fed.stream->type = type;
+        INFO(type);
+        CHECK_THAT(fed.connect().model, Contains("\"tracker\" on tracker-pc"));
+    }
+    CHECK_FALSE(is_lsl_type_of_gaze("EEG"));
+    CHECK_FALSE(is_lsl_type_of_gaze(""));
+}
+
+TEST_CASE("of two streams of one name none is taken silently, and each can be told by what is its own",
+          "[unit]") {
+    FedStream fed;
+    fed.stream->uid = "uid-1";
+    const auto twin = fed.bench.add_gaze("tracker");
+    twin->source = "serial 8";
+    twin->host = "lab2";
+    twin->uid = "uid-2";
+    fed.settings.stream = parse_lsl_choice("tracker");
+    CHECK_THROWS_WITH(fed.connect(), Contains("2 streams could be meant") &&
+                                         Contains("on tracker-pc, source_id=serial 7, uid=uid-1") &&
+                                         Contains("on lab2, source_id=serial 8, uid=uid-2"));
+    for (const char* one : {"source_id=serial 7", "uid=uid-1", "host=tracker-pc",
+                            "name=tracker, source_id = serial 7", "type=Gaze, host=tracker-pc"}) {
+        fed.settings.stream = parse_lsl_choice(one);
+        INFO(one);
+        CHECK_THAT(fed.connect().model, Contains("source serial 7"));
+    }
+    fed.settings.patience = 100ms;
+    fed.settings.stream = parse_lsl_choice("name=tracker, host=lab3");
+    CHECK_THROWS_WITH(fed.connect(), Contains("No stream of name \"tracker\" and host \"lab3\""));
+    CHECK_THROWS_WITH(parse_lsl_choice("serial=7"), Contains("words are uid, source_id, name, host"));
+    CHECK_THROWS_WITH(parse_lsl_choice("name=a, b"), Contains("does not say which stream"));
+    CHECK(parse_lsl_choice("name=a=b").name == "a=b");
+    CHECK(parse_lsl_choice("").is_open());
 }
 
 TEST_CASE("samples of a stream keep their own times, each once and in order", "[unit]") {
@@ -159,17 +206,17 @@ TEST_CASE("streams that are not there, not one or not gaze are refused with a re
     FedStream fed;
     const auto second = fed.bench.add_gaze("second");
     fed.settings.patience = 100ms;
-    CHECK_THROWS_WITH(fed.connect(),
-                      Contains("2 streams could be meant: \"tracker\" on tracker-pc, \"second\""));
-    fed.settings.stream = "third";
+    CHECK_THROWS_WITH(fed.connect(), Contains("2 streams could be meant:\n  \"tracker\" of type Gaze") &&
+                                         Contains("\"second\""));
+    fed.settings.stream.name = "third";
     CHECK_THROWS_WITH(fed.connect(), Contains("No stream of name \"third\"") && Contains("16571"));
-    fed.settings.stream = "second";
+    fed.settings.stream.name = "second";
     CHECK_THROWS_WITH(fed.connect(), Contains("\"second\" sends nothing"));
     second->answers = false;
     CHECK_THROWS_WITH(fed.connect(), Contains("does not tell what is in it"));
     second->format = 3;
     CHECK_THROWS_WITH(fed.connect(), Contains("carries no numbers"));
-    fed.settings.stream = "tracker";
+    fed.settings.stream.name = "tracker";
     fed.settings.patience = 20s;
     CHECK_NOTHROW(fed.connect());
     fed.inlet.reset();

@@ -29,6 +29,7 @@ class PupilPeer {
     std::atomic<double> confidence{0.95};
     std::atomic<int> cameras{2}; ///< 2: both eyes; 0, 1: that camera only
     std::atomic<double> calibration_s{0.1};
+    std::atomic<int> gazes_a_picture{1}; ///< as the matching of both eyes makes of them
 
     PupilPeer() : context_(zmq_ctx_new()) {
         remote_ = bound(ZMQ_REP, remote_port_);
@@ -150,14 +151,18 @@ class PupilPeer {
                                     {"diameter", 40.0},
                                     {"diameter_3d", camera == 0 ? 3.5 : 4.5},
                                     {"sphere", {{"center", {1.0, 2.0, 40.0}}, {"radius", 10.4}}}}));
-            if (has_surface)
-                publish("surfaces.screen", packed(surface_message()));
-            publish("surfaces.screen2", packed(surface_message()));
+            for (int i = 0; i < gazes_a_picture; ++i) {
+                const double time_s = next_s_ + i / (120.0 * gazes_a_picture);
+                publish("gaze.3d.01.", packed({{"topic", "gaze.3d.01."}, {"timestamp", time_s}}));
+                if (has_surface)
+                    publish("surfaces.screen", packed(surface_message(time_s)));
+                publish("surfaces.screen2", packed(surface_message(time_s)));
+            }
             next_s_ += 1.0 / 120.0;
         }
     }
 
-    nlohmann::json surface_message() {
+    nlohmann::json surface_message(double time_s) {
         const std::string topic = cameras == 2 ? "gaze.3d.01." : fmt::format("gaze.3d.{}.", cameras.load());
         ++gazes_;
         return {{"name", "screen"},
@@ -167,10 +172,10 @@ class PupilPeer {
                    {"norm_pos", {0.25, 0.75}},
                    {"on_surf", true},
                    {"confidence", confidence.load()},
-                   {"timestamp", next_s_},
-                   {"base_data", {topic, next_s_}}}}},
+                   {"timestamp", time_s},
+                   {"base_data", {topic, time_s}}}}},
                 {"fixations_on_surfaces", nlohmann::json::array()},
-                {"timestamp", next_s_}};
+                {"timestamp", time_s}};
     }
 
     void serve(const std::stop_token& stop) {

@@ -54,11 +54,31 @@ TEST_CASE("Pupil Capture tells its version and how fast its cameras are", "[unit
     const TrackerDescription description = bench.connect();
     CHECK(description.name == "Pupil Core");
     CHECK(description.model == "Pupil Capture 3.5.1");
-    CHECK(description.sample_rate_hz == 120.0);
+    CHECK(description.sample_rate_hz == Approx(120.0).epsilon(1e-3));
+    CHECK(description.told_rate_hz == Approx(120.0).epsilon(1e-3));
     CHECK(description.both_eyes);
     CHECK_THAT(bench.peer.commands(),
                VectorContains(std::string("notify.start_plugin {\"args\":{},\"name\":\"Annotation_Capture\","
                                           "\"subject\":\"start_plugin\"}")));
+}
+
+TEST_CASE("the rate is that of gaze, and that of the eye's camera is told beside it", "[unit]") {
+    PupilBench bench;
+    bench.peer.gazes_a_picture = 2;
+    bench.peer.has_surface = GENERATE(true, false);
+    const TrackerDescription description = bench.connect();
+    CHECK(description.sample_rate_hz == Approx(240.0).epsilon(0.02));
+    CHECK(description.told_rate_hz == Approx(120.0).epsilon(1e-3));
+}
+
+TEST_CASE("a recording of Pupil Capture ends with its driver, whoever forgets it", "[unit]") {
+    PupilBench bench;
+    bench.connect();
+    bench.tracker->start();
+    bench.read_samples(5);
+    bench.tracker->stop();
+    bench.tracker.reset();
+    CHECK(bench.peer.commands().back() == "r");
 }
 
 TEST_CASE("gaze on the surface that is named becomes samples over real sockets", "[unit]") {

@@ -1,0 +1,94 @@
+#include "devices/pupil/pupil_samples.h"
+
+#include <catch2/catch.hpp>
+
+#include "tests/support/kept_items.h"
+
+using namespace overt;
+using namespace overt::test;
+
+namespace {
+
+PupilDatum pupil_of(Eye eye, double time_s, double diameter_mm, double confidence = 0.95) {
+    PupilDatum pupil;
+    pupil.eye = eye;
+    pupil.time_s = time_s;
+    pupil.confidence = confidence;
+    pupil.diameter_mm = diameter_mm;
+    return pupil;
+}
+
+SurfaceGaze gaze_at(double time_s) {
+    SurfaceGaze gaze;
+    gaze.place = {0.5, 0.5};
+    gaze.time_s = time_s;
+    gaze.confidence = 0.95;
+    gaze.from_left = gaze.from_right = true;
+    return gaze;
+}
+
+PupilSamples both_eyes() {
+    TrackerWish wish;
+    wish.both_eyes = true;
+    return {wish, {{0.0, 0.0}, 1920.0, 1080.0}, 0.6};
+}
+
+} // namespace
+
+TEST_CASE("gaze that comes 53 ms after its pupils has their diameters, each time its own", "[unit]") {
+    PupilSamples samples = both_eyes();
+    KeptItems items;
+    // As after a blink: pupils of 200 Hz go on while the matching of both eyes hands gaze out late.
+    constexpr double interval_s = 0.005, late_s = 0.053;
+    double told_s = 0.0;
+    for (int i = 0; i < 200; ++i) {
+        const double now_s = interval_s * i;
+        samples.take(pupil_of(Eye::left, now_s, 3.0 + 0.001 * i));
+        samples.take(pupil_of(Eye::right, now_s + 0.002, 4.0 + 0.001 * i));
+        for (; told_s <= now_s - late_s; told_s += interval_s)
+            samples.take(gaze_at(told_s), items);
+    }
+    const auto found = items.all<GazeSample>();
+    REQUIRE(found.size() > 350);
+    for (std::size_t i = 0; i + 1 < found.size(); i += 2) {
+        CHECK(found[i].pupil_area == Approx(3.0 + 0.001 * static_cast<double>(i / 2)));
+        CHECK(found[i + 1].pupil_area == Approx(4.0 + 0.001 * static_cast<double>(i / 2)));
+    }
+}
+
+TEST_CASE("a pupil belongs to gaze of its own time, and one of little confidence to none", "[unit]") {
+    PupilSamples samples = both_eyes();
+    KeptItems items;
+    samples.take(pupil_of(Eye::left, 1.000, 3.0));
+    samples.take(pupil_of(Eye::left, 1.010, 3.1, 0.3));
+    samples.take(pupil_of(Eye::left, 1.020, 3.2));
+    const auto diameter = [&](double time_s) {
+        items.items.clear();
+        samples.take(gaze_at(time_s), items);
+        return items.all<GazeSample>().front().pupil_area;
+    };
+    CHECK(diameter(1.001) == 3.0f);
+    CHECK(diameter(1.011) == 0.0f);
+    CHECK(diameter(1.053) == 3.2f);
+    CHECK(diameter(1.060) == 0.0f); // nothing was measured near it
+    CHECK(items.all<GazeSample>().back().pupil_area == 0.0f);
+}
+
+TEST_CASE("what a picture tells in 2D and in 3D is one pupil, also when the next has come between",
+          "[unit]") {
+    PupilHistory history;
+    history.take(pupil_of(Eye::right, 1.0, 3.5));
+    history.take(pupil_of(Eye::right, 1.005, 3.6));
+    PupilDatum flat;
+    flat.time_s = 1.0;
+    flat.confidence = 0.9;
+    history.take(flat);
+    REQUIRE(history.nearest(1.0));
+    CHECK(history.nearest(1.0)->diameter_mm == 3.5);
+    CHECK(history.nearest(1.0)->confidence == 0.9);
+    CHECK(history.nearest(1.005)->diameter_mm == 3.6);
+    for (int i = 0; i < 1000; ++i)
+        history.take(pupil_of(Eye::right, 2.0 + 0.005 * i, 4.0));
+    CHECK_FALSE(history.nearest(1.0));
+    CHECK(history.nearest(2.0 + 0.005 * 999)->diameter_mm == 4.0);
+}
