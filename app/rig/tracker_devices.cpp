@@ -14,7 +14,8 @@ namespace {
 std::unique_ptr<EyeTracker> threaded(std::unique_ptr<TrackerDriver> driver, const TrackerParts& parts) {
     const TrackerSettings& settings = parts.protocol.tracker;
     if (settings.outlet)
-        driver = std::make_unique<LslGazeRelay>(std::move(driver), load_lsl({}), parts.protocol.name);
+        driver =
+            std::make_unique<LslGazeRelay>(std::move(driver), load_lsl({}), parts.protocol.name, parts.clock);
     return std::make_unique<ThreadedTracker>(std::move(driver), parts.clock,
                                              TrackerWish{.rate_hz = settings.rate_hz,
                                                          .eye = settings.analysed_eye(),

@@ -1,5 +1,6 @@
 #include "devices/lsl/lsl_outlet.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstring>
@@ -98,6 +99,8 @@ class LslGazeRelay::Tap final : public TrackerItemSink {
         } else if (const auto* detail = std::get_if<SampleDetail>(&item);
                    detail && has_values_ && detail->sampled_at == at_ && detail->confidence) {
             values_of(detail->eye)[gaze_confidence] = static_cast<double>(*detail->confidence);
+        } else if (const auto* pair = std::get_if<ClockPair>(&item)) {
+            relay_.offset_.take(*pair);
         }
     }
 
@@ -113,8 +116,11 @@ class LslGazeRelay::Tap final : public TrackerItemSink {
     }
 
     void push() noexcept {
-        relay_.library_->push_sample_dtp(relay_.outlet_.get(), values_.data(), relay_.library_->local_clock(),
-                                         1);
+        const std::optional<SessionTime> measured = relay_.offset_.session_time_of(at_);
+        // Not known better than the readings tell, but never after it has come.
+        const double age_s = measured ? std::max(0.0, to_seconds(relay_.clock_.now() - *measured)) : 0.0;
+        relay_.library_->push_sample_dtp(relay_.outlet_.get(), values_.data(),
+                                         relay_.library_->local_clock() - age_s, 1);
         values_.fill(no_value);
         has_values_ = false;
     }
@@ -127,15 +133,16 @@ class LslGazeRelay::Tap final : public TrackerItemSink {
 };
 
 LslGazeRelay::LslGazeRelay(std::unique_ptr<TrackerDriver> tracker, std::shared_ptr<const LslLibrary> library,
-                           std::string session)
-    : tracker_(std::move(tracker)), library_(std::move(library)), session_(std::move(session)),
+                           std::string session, const Clock& clock)
+    : tracker_(std::move(tracker)), library_(std::move(library)), session_(std::move(session)), clock_(clock),
       outlet_(nullptr, LslRelease{library_.get()}), tap_(std::make_unique<Tap>(*this)) {}
 
 LslGazeRelay::~LslGazeRelay() = default;
 
 TrackerDescription LslGazeRelay::connect(const TrackerWish& wish) {
     TrackerDescription description = tracker_->connect(wish);
-    // Made anew: its rate and its tracker may be others.
+    // Made anew: its rate and its tracker may be others, and its clock.
+    offset_ = {};
     outlet_.reset();
     const LslOwned<LslStreamInfo> info =
         new_stream(*library_, "overt gaze", "Gaze", gaze_channels, description.sample_rate_hz,
@@ -153,6 +160,13 @@ TrackerDescription LslGazeRelay::connect(const TrackerWish& wish) {
     describe_channel(*library_, channels, "tracker_time", "both", "Time", "seconds");
     outlet_ = new_outlet(*library_, info.get());
     return description;
+}
+
+std::optional<ClockPair> LslGazeRelay::read_clocks() noexcept {
+    const std::optional<ClockPair> pair = tracker_->read_clocks();
+    if (pair)
+        offset_.take(*pair);
+    return pair;
 }
 
 RecordingState LslGazeRelay::read(TrackerItemSink& sink, SessionTime deadline) noexcept {

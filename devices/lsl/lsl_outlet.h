@@ -5,6 +5,7 @@
 #include <string>
 
 #include "devices/lsl/lsl_library.h"
+#include "devices/tracker/live_clock_offset.h"
 #include "devices/tracker/tracker_driver.h"
 #include "devices/triggers/marker_output.h"
 #include "experiment/ports/clock.h"
@@ -34,12 +35,14 @@ class LslMarkerOutlet final : public MarkerOutput {
 };
 
 /// A tracker whose samples are sent on, whatever it is: name "overt gaze", type "Gaze", of each eye place on
-/// the screen in px, pupil and confidence, and the tracker's own time in seconds. Time stamps are arrivals at
-/// this program: the tracker's own time is exact, but on another clock.
+/// the screen in px, pupil and confidence, and the tracker's own time in seconds. Time stamps are when it was
+/// measured, on liblsl's clock, as the readings of the tracker's clock so far have it; before the first
+/// reading arrivals at this program.
 class LslGazeRelay final : public TrackerDriver {
   public:
+    /// `clock` must outlive it and be that of the readings.
     LslGazeRelay(std::unique_ptr<TrackerDriver> tracker, std::shared_ptr<const LslLibrary> library,
-                 std::string session);
+                 std::string session, const Clock& clock);
     ~LslGazeRelay() override;
 
     TrackerDescription connect(const TrackerWish& wish) override;
@@ -53,7 +56,7 @@ class LslGazeRelay final : public TrackerDriver {
     void stop() noexcept override { tracker_->stop(); }
     RecordingState read(TrackerItemSink& sink, SessionTime deadline) noexcept override;
     void send(const TrackerMark& mark) noexcept override { tracker_->send(mark); }
-    std::optional<ClockPair> read_clocks() noexcept override { return tracker_->read_clocks(); }
+    std::optional<ClockPair> read_clocks() noexcept override;
     std::vector<std::string> finish(const std::string& folder,
                                     const EyeTracker::FileProgress& progress) override {
         return tracker_->finish(folder, progress);
@@ -64,6 +67,8 @@ class LslGazeRelay final : public TrackerDriver {
     std::unique_ptr<TrackerDriver> tracker_;
     std::shared_ptr<const LslLibrary> library_;
     std::string session_;
+    const Clock& clock_;
+    LiveClockOffset offset_; ///< of the thread that reads
     LslOwned<LslStreamOutlet> outlet_;
     std::unique_ptr<Tap> tap_;
 };

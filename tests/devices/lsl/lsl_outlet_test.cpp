@@ -31,6 +31,9 @@ class ScriptedTracker final : public TrackerDriver {
         return RecordingState::running;
     }
 
+    std::optional<ClockPair> read_clocks() noexcept override { return clocks; }
+    std::optional<ClockPair> clocks;
+
   private:
     std::size_t next_ = 0;
 };
@@ -88,7 +91,7 @@ TEST_CASE("a relayed tracker gives what it gave, and its samples are a stream of
                        sample_of(Eye::right, 4000, ScreenPoint{7.0, 8.0}, 4.5f)},
                       {},
                       {TrackerGap{}, sample_of(Eye::left, 6000, std::nullopt, 0.0f)}};
-    LslGazeRelay relay(std::move(tracker), load_lsl(LslBench::library()), "s01");
+    LslGazeRelay relay(std::move(tracker), load_lsl(LslBench::library()), "s01", bench.clock);
     TrackerWish wish;
     wish.both_eyes = true;
     CHECK(relay.connect(wish).model == "model 7");
@@ -117,4 +120,41 @@ TEST_CASE("a relayed tracker gives what it gave, and its samples are a stream of
     settings.patience = 100ms;
     LslInlet inlet(settings, bench.clock);
     CHECK_THROWS_WITH(inlet.connect(wish), Catch::Contains("sends nothing"));
+}
+
+TEST_CASE("what is sent on is stamped with when it was measured, and not with when it came", "[unit]") {
+    LslBench bench;
+    const auto library = load_lsl(LslBench::library());
+    auto tracker = std::make_unique<ScriptedTracker>();
+    ScriptedTracker& scripted = *tracker;
+    // The tracker's clock is an hour ahead; what it measured came 100 s late.
+    const SessionTime now = bench.clock.now();
+    const auto tracker_time_of = [&](SessionTime at) {
+        return tracker_time(
+            std::chrono::duration_cast<TrackerClock::duration>(at.time_since_epoch()).count() +
+            3'600'000'000);
+    };
+    GazeSample late = sample_of(Eye::right, 0, ScreenPoint{1.0, 2.0}, 3.0f);
+    late.sampled_at = tracker_time_of(now - 100s);
+    const ClockPair one_way{now - 50ms, tracker_time_of(now - 25ms), now};
+    scripted.reads = {{late}, {late}, {one_way, late}};
+    LslGazeRelay relay(std::move(tracker), library, "s01", bench.clock);
+    relay.connect({});
+    KeptItems items;
+    relay.read(items, SessionTime()); // nothing is known of the clock yet
+    scripted.clocks = ClockPair{now - 1ms, tracker_time_of(now), now + 1ms};
+    CHECK(relay.read_clocks());
+    relay.read(items, SessionTime());
+    relay.connect({}); // another clock, for all that is known
+    relay.read(items, SessionTime());
+    const double offset_s = library->local_clock() - to_seconds(bench.clock.now());
+    const double measured_s = to_seconds(now - 100s) + offset_s;
+    std::vector<double> stamps_s;
+    for (const auto& stream : bench.fake().sent)
+        for (const FakeStream::Pushed& pushed : stream->pushed)
+            stamps_s.push_back(pushed.time_s);
+    REQUIRE(stamps_s.size() == 3);
+    CHECK(stamps_s[0] > measured_s + 50.0);
+    CHECK(std::abs(stamps_s[1] - measured_s) < 20.0);
+    CHECK(std::abs(stamps_s[2] - measured_s) < 20.0);
 }
