@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "devices/opengaze/opengaze_calibration.h"
+#include "devices/tracker/sample_rate_watch.h"
 #include "devices/tracker/tracker_device.h"
 #include "experiment/base/error.h"
 #include "experiment/calibration/own_calibration.h"
@@ -162,10 +163,11 @@ TrackerDescription OpenGazeTracker::connect(const TrackerWish& wish) {
     const std::optional<OpenGazeAnswer> product = link_->get("PRODUCT_ID");
     const double told_hz = product ? product->message().number("RATE").value_or(0.0) : 0.0;
     description.name = "Open Gaze";
-    description.sample_rate_hz =
-        std::abs(told_hz - measured_hz) < 0.1 * measured_hz ? told_hz : std::round(measured_hz);
+    description.sample_rate_hz = is_same_rate(told_hz, measured_hz) ? told_hz : measured_hz;
+    description.told_rate_hz = told_hz;
     description.eye = wish.eye;
     description.both_eyes = wish.both_eyes && settings_.point == TrackedPoint::eyes;
+    marks_.begin(from_seconds(1.0 / measured_hz));
     samples_.emplace(wish, settings_.point, settings_.longest_delay);
     return description;
 }
@@ -206,8 +208,11 @@ RecordingState OpenGazeTracker::read(TrackerItemSink& sink, SessionTime deadline
     link_->pump(
         deadline,
         [&](const OpenGazeMessage& message) {
-            if (message.kind == OpenGazeMessage::Kind::record)
-                samples_->take(read_opengaze_record(message), clock_.now(), tracker_clock_, sink);
+            if (message.kind != OpenGazeMessage::Kind::record)
+                return;
+            samples_->take(read_opengaze_record(message), clock_.now(), tracker_clock_, sink);
+            if (const std::optional<std::string_view> user = message.value("USER"))
+                marks_.borne(*user);
         },
         [&] { samples_->take_noise(sink); });
     const SessionTime last = samples_->last_arrival().value_or(started_);
@@ -218,9 +223,21 @@ RecordingState OpenGazeTracker::read(TrackerItemSink& sink, SessionTime deadline
 }
 
 void OpenGazeTracker::send(const TrackerMark& mark) noexcept {
-    if (link_)
-        link_->send_set("USER_DATA", fmt::format("VALUE=\"{}\" DUR=\"1\"", opengaze_text(mark.text)),
-                        clock_.now() + marking_time);
+    if (!link_)
+        return;
+    const SessionTime now = clock_.now();
+    link_->send_set("USER_DATA", fmt::format("VALUE=\"{}\" DUR=\"1\"", marks_.add(mark.text, now)),
+                    now + marking_time);
+}
+
+std::vector<std::string> OpenGazeTracker::finish(const std::string&, const EyeTracker::FileProgress&) {
+    std::vector<std::string> said;
+    if (marks_.frames_left_out() + marks_.others_left_out() > 0)
+        said.push_back(
+            fmt::format("too many messages came between two records of Gazepoint: {} of frames and {} "
+                        "others were left out of its user data; the session's record has all of them",
+                        marks_.frames_left_out(), marks_.others_left_out()));
+    return said;
 }
 
 template <> TrackerDevice tracker_device_of<kind_called<TrackerKind>("opengaze")>() {

@@ -10,6 +10,7 @@
 #include "devices/link/tcp_line.h"
 #include "devices/opengaze/opengaze_clock.h"
 #include "devices/opengaze/opengaze_link.h"
+#include "devices/opengaze/opengaze_marks.h"
 #include "devices/opengaze/opengaze_samples.h"
 #include "devices/tracker/tracker_driver.h"
 #include "experiment/ports/clock.h"
@@ -39,7 +40,7 @@ struct OpenGazeSettings {
 
 /// Samples carry the pupil's diameter in mm, and details the eye's place from the camera's focal point.
 /// There is no way to ask the server for its clock: readings of both clocks are bounds, from records' times
-/// and arrivals. Marks become USER_DATA of the next record.
+/// and arrivals. Marks become USER_DATA of the next record; those that come before it stand there together.
 class OpenGazeTracker final : public TrackerDriver {
   public:
     using LineOpener = std::function<std::unique_ptr<ByteTransport>()>;
@@ -55,6 +56,8 @@ class OpenGazeTracker final : public TrackerDriver {
     void stop() noexcept override;
     RecordingState read(TrackerItemSink& sink, SessionTime deadline) noexcept override;
     void send(const TrackerMark& mark) noexcept override;
+    std::vector<std::string> finish(const std::string& folder,
+                                    const EyeTracker::FileProgress& progress) override;
 
   private:
     void require(std::string_view id, std::string_view values, std::string_view what);
@@ -71,6 +74,7 @@ class OpenGazeTracker final : public TrackerDriver {
     std::unique_ptr<OpenGazeLink> link_;
     OpenGazeClock tracker_clock_;
     std::optional<OpenGazeSamples> samples_;
+    OpenGazeMarks marks_;
     SessionTime started_;
 };
 

@@ -8,6 +8,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -25,6 +26,7 @@ class OpenGazeServerModel {
     std::string tick_frequency = "10000000";     ///< as told; the counter's own is 10 MHz
     std::set<std::string> silent_on, refused_on; ///< ids
     int silent_times = 1000;                     ///< how often each of silent_on is
+    bool tells_user_data = true;                 ///< its records say what they bear
     bool has_camera = true;                      ///< else no record is sent
     std::function<glm::dvec2(double time_s)> gaze = [](double) { return glm::dvec2(0.25, 0.75); };
     std::function<bool(double time_s)> left_is_valid = [](double) { return true; };
@@ -35,7 +37,8 @@ class OpenGazeServerModel {
 
     // What it was told. Under the lock where a thread serves.
     std::map<std::string, std::string> values; ///< of SET, by id: all that followed the id
-    std::vector<std::string> user_data;
+    std::vector<std::string> user_data;        ///< all that it was told
+    std::vector<std::string> borne;            ///< what stands in its records, and so in what it keeps
     std::vector<glm::dvec2> points{{0.5, 0.5}, {0.85, 0.15}, {0.85, 0.85}, {0.15, 0.85}, {0.15, 0.15}};
 
     std::string receive(std::string_view bytes, double now_s) {
@@ -87,6 +90,11 @@ class OpenGazeServerModel {
             "RPMMV=\"1\" />\r\n",
             counter_, time_s, static_cast<long long>((now_s + 77.0) * 1e7), place.x, place.y, left,
             place.x + 0.1, place.y, place.x + 0.05, place.y, left);
+        // As a real one: the last that it was told, in one record, and 0 in all others.
+        if (tells_user_data && values.contains("ENABLE_SEND_USER_DATA"))
+            line.insert(line.size() - 4, fmt::format("USER=\"{}\" ", user_));
+        if (user_ != "0")
+            borne.push_back(std::exchange(user_, "0"));
         if (mutate)
             line = mutate(std::move(line), counter_);
         ++counter_;
@@ -129,7 +137,8 @@ class OpenGazeServerModel {
         } else if (id == "SCREEN_SIZE") {
             return " X=\"0\" Y=\"0\" WIDTH=\"1920\" HEIGHT=\"1080\"";
         } else if (id == "USER_DATA") {
-            user_data.emplace_back(message.value("VALUE").value_or(""));
+            user_ = std::string(message.value("VALUE").value_or(""));
+            user_data.push_back(user_);
         } else if (id == "CALIBRATE_CLEAR") {
             points.clear();
         } else if (id == "CALIBRATE_ADDPOINT") {
@@ -181,7 +190,7 @@ class OpenGazeServerModel {
     }
 
     mutable std::mutex mutex_;
-    std::string command_;
+    std::string command_, user_ = "0";
     std::map<std::string, int> silences_;
     bool streams_ = false;
     int counter_ = 1;

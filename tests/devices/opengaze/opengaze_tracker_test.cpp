@@ -19,9 +19,10 @@ TEST_CASE("an Open Gaze tracker says who it is and how fast it really samples", 
     CHECK(description.sample_rate_hz == 150.0);
     CHECK(description.both_eyes);
     bench.model.rate_hz = 60.2; // while it says 150
-    CHECK(bench.connect().sample_rate_hz == 60.0);
+    CHECK(bench.connect().sample_rate_hz == Approx(60.0).epsilon(1e-3));
+    CHECK(bench.connect().told_rate_hz == 150.0);
     bench.model.told_rate = "fast";
-    CHECK(bench.connect().sample_rate_hz == 60.0);
+    CHECK(bench.connect().sample_rate_hz == Approx(60.0).epsilon(1e-3));
 }
 
 TEST_CASE("records of Open Gaze become samples of both eyes in px of the screen, left first", "[unit]") {
@@ -175,6 +176,43 @@ TEST_CASE("a mark becomes user data of one record, and nothing in it can end the
     bench.tracker->stop();
     CHECK(bench.model.marks() == std::vector<std::string>{"TRIALID 3  runner  /"});
     CHECK_THAT(bench.model.told("USER_DATA"), Contains("DUR=\"1\""));
+}
+
+TEST_CASE("of marks that come between two records none is lost", "[unit]") {
+    OpenGazeBench bench;
+    bench.model.tells_user_data = GENERATE(true, false);
+    bench.connect();
+    bench.tracker->start();
+    bench.read_for(50ms);
+    bench.tracker->send({bench.clock.now(), "SYNCTIME"});
+    bench.clock.wait_until(bench.clock.now() + 100us);
+    bench.tracker->send({bench.clock.now(), "FRAME 0"});
+    bench.read_for(50ms);
+    bench.tracker->send({bench.clock.now(), "FRAME 1"});
+    bench.read_for(50ms);
+    bench.tracker->stop();
+    CHECK(bench.model.borne == std::vector<std::string>{"SYNCTIME | FRAME 0", "FRAME 1"});
+    CHECK(bench.tracker->finish("", {}).empty());
+}
+
+TEST_CASE("of too many marks for a record frames are left out first, and that is told", "[unit]") {
+    OpenGazeBench bench;
+    bench.connect();
+    bench.tracker->start();
+    bench.read_for(50ms);
+    bench.tracker->send({bench.clock.now(), "TRIALID 3"});
+    bench.tracker->send({bench.clock.now(), "!V TRIAL_VAR object " + std::string(60, 'o')});
+    for (int i = 0; i < 30; ++i)
+        bench.tracker->send({bench.clock.now(), fmt::format("FRAME {}", i)});
+    bench.tracker->send({bench.clock.now(), "SYNCTIME " + std::string(180, 's')});
+    bench.read_for(50ms);
+    bench.tracker->stop();
+    REQUIRE(bench.model.borne.size() == 1);
+    CHECK(bench.model.borne.front() == "TRIALID 3 | SYNCTIME " + std::string(180, 's'));
+    REQUIRE(bench.tracker->finish("", {}).size() == 1);
+    CHECK_THAT(bench.tracker->finish("", {}).front(), Contains("30 of frames and 1 others"));
+    bench.tracker->send({bench.clock.now(), std::string(1000, 'x')});
+    CHECK(bench.model.marks().back().size() == OpenGazeMarks::longest);
 }
 
 TEST_CASE("an Open Gaze server that falls silent or goes away is lost, with a gap", "[unit]") {
