@@ -88,7 +88,9 @@ std::optional<XidKey> XidParser::next() noexcept {
 
 int xid_button(const XidIdentity& identity, int key) noexcept {
     constexpr std::array<int, 9> rb_530{0, 1, 0, 2, 3, 4, 5, 0, 0}, rb_830{0, 4, 5, 2, 3, 6, 7, 1, 8};
-    if (key < 1 || key > 8 || identity.product != '2')
+    // Models of Riponda have the layouts, and the model numbers, of the RB boxes that they replace.
+    const bool has_rb_layout = identity.product == '2' || identity.product == '5';
+    if (key < 1 || key > 8 || !has_rb_layout)
         return key;
     const int place = identity.model == '1'   ? rb_530[static_cast<std::size_t>(key)]
                       : identity.model == '3' ? rb_830[static_cast<std::size_t>(key)]

@@ -11,17 +11,20 @@ XidTrigger::XidTrigger(const std::string& port, const XidLine::Opener& open, Clo
     : line_(port, open, clock),
       // As Cedrus' own pyxid has it: `mh` of two bytes from the second firmware on and of StimTrackers,
       // before it `ah` of one byte whose bits are turned round.
-      has_wide_command_(line_.identity().product == 'S' || line_.identity().firmware >= '2'),
+      has_wide_command_(line_.identity().product == 'S' ||
+                        (line_.identity().firmware >= '2' && line_.identity().firmware <= '9')),
       name_(fmt::format("Cedrus XID, product {}, at {}", line_.identity().product, line_.name())) {
     // A pulse of no length: lines stay as they are set.
     if (has_wide_command_)
         line_.send(std::string_view("mp\0\0\0\0", 6));
-    rest(); // whatever a program before left raised
+    else
+        line_.send("a10"); // its connector's lines are outputs
+    rest();                // whatever a program before left raised
 }
 
 bool XidTrigger::write(std::uint8_t lines) noexcept {
     const char wide[] = {'m', 'h', static_cast<char>(lines), '\0'};
-    const char narrow[] = {'a', 'h', static_cast<char>(~lines)};
+    const char narrow[] = {'a', 'h', static_cast<char>(~lines), '\0'};
     return has_wide_command_ ? line_.try_send({wide, sizeof wide}) : line_.try_send({narrow, sizeof narrow});
 }
 

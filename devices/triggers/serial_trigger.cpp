@@ -47,7 +47,7 @@ SerialText::SerialText(std::unique_ptr<ByteTransport> line, const Clock& clock, 
 bool SerialText::send(const Marker& marker) noexcept {
     std::array<char, longest_marker + 1> bytes;
     std::size_t count = 0;
-    if (sends_codes_) {
+    if (sends_codes_ || marker.text.empty()) {
         count = static_cast<std::size_t>(
             std::to_chars(bytes.data(), bytes.data() + longest_marker, marker.code).ptr - bytes.data());
     } else {

@@ -1,5 +1,7 @@
 #include "devices/buttons/xid_box.h"
 
+#include "devices/buttons/xid_trigger.h"
+
 #include <catch2/catch.hpp>
 
 #include "experiment/base/error.h"
@@ -61,14 +63,13 @@ struct XidModel {
     void press(SessionTime at, int key, bool down) {
         far.send(at + 2ms, packet('k', {key << 5 | (down ? 0x10 : 0)}) + little(ms(at)));
     }
-    XidBox box() {
-        return {far.port,
-                [this](const std::string&, int at_baud) {
-                    opened = at_baud;
-                    return std::make_unique<InMemoryLine>(far);
-                },
-                clock};
+    XidLine::Opener opener() {
+        return [this](const std::string&, int at_baud) {
+            opened = at_baud;
+            return std::make_unique<InMemoryLine>(far);
+        };
     }
+    XidBox box() { return {far.port, opener(), clock}; }
 };
 
 } // namespace
@@ -115,6 +116,10 @@ TEST_CASE("buttons of RB boxes are numbered by their place", "[unit]") {
     CHECK(places('2', '3') == "45236718");
     CHECK(places('2', '4') == "12345678");
     CHECK(places('0', '3') == "12345678");
+    // A Riponda is laid out as the RB box of its model number.
+    CHECK(places('5', '1') == "12234578");
+    CHECK(places('5', '3') == "45236718");
+    CHECK(places('S', '1') == "12345678");
 }
 
 TEST_CASE("an XID box is found at whatever speed it has, and timed by its clock", "[unit]") {
@@ -163,8 +168,7 @@ TEST_CASE("where no XID box answers it is said after a bounded time, and a lost 
     XidModel model;
     SECTION("none") {
         model.baud = 300;
-        CHECK_THROWS_WITH(model.box(),
-                          Catch::Contains("No response box that speaks XID answers at /dev/ttyUSB0"));
+        CHECK_THROWS_WITH(model.box(), Catch::Contains("Nothing that speaks XID answers at /dev/ttyUSB0"));
         CHECK(model.clock.now() < SessionTime(22s));
     }
     SECTION("unplugged") {
@@ -175,4 +179,38 @@ TEST_CASE("where no XID box answers it is said after a bounded time, and a lost 
         CHECK(box.lost());
         CHECK_THROWS_WITH(box.begin(), Catch::Contains("unplugged by the test"));
     }
+}
+
+TEST_CASE("the lines of a StimTracker and a c-pod are raised by codes and stay until they are taken back",
+          "[unit]") {
+    XidModel model;
+    model.baud = 115200;
+    SECTION("of the second firmware") { model.product = "4"; }
+    SECTION("a StimTracker of the first") {
+        model.product = "S";
+        model.firmware = "1";
+    }
+    XidTrigger trigger(model.far.port, model.opener(), model.clock);
+    CHECK(trigger.name() == "Cedrus XID, product " + model.product + ", at /dev/ttyUSB0");
+    CHECK(trigger.needs_code());
+    // Pulses of its own are off, and what was raised before is taken back.
+    CHECK(model.heard.ends_with(std::string("mp\0\0\0\0mh\0\0", 10)));
+    CHECK(trigger.send({model.clock.now(), 0xA5, "onset"}));
+    CHECK(model.heard.ends_with(std::string("mh\xA5\0", 4)));
+    trigger.rest();
+    CHECK(model.heard.ends_with(std::string("mh\xA5\0mh\0\0", 8)));
+    model.far.unplugged = true;
+    CHECK_FALSE(trigger.send({model.clock.now(), 1, ""}));
+    CHECK_FALSE(trigger.fault().empty());
+}
+
+TEST_CASE("a box of the first firmware has its lines turned round, and takes bytes one by one", "[unit]") {
+    XidModel model;
+    model.firmware = "1";
+    XidTrigger trigger(model.far.port, model.opener(), model.clock);
+    CHECK(model.heard.ends_with(std::string("a10ah\xFF\0", 7)));
+    const SessionTime before = model.clock.now();
+    CHECK(trigger.send({before, 0x01, ""}));
+    CHECK(model.heard.ends_with(std::string("ah\xFE\0", 4)));
+    CHECK(model.clock.now() - before >= 4ms);
 }

@@ -37,6 +37,30 @@ TEST_CASE("a serial trigger sends each code as a byte and a 0 after it", "[unit]
     CHECK(came == std::string("\0\1\0\15\0\377\0\21\0", 9));
 }
 
+TEST_CASE("markers as lines of text are codes in figures, or without codes the texts of all", "[unit]") {
+    SteadyClock clock;
+    const Terminal terminal;
+    const bool sends_codes = GENERATE(true, false);
+    ThreadedMarkerSink sink(std::make_unique<SerialText>(std::make_unique<SerialPort>(terminal.path(), clock),
+                                                         clock, sends_codes),
+                            clock, {0ms, 0ms});
+    sink.mark({clock.now(), 17, "ONSET runner"});
+    sink.mark({clock.now(), 0, "FRAME 1"});
+    sink.mark({clock.now(), 255, ""});
+    CHECK(sink.finish().empty());
+    const std::string wanted = sends_codes ? "17\n255\n" : "ONSET runner\nFRAME 1\n255\n";
+    std::string came;
+    while (came.size() < wanted.size()) {
+        char bytes[64];
+        pollfd waiting{terminal.master(), POLLIN, 0};
+        REQUIRE(poll(&waiting, 1, 20'000) == 1);
+        const ssize_t count = read(terminal.master(), bytes, sizeof bytes);
+        REQUIRE(count > 0);
+        came.append(bytes, static_cast<std::size_t>(count));
+    }
+    CHECK(came == wanted);
+}
+
 TEST_CASE("a serial trigger that is unplugged fails each marker with the reason", "[unit]") {
     SteadyClock clock;
     Terminal terminal;
