@@ -6,8 +6,14 @@
 namespace overt {
 
 /// One frame that is shown for no time.
-inline constexpr Animation no_animation{
-    .frame_count = 1, .frame_rate_hz = 30.0, .amplitude = {0.0}, .duration_s = 0.0};
+inline const Animation no_animation = [] {
+    Animation none;
+    none.frame_count = 1;
+    none.frame_rate_hz = 30.0;
+    none.amplitude = {0.0};
+    none.duration_s = 0.0;
+    return none;
+}();
 
 /// Whether nothing was shown, as far as the session knows: it has neither stimuli nor maps nor meshes.
 inline bool knows_no_stimulus(const SessionHeader& header) {
