@@ -86,6 +86,10 @@ TrialRecord TrialRecord::seen_in(std::size_t i) const {
             seen.trial.slot = shown.slot;
         }
     }
+    if (i < refreshes.size()) {
+        seen.outcome.shown_refreshes = refreshes[i].shown;
+        seen.outcome.missed_refreshes = refreshes[i].missed;
+    }
     const bool tells_places =
         std::ranges::any_of(outcome.steps, [](const AttemptStep& step) { return step.places.has_value(); });
     if (tells_places && has_outcome()) {

@@ -36,6 +36,12 @@ class Database;
 
 namespace overt {
 
+/// Of what one presentation's slot showed: refreshes that were lit, and that went by with an old picture
+/// while it was.
+struct PresentedRefreshes {
+    int shown = 0, missed = 0;
+};
+
 /// One attempt at a trial. The rows of interrupted attempts are kept beside those of the repetition.
 struct TrialRecord {
     enum class Status : std::uint8_t {
@@ -64,12 +70,16 @@ struct TrialRecord {
     /// programs.
     std::string response_key = {};
 
+    /// By what the trial showed (Trial::shown), of a trial that showed several; else empty.
+    std::vector<PresentedRefreshes> refreshes = {};
+
     /// Which of what the trial showed this is about; the others are in trial.beside. See seen_in().
     int place = 0;
 
     /// The attempt as the presentation of one stimulus in its slot, 0 <= i < trial.shown_count(): that
-    /// stimulus is the trial's, in its slot, and the others are beside it. Its flips are that slot's, and its
-    /// onset and end those of the steps that lit the slot: before the attempt's begin, where none did.
+    /// stimulus is the trial's, in its slot, and the others are beside it. Its flips and the numbers of its
+    /// refreshes are that slot's, and its onset and end those of the steps that lit the slot: before the
+    /// attempt's begin, where none did.
     TrialRecord seen_in(std::size_t i) const;
     /// From when to when each step lit it, of steps that ended; none of sessions whose trials have no steps.
     std::vector<std::pair<SessionTime, SessionTime>> lit_spans() const;

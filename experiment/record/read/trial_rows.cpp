@@ -115,6 +115,41 @@ void add_slots(const SQLite::Database& database, std::vector<TrialRecord>& trial
     }
 }
 
+/// What each slot's share of the flips is, in trials that show several stimuli. What a flip tells of missed
+/// refreshes is each slot's that it lights.
+void add_refreshes(const SQLite::Database& database, std::vector<TrialRecord>& trials) {
+    const bool has_several =
+        std::ranges::any_of(trials, [](const TrialRecord& trial) { return !trial.trial.beside.empty(); });
+    if (!has_several || !has_table(database, "slot_flip"))
+        return;
+    const auto add = [&](const char* statement, int PresentedRefreshes::*count) {
+        auto trial = trials.begin(); // both by trial_id
+        for (Query row(database, statement); row.step();) {
+            const std::int64_t id = row.integer();
+            const auto place = static_cast<std::size_t>(row.small());
+            trial = std::ranges::find(trial, trials.end(), id, &TrialRecord::id);
+            if (trial == trials.end())
+                return;
+            if (trial->trial.beside.empty() || place >= trial->trial.shown_count())
+                continue;
+            trial->refreshes.resize(trial->trial.shown_count());
+            row.read(trial->refreshes[place].*count);
+        }
+    };
+    add("SELECT trial_id, 0, COUNT(*) FROM flip WHERE shown >= 0 GROUP BY trial_id ORDER BY trial_id",
+        &PresentedRefreshes::shown);
+    add("SELECT trial_id, 0, SUM(missed) FROM flip WHERE shown >= 0 GROUP BY trial_id ORDER BY trial_id",
+        &PresentedRefreshes::missed);
+    add("SELECT trial_id, place, COUNT(*) FROM slot_flip WHERE shown >= 0 GROUP BY trial_id, place "
+        "ORDER BY trial_id, place",
+        &PresentedRefreshes::shown);
+    // From the few flips that missed some to the slots that they light, which the key of slot_flip finds.
+    add("SELECT of.trial_id, lit.place, SUM(of.missed) FROM flip AS of CROSS JOIN slot_flip AS lit "
+        "WHERE of.missed > 0 AND lit.trial_id = of.trial_id AND lit.refresh_in_trial = of.refresh_in_trial "
+        "AND lit.shown >= 0 GROUP BY of.trial_id, lit.place ORDER BY of.trial_id, lit.place",
+        &PresentedRefreshes::missed);
+}
+
 void add_gaze(const SQLite::Database& database, std::vector<TrialRecord>& trials) {
     if (!has_table(database, "trial_gaze"))
         return;
@@ -286,6 +321,7 @@ std::vector<TrialRecord> read_trials(const SQLite::Database& database) {
     add_answer_inputs(database, trials);
     add_probes(database, trials);
     add_slots(database, trials);
+    add_refreshes(database, trials);
     return trials;
 }
 
