@@ -115,7 +115,7 @@ void record_points(SessionHeader& header, std::span<const Object> objects) {
                  .barycentric = point.site.barycentric,
                  .position = point.position,
                  .vertex = point.vertex,
-                 .part = objects[i].mesh.part_names[objects[i].mesh.triangle_parts[point.site.triangle]]});
+                 .part = objects[i].mesh->part_names[objects[i].mesh->triangle_parts[point.site.triangle]]});
 }
 
 } // namespace
