@@ -128,7 +128,8 @@ class Presenter {
     FlipReport flip(AnimationFrameIndex frame) noexcept { return flip_slots({&frame, 1}); }
 
     /// From the next flip on, these stand over the stimuli until they are given anew; over no other screen.
-    /// At most `most_marks`. Allocates and throws nothing.
+    /// At most `most_marks`. Throws nothing, and allocates nothing for a light that was given before: each is
+    /// given once before a presentation begins.
     virtual void mark_stimuli(std::span<const StimulusMark> /*marks*/) noexcept {}
     static constexpr std::size_t most_marks = 8;
 

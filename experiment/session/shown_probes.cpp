@@ -111,9 +111,16 @@ void ShownProbes::begin_show(const PlannedStep& step, int number, std::span<cons
         rows.push_back(
             {.step = number, .id = probe.settings->id, .point = probe.point, .place = probe.place});
     }
-    // Those of the show before go.
-    if (probes_.empty() && std::exchange(has_marked_, false))
-        ports_.presenter.mark_stimuli({});
+    // Those of the show before go; lights that come are made known.
+    mark_count_ = 0;
+    for (const Probe& probe : probes_)
+        if (mark_count_ < marks_.size()) {
+            marks_[mark_count_] = probe.mark;
+            marks_[mark_count_++].count = 0;
+        }
+    if (mark_count_ > 0 || has_marked_)
+        ports_.presenter.mark_stimuli({marks_.data(), mark_count_});
+    has_marked_ = mark_count_ > 0;
 }
 
 void ShownProbes::add_gauge(const Answering& gauge) noexcept {

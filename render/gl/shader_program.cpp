@@ -70,6 +70,14 @@ void ShaderProgram::set(const char* uniform, glm::ivec2 value) const {
 void ShaderProgram::set(const char* uniform, glm::vec3 value) const {
     gl().Uniform3f(location_of(uniform), value.x, value.y, value.z);
 }
+void ShaderProgram::set(const char* uniform, std::span<const glm::vec2> values) const {
+    gl().Uniform2fv(location_of(uniform), static_cast<GLsizei>(values.size()),
+                    glm::value_ptr(values.front()));
+}
+void ShaderProgram::set(const char* uniform, std::span<const glm::vec4> values) const {
+    gl().Uniform4fv(location_of(uniform), static_cast<GLsizei>(values.size()),
+                    glm::value_ptr(values.front()));
+}
 void ShaderProgram::set(const char* uniform, const glm::mat4& value) const {
     gl().UniformMatrix4fv(location_of(uniform), 1, GL_FALSE, glm::value_ptr(value));
 }

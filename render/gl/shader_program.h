@@ -1,6 +1,7 @@
 /// A linked vertex and fragment shader.
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -25,6 +26,8 @@ class ShaderProgram {
     void set(const char* uniform, float value) const;
     void set(const char* uniform, glm::ivec2 value) const;
     void set(const char* uniform, glm::vec3 value) const;
+    void set(const char* uniform, std::span<const glm::vec2> values) const;
+    void set(const char* uniform, std::span<const glm::vec4> values) const;
     void set(const char* uniform, const glm::mat4& value) const;
 
   private:

@@ -150,8 +150,9 @@ void PagePresenter::put_page(InSlot& slot, int page) noexcept {
     if (!is_stimulus_on_canvas_)
         clear_picture(true);
     is_stimulus_on_canvas_ = true;
-    // A frame is held for several refreshes: what is there need not be drawn again.
-    if (page == slot.page_on_canvas)
+    // A frame is held for several refreshes: what is there need not be drawn again, nor are marks on it.
+    const bool are_marks_there = page < 0 || !are_marks_new_ || (!slot.has_marks && mark_count_ == 0);
+    if (page == slot.page_on_canvas && are_marks_there)
         return;
     const auto& [origin_px, size_px] = slot.patch;
     if (page < 0) {
@@ -161,10 +162,36 @@ void PagePresenter::put_page(InSlot& slot, int page) noexcept {
         blit(context_->gl(), page_target_, picture_, {0, 0}, origin_px, size_px);
     }
     slot.page_on_canvas = page;
+    slot.has_marks = false;
     if (page < 0)
         return;
     slot.last_page = page;
     slot.last_lit = ++pages_put_;
+    put_marks(slot);
+}
+
+void PagePresenter::put_marks(InSlot& slot) noexcept {
+    for (std::size_t i = 0; mark_pass_ && i < mark_count_; ++i) {
+        mark_pass_->draw(marks_[i], picture_, slot.patch);
+        slot.has_marks = true;
+    }
+}
+
+void PagePresenter::mark_stimuli(std::span<const StimulusMark> marks) noexcept {
+    try {
+        if (!mark_pass_ && !marks.empty())
+            mark_pass_.emplace(*context_, display_);
+        for (const StimulusMark& mark : marks)
+            mark_pass_->prepare(mark.light);
+    } catch (const std::exception&) {
+        marks = {}; // no memory for a light
+    }
+    const std::size_t count = std::min(marks.size(), marks_.size());
+    are_marks_new_ =
+        are_marks_new_ || count != mark_count_ ||
+        !std::equal(marks_.begin(), marks_.begin() + static_cast<std::ptrdiff_t>(count), marks.begin());
+    std::copy_n(marks.begin(), count, marks_.begin());
+    mark_count_ = count;
 }
 
 bool PagePresenter::comes_up(std::size_t index) const noexcept {
@@ -348,6 +375,7 @@ FlipReport PagePresenter::flip_slots(std::span<const AnimationFrameIndex> frames
         is_new_frame = is_new_frame || frame != slot.frame_on_canvas;
         slot.frame_on_canvas = frame;
     }
+    are_marks_new_ = false;
     if (is_new_frame) {
         patch_is_white_ = is_onset || !patch_is_white_;
         put_patch(patch_is_white_);
@@ -427,7 +455,8 @@ std::vector<std::byte> PagePresenter::read_canvas() const {
 
 std::vector<std::byte> PagePresenter::read_page(int page) {
     OVERT_EXPECTS(loaded_ && page >= 0 && page < loaded_->pages);
-    // Alone on the background, without the square for a photodiode.
+    // Alone on the background, without marks and the square for a photodiode.
+    mark_stimuli({});
     if (patch_ || in_slots_.size() > 1)
         is_stimulus_on_canvas_ = false;
     put_page(in_slots_.front(), page);

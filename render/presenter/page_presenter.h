@@ -13,6 +13,7 @@
 #include "render/presenter/answer_drawing.h"
 #include "render/presenter/frame_store.h"
 #include "render/signal/display_encoder.h"
+#include "render/signal/mark_pass.h"
 #include "render/signal/signal_pass.h"
 #include "render/signal/t_lock.h"
 #include "render/vblank/display_surface.h"
@@ -42,6 +43,7 @@ class PagePresenter final : public Presenter {
                            0.5 * glm::dvec2(geometry_.screen_px) + glm::dvec2(right_px, down_px));
     }
     void show_level(const LevelBar& bar) override;
+    void mark_stimuli(std::span<const StimulusMark> marks) noexcept override;
     FlipReport flip_slots(std::span<const AnimationFrameIndex> frames) noexcept override;
     void raise_with_next_flip(std::uint16_t outputs, double pulse_ms) noexcept override {
         if (has_t_lock(display_.output))
@@ -85,8 +87,10 @@ class PagePresenter final : public Presenter {
         int last_page = -1;        ///< that was on the canvas; -1: none was yet
         std::int64_t last_lit = 0; ///< how many pages had been put on the canvas then
         int frame_on_canvas = -1;
+        bool has_marks = false; ///< on the canvas
     };
     void put_page(InSlot& slot, int page) noexcept;
+    void put_marks(InSlot& slot) noexcept;
     /// A slot that nothing was lit in comes up with what is shown at this index.
     bool comes_up(std::size_t index) const noexcept;
     /// Of what is loaded for the same slot, what was lit there last.
@@ -131,6 +135,11 @@ class PagePresenter final : public Presenter {
     };
     Beside beside_;
     const Framebuffer& around_stimuli() const { return beside_.picture ? *beside_.picture : background_; }
+    // What is drawn over stimuli.
+    std::optional<MarkPass> mark_pass_; ///< once there is any
+    std::array<StimulusMark, most_marks> marks_{};
+    std::size_t mark_count_ = 0;
+    bool are_marks_new_ = false; ///< since the last flip
     std::vector<ImageBox> slots_;
     const StoredStimuli* loaded_ = nullptr; ///< null: nothing
     std::vector<PlacedStimulus> shown_;     ///< what is loaded
