@@ -8,19 +8,15 @@
 
 #include "experiment/answers/answer_kinds.h"
 #include "experiment/base/text_number.h"
+#include "experiment/checks/observer_keys.h"
 #include "experiment/checks/protocol_checks.h"
 #include "experiment/design/answer_forms.h"
+#include "experiment/design/match_levels.h"
 #include "experiment/design/trial_plan.h"
 
 namespace overt {
 
 namespace {
-
-/// Of a keyboard, besides letters and digits.
-constexpr auto named_keys = std::to_array<std::string_view>(
-    {"space", "enter",   "tab",       "backspace", "left",   "right", "up",  "down", "home",
-     "end",   "page up", "page down", "insert",    "delete", "f1",    "f2",  "f3",   "f4",
-     "f5",    "f6",      "f7",        "f8",        "f9",     "f10",   "f11", "f12",  "pause"});
 
 /// Of one answer of a task.
 class AnswerChecks {
@@ -98,8 +94,12 @@ class AnswerChecks {
 
     void check_keys() {
         std::vector<std::pair<std::string_view, std::string>> keys;
-        for (const std::string& key : answer_.keys)
+        for (const std::string& key : is_match(answer_) ? answer_.match_keys() : answer_.keys)
             keys.emplace_back("keys", key);
+        for (const std::string& key : is_match(answer_) ? answer_.match_coarse_keys() : answer_.coarse_keys)
+            keys.emplace_back("coarse_keys", key);
+        if (has("undo_key"))
+            keys.emplace_back("undo_key", answer_.undo_key);
         if (answer_.accepts_by_key())
             keys.emplace_back("accept_key", answer_.accept_key);
         if (has("undo_key"))
@@ -115,24 +115,8 @@ class AnswerChecks {
     }
 
     void check_key(std::string_view path, const std::string& key) {
-        const Protocol& protocol = examination_.protocol;
-        const OperatorSettings& operators = protocol.operators;
-        const std::pair<std::string_view, const std::string*> taken[] = {
-            {"pause", &operators.pause},   {"recalibrate", &operators.recalibrate},
-            {"repeat", &operators.repeat}, {"reject", &operators.reject},
-            {"skip", &operators.skip},     {"abort", &operators.abort}};
-        for (const auto& [name, of] : taken)
-            if (*of == key)
-                error({path},
-                      fmt::format("the key \"{}\" is the operator's: \"{}\" of [operator]", key, name),
-                      "take another one");
-        const bool is_letter =
-            key.size() == 1 && ((key[0] >= 'a' && key[0] <= 'z') || (key[0] >= '0' && key[0] <= '9'));
-        // Buttons are called as their box calls them, which is known once it is there.
-        if (!is_letter && protocol.button_boxes.empty() &&
-            std::ranges::find(named_keys, key) == named_keys.end())
-            error({path}, fmt::format("there is no key \"{}\"", key),
-                  fmt::format("letters, digits, {}", fmt::join(named_keys, ", ")));
+        if (KeyFault fault = fault_of_observer_key(examination_.protocol, key); !fault.message.empty())
+            error({path}, std::move(fault.message), std::move(fault.hint));
     }
 
     void check_scale() {
@@ -346,7 +330,16 @@ class AskingChecks {
                                 answer.id),
                     "give each a step of its own: { answer = [...] } behind the step that shows the "
                     "stimulus");
-            else if (answer.with == AnsweredWith::mouse && !answer.beside_up_deg)
+            else if (is_match(answer) && answers_waited_for(step).size() > 1 &&
+                     std::ranges::any_of(answer.match_keys(), [](const std::string& key) {
+                         return key == "up" || key == "down" || key == "tab";
+                     }))
+                error(step.answers_place,
+                      fmt::format(
+                          "up, down and tab go from one answer to the next, and \"{}\" is set with them",
+                          answer.id),
+                      "write other keys for it, or give the answers steps of their own");
+            else if (answer.with == AnsweredWith::mouse && !answer.beside_up_deg && !is_match(answer))
                 error(step.answers_place,
                       fmt::format("\"{}\" is given with the mouse, and nothing to click on is on the screen",
                                   answer.id),
@@ -358,7 +351,7 @@ class AskingChecks {
         for (std::size_t i = 0; i < task_.answers.size(); ++i) {
             const TaskAnswer& answer = task_.answers[i];
             const bool is_gauge = row_of(answer.kind).has_key("probe");
-            if (name_of(answer.kind) != "point" && !is_gauge)
+            if (name_of(answer.kind) != "point" && !is_gauge && !is_match(answer))
                 continue;
             if (is_gauge)
                 check_probe(answer, fmt::format("task[{}].answer[{}]", number_, i));
@@ -371,7 +364,7 @@ class AskingChecks {
                 examination_.error(
                     {fmt::format("task[{}].answer[{}].kind", number_, i)},
                     fmt::format("nothing is shown while \"{}\" is {}", answer.id,
-                                is_gauge ? "set" : "pointed at"),
+                                is_gauge || is_match(answer) ? "set" : "pointed at"),
                     "have a step of the task that shows the stimulus wait for it: until = \"answer\"");
         }
     }

@@ -63,6 +63,8 @@ std::optional<Protocol> read_text(std::string_view text, const std::filesystem::
         check_frames(examination);
         check_steps(examination);
         check_answers(examination);
+        check_matches(examination);
+        check_turning(examination);
         check_slots(examination);
         check_points(examination);
         if (diagnostics.error_count() == errors_before + errors_in_tables(protocol, diagnostics))
@@ -73,6 +75,8 @@ std::optional<Protocol> read_text(std::string_view text, const std::filesystem::
             check_files(examination);
         if (diagnostics.error_count() == errors_before)
             check_points_on_objects(examination);
+        if (diagnostics.error_count() == errors_before)
+            check_match_levels(examination);
         if (diagnostics.error_count() == errors_before)
             check_slot_memory(examination);
         if (diagnostics.error_count() == errors_before)

@@ -127,6 +127,17 @@ void add_rotations(std::string& text, const DesignReport& report) {
 
 /// How object and light move, in words.
 std::string movement_of(const Animation& motion) {
+    if (motion.kind == MotionKind::observer) {
+        const ObserverTurn& by = motion.by_observer;
+        const std::string with =
+            by.with == TurnedWith::mouse ? "with the mouse"
+            : by.with == TurnedWith::keys
+                ? fmt::format("with {} and {}", by.keys.front(), by.keys.back())
+                : fmt::format("with the mouse, {} and {}", by.keys.front(), by.keys.back());
+        return fmt::format("turned by the observer {}, {} deg from pose to pose, {}", with, by.step.value,
+                           by.is_whole() ? std::string("all round")
+                                         : fmt::format("from {} to {} deg", by.from.value, by.to.value));
+    }
     const double light = motion.light_amplitude.value;
     std::string words = motion.kind == MotionKind::still
                             ? fmt::format("still at {} deg", motion.angle.value)
@@ -145,11 +156,13 @@ void add_motion(std::string& text, const DesignReport& report, const AnimationFa
               {fmt::format("{}{} ({}), {}, {}", is_one_of_several ? animation.id + ": " : "",
                            counted(animation.frames, "frame"), name_of(animation.motion.playback),
                            counted(animation.distinct_poses, "distinct pose"), movement_of(animation.motion)),
-               moves ? fmt::format("shown: {} at {:.6g} Hz = {:.3f} s = {:.4g} swings to and fro",
-                                   counted(animation.shown_frames, "frame"),
-                                   animation.shown_frames / animation.duration_s, animation.duration_s,
-                                   animation.periods)
-                     : fmt::format("shown: {:.3f} s", animation.duration_s),
+               animation.motion.kind == MotionKind::observer
+                   ? fmt::format("shown: {:.3f} s, in the poses that it is turned to", animation.duration_s)
+               : moves ? fmt::format("shown: {} at {:.6g} Hz = {:.3f} s = {:.4g} swings to and fro",
+                                     counted(animation.shown_frames, "frame"),
+                                     animation.shown_frames / animation.duration_s, animation.duration_s,
+                                     animation.periods)
+                       : fmt::format("shown: {:.3f} s", animation.duration_s),
                fmt::format("each frame is lit for {} at {} Hz: {} refreshes{}",
                            counted(animation.refreshes_per_frame, "refresh", "refreshes"),
                            report.display.refresh_hz, animation.refreshes,

@@ -50,6 +50,12 @@ void check_slot_memory(ProtocolExamination& examination);
 void check_steps(ProtocolExamination& examination);
 /// What is answered in it, and how.
 void check_answers(ProtocolExamination& examination);
+/// What is set to match in a task, along what, and with which keys.
+void check_matches(ProtocolExamination& examination);
+/// Whether there are levels to be set, and room for them. Of a protocol that is sound otherwise.
+void check_match_levels(ProtocolExamination& examination);
+/// Objects that the observer turns.
+void check_turning(ProtocolExamination& examination);
 /// Places on the screen, and in which of them each task shows its stimuli.
 void check_slots(ProtocolExamination& examination);
 /// Lists of places on surfaces, and probes there; after check_slots(), before trials are put together.

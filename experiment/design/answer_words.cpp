@@ -9,6 +9,8 @@
 #include "experiment/base/counted.h"
 #include "experiment/base/plain_text.h"
 #include "experiment/design/answer_forms.h"
+#include "experiment/design/match_levels.h"
+#include "experiment/design/schedule.h"
 #include "experiment/design/trial_plan.h"
 
 namespace overt {
@@ -39,6 +41,39 @@ std::string gauge_in_words(const Task& task, const TaskAnswer& answer) {
         "leaned by drags of the mouse ({:g} deg a pixel) or arrows ({:g} deg) at probe {}; {} takes "
         "back; a click with the right button accepts",
         answer.slant_per_px_deg, answer.key_step_deg, probe ? probe->id : "", answer.undo_key);
+}
+
+std::string_view name_of_end(MatchStart::From from) { return from == MatchStart::From::low ? "low" : "high"; }
+
+/// What is set, along what, and with which keys; levels by the first of the observer's trials that has them.
+std::string match_in_words(const Protocol& protocol, const Task& task, const TaskAnswer& answer) {
+    const std::vector<std::string> keys = answer.match_keys(), coarse = answer.match_coarse_keys();
+    const auto index = static_cast<int>(&task - protocol.tasks.data());
+    MatchLevels levels;
+    for (const Trial& trial : trials_of(protocol, 1))
+        if (trial.task == index && levels.axes.empty())
+            levels = match_levels(protocol, answer, trial);
+    std::string text = fmt::format("what is in {} is set", answer.slot);
+    for (std::size_t i = 0; i < answer.along.size(); ++i) {
+        text += fmt::format("{} along {}", i == 0 ? "" : ", and", answer.along[i]);
+        if (i < levels.axes.size())
+            text += fmt::format(", {} levels from {:g} to {:g}", levels.axes[i].values.size(),
+                                levels.axes[i].values.front(), levels.axes[i].values.back());
+        if (answer.with == AnsweredWith::mouse)
+            continue;
+        text += fmt::format(", by {} and {}", keys[2 * i], keys[2 * i + 1]);
+        if (2 * i + 1 < coarse.size())
+            text += fmt::format(", {} at once by {} and {}", answer.coarse_steps, coarse[2 * i],
+                                coarse[2 * i + 1]);
+    }
+    if (answer.with != AnsweredWith::keys)
+        text += answer.with == AnsweredWith::mouse ? ", by the wheel of the mouse" : ", or by the wheel";
+    std::string start = "at a level that is drawn";
+    if (answer.start.from == MatchStart::From::low || answer.start.from == MatchStart::From::high)
+        start = fmt::format("at the {} end", name_of_end(answer.start.from));
+    else if (answer.start.from == MatchStart::From::values)
+        start = fmt::format("at {:g}", fmt::join(answer.start.values, ", "));
+    return text + fmt::format("; it begins {}; {} takes back", start, answer.undo_key);
 }
 
 std::string range_in_words(const TaskAnswer& answer) {
@@ -126,6 +161,7 @@ std::string describe_answers(const Protocol& protocol, const Task& task) {
             return std::ranges::find(one.answers, static_cast<int>(i)) != one.answers.end();
         });
         std::string how = kind.has_key("probe")     ? gauge_in_words(task, answer)
+                          : is_match(answer)        ? match_in_words(protocol, task, answer)
                           : kind.has_key("choices") ? choices_in_words(protocol, answer)
                           : kind.has_key("min")     ? range_in_words(answer)
                                                     : fmt::format("up to {} characters", answer.longest);

@@ -34,12 +34,39 @@ nlohmann::ordered_json opening_schema(const KeyRule&) {
     return {{"anyOf", {{{"enum", {"onset", "offset", "screen"}}}, {{"type", "number"}, {"minimum", 0}}}}};
 }
 
+ValueResult read_match_start(const TomlValue& value, const KeyRule& rule, void* out) {
+    auto& start = *static_cast<MatchStart*>(out);
+    using From = MatchStart::From;
+    if (const auto* const word = std::get_if<std::string>(&value.content)) {
+        if (*word == "drawn" || *word == "low" || *word == "high") {
+            start = {*word == "drawn" ? From::drawn : *word == "low" ? From::low : From::high, {}};
+            return std::nullopt;
+        }
+        return ValueFault{value.place, fmt::format("{}: unknown value \"{}\"", rule.name, *word),
+                          "write \"drawn\", \"low\", \"high\", or the number of a level, of two columns two"};
+    }
+    start.from = From::values;
+    return value_type(TypeTag<std::vector<double>>())
+        .read(value, KeyRule{{}, rule.name, {}}, &start.values);
+}
+
+nlohmann::ordered_json match_start_schema(const KeyRule&) {
+    return {{"anyOf",
+             {{{"enum", {"drawn", "low", "high"}}},
+              {{"type", "number"}},
+              {{"type", "array"}, {"items", {{"type", "number"}}}}}}};
+}
+
+constexpr ValueType match_start_type{"a level", read_match_start, match_start_schema, nullptr};
+
 constexpr ValueType opening_type{"a time", read_opening, opening_schema, nullptr};
 
 } // namespace
 
 const ValueType& value_type(TypeTag<AnswerOpening>);
 const ValueType& value_type(TypeTag<AnswerOpening>) { return opening_type; }
+const ValueType& value_type(TypeTag<MatchStart>);
+const ValueType& value_type(TypeTag<MatchStart>) { return match_start_type; }
 
 namespace key_rows {
 
@@ -56,8 +83,10 @@ std::vector<Key> answer() {
          "What can be chosen: words, as tables have them, or ids of slots. In the order of the keys."},
         {"labels", &A::labels, left_out("the choices; slots by their titles"),
          "The choices, or the steps of a scale, as the observer reads them; one for each."},
-        {"keys", &A::keys, left_out("of a scale of up to 9 steps: the digits"),
-         "A key for each choice or step, in the same order: a letter or a digit, `space`, `left`, or a "
+        {"keys", &A::keys,
+         left_out("of a scale of up to 9 steps: the digits; of a match: left, right, and down, up"),
+         "A key for each choice or step, in the same order; of a match, for each column one to less and one to "
+         "more: a letter or a digit, `space`, `left`, or a "
          "button "
          "as its box calls it."},
         {"with", &A::with, "Whether it is given with keys, with the mouse, or with either."},
@@ -101,7 +130,21 @@ std::vector<Key> answer() {
          "the drag."},
         {"key_step_deg", &A::key_step_deg, range(0.1, 45, "deg"),
          "Of a gauge: by how much an arrow key leans it."},
-        {"undo_key", &A::undo_key, "Of a gauge: the key that takes back the last drag or press."},
+        {"undo_key", &A::undo_key, "Of a gauge or a match: the key that takes back the last change."},
+        {"slot", &A::slot, identifier().left_out("the task's only one"),
+         "Of a match: id of the slot whose stimulus is set."},
+        {"along", &A::along, left_out("needed for a match"),
+         "Of a match: the column of materials or lights whose numbers are gone through, such as that of a "
+         "series; or two, each value of the one with each of the other. What is shown are entries of the "
+         "protocol, rendered beforehand like all others, with the same values in their other columns."},
+        {"shows", &A::shows, left_out("as the trial has it; in an empty slot what it shows first"),
+         "Of a match: the entry of a list that stands in its slot, `{ light = \"hall\" }`, whatever the trial "
+         "has there."},
+        {"start", &A::start, left_out("drawn"),
+         "Of a match: the level that a trial begins with: `drawn` for each trial, `low`, `high`, or a level."},
+        {"coarse_keys", &A::coarse_keys, left_out("page down, page up, where `keys` are left out, of one column"),
+         "Of a match: keys that go by `coarse_steps` levels at once, in the order of `keys`."},
+        {"coarse_steps", &A::coarse_steps, range(2, 1000), "Of a match: so many levels at once."},
         {"opens", &A::opens,
          left_out("onset where a step with `until = \"answer\"` shows the stimulus, else screen"),
          "When presses begin to count: with the onset of the stimulus, with its offset, with the answer's "

@@ -92,6 +92,12 @@ void complete(Protocol& protocol) {
     }
     protocol.slots = written_out(protocol.slot_entries);
     fit_views_to_slots(protocol);
+    // What is set to match stands in the only slot, if the task has only one.
+    for (std::size_t task = 0; task < protocol.tasks.size(); ++task)
+        if (const std::vector<int> slots = slots_of_task(protocol, static_cast<int>(task)); slots.size() == 1)
+            for (TaskAnswer& answer : protocol.tasks[task].answers)
+                if (answer.slot.empty())
+                    answer.slot = protocol.slots[static_cast<std::size_t>(slots.front())].id;
     if (!protocol.display.characterisation_file.empty())
         protocol.display.characterisation_file =
             folder_of(protocol, "display.characterisation") / protocol.display.characterisation_file;
