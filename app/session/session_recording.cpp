@@ -106,16 +106,17 @@ std::vector<RecordedDatasetEntry> recorded(const DatasetSettings& dataset) {
 }
 
 void record_points(SessionHeader& header, std::span<const Object> objects) {
-    for (std::size_t i = 0; i < objects.size(); ++i)
+    for (std::size_t i = 0; i < objects.size(); ++i) {
+        const Mesh& mesh = objects[i].mesh;
         for (const ObjectPoint& point : objects[i].points)
-            header.points.push_back(
-                {.object = static_cast<int>(i),
-                 .name = point.name,
-                 .triangle = point.site.triangle,
-                 .barycentric = point.site.barycentric,
-                 .position = point.position,
-                 .vertex = point.vertex,
-                 .part = objects[i].mesh->part_names[objects[i].mesh->triangle_parts[point.site.triangle]]});
+            header.points.push_back({.object = static_cast<int>(i),
+                                     .name = point.name,
+                                     .triangle = point.site.triangle,
+                                     .barycentric = point.site.barycentric,
+                                     .position = point.position,
+                                     .vertex = point.vertex,
+                                     .part = mesh.part_names[mesh.triangle_parts[point.site.triangle]]});
+    }
 }
 
 } // namespace
