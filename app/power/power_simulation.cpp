@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "app/power/answer_studies.h"
 #include "app/power/planted_spread.h"
 #include "app/power/power_tests.h"
 #include "experiment/base/counted.h"
@@ -20,7 +21,17 @@ namespace overt {
 
 namespace {
 
-std::string analysis_of(const PowerEffect& effect) {
+std::string analysis_of_answers(const Protocol& protocol, const PowerEffect& effect) {
+    return fmt::format(
+        "overt analyze SESSION…: the row of {}, \"{}\" of {} {} against {} in answer_differences, "
+        "p",
+        AnswerStudies(protocol, effect).measured().name(), effect.answer, effect.column, effect.level,
+        effect.against);
+}
+
+std::string analysis_of(const Protocol& protocol, const PowerEffect& effect) {
+    if (is_of_answers(effect.measure))
+        return analysis_of_answers(protocol, effect);
     const bool is_of_stimuli = effect.column != "task";
     const std::string place = effect.measure == PowerMeasure::area
                                   ? fmt::format("area_pairs, area {}", effect.area)
@@ -36,10 +47,33 @@ std::string analysis_of(const PowerEffect& effect) {
                        effect.column, row, effect.level, effect.against, place, column);
 }
 
+std::string planted_in_answers(const PowerEffect& effect) {
+    const std::string where = fmt::format("In {} {}", effect.column, effect.level);
+    switch (effect.measure) {
+    case PowerMeasure::threshold:
+        return effect.is_ratio
+                   ? fmt::format(
+                         "{} the slope is divided by {}, so that the threshold is as many times as far "
+                         "from the standard.",
+                         where, effect.size)
+                   : fmt::format("{} the threshold is higher by {}.", where, effect.size);
+    case PowerMeasure::slope:
+        return fmt::format("{} the slope is multiplied by {}.", where, effect.size);
+    case PowerMeasure::choice:
+        return fmt::format("{} the judgement is higher by {} standard deviations.", where, effect.size);
+    case PowerMeasure::rating:
+        return fmt::format("{} the judgement is higher by {}.", where, effect.size);
+    default:
+        return fmt::format("{} the odds of a correct answer are multiplied by {}.", where, effect.size);
+    }
+}
+
 std::string planted_words(const PowerEffect& effect) {
     std::string words;
     if (effect.is_none())
         words = "No difference is planted, on average.";
+    else if (is_of_answers(effect.measure))
+        words = planted_in_answers(effect);
     else if (effect.measure == PowerMeasure::area)
         words = fmt::format("In {} {} the odds of the {} are multiplied by {}.", effect.column, effect.level,
                             effect.area == head_area ? effect.area : fmt::format("area {}", effect.area),
@@ -94,7 +128,7 @@ std::vector<std::vector<std::size_t>> batches_of(const std::vector<PowerEffect>&
     std::vector<std::vector<std::size_t>> batches;
     std::vector<std::size_t> without;
     for (std::size_t i = 0; i < effects.size(); ++i) {
-        if (effects[i].is_none() && effects[i].sd == 0.0)
+        if (effects[i].is_none() && effects[i].sd == 0.0 && !is_of_answers(effects[i].measure))
             without.push_back(i);
         else
             batches.push_back({i});
@@ -104,10 +138,11 @@ std::vector<std::vector<std::size_t>> batches_of(const std::vector<PowerEffect>&
     return batches;
 }
 
-std::vector<PowerCurve> empty_curves(const std::vector<PowerEffect>& effects, const PowerSettings& settings) {
+std::vector<PowerCurve> empty_curves(const Protocol& protocol, const std::vector<PowerEffect>& effects,
+                                     const PowerSettings& settings) {
     std::vector<PowerCurve> curves;
     for (const PowerEffect& effect : effects) {
-        PowerCurve curve{effect, analysis_of(effect), planted_words(effect), {}};
+        PowerCurve curve{effect, analysis_of(protocol, effect), planted_words(effect), {}};
         for (const int count : settings.observers) {
             curve.points.emplace_back();
             curve.points.back().observers = count;
@@ -164,22 +199,54 @@ void simulate(const GazeStudies& studies, std::span<PowerCurve* const> curves, c
         settings.jobs);
 }
 
+/// The studies of one effect on answers.
+void simulate_answers(const AnswerStudies& studies, PowerCurve& curve, const PowerSettings& settings,
+                      const std::function<void()>& one_done) {
+    std::mutex reporting;
+    parallel_for(
+        settings.studies,
+        [&](int number) {
+            const auto study = static_cast<std::size_t>(number);
+            RandomStream random(settings.seed, "seeds of studies", study);
+            const std::uint64_t high = random.next_bits(), seed = high << 32 | random.next_bits();
+            const std::vector<StudyOutcome> outcomes =
+                studies.tested(studies.study(seed, settings.observers.back()), settings.observers,
+                               {settings.permutations, PermutationSettings{}.most_exact, seed});
+            for (std::size_t i = 0; i < outcomes.size(); ++i)
+                curve.points[i].studies[study] = outcomes[i];
+            const std::scoped_lock lock(reporting);
+            one_done();
+        },
+        settings.jobs);
+}
+
 /// What a reader must know.
 void add_remarks(PowerResults& results, const Protocol& protocol, const PowerSettings& settings) {
     for (const PowerCurve& curve : results.curves) {
         const PowerPoint& most = curve.points.back();
         if (most.without_test > 0)
             results.remarks.push_back(fmt::format(
-                "{} of {} studies with {} have nothing to test for {}: no observer sees an object in both "
-                "levels{}.",
-                most.without_test, settings.studies, counted(most.observers, "observer"), curve.effect.text(),
-                curve.effect.column != "task" ? " under one task" : ""));
+                "{} of {} studies with {} have nothing to test for {}: {}.", most.without_test,
+                settings.studies, counted(most.observers, "observer"), curve.effect.text(),
+                is_of_answers(curve.effect.measure)
+                    ? "fewer than two observers have the measure in both levels"
+                : curve.effect.column != "task" ? "no observer sees an object in both levels under one task"
+                                                : "no observer sees an object in both levels"));
     }
     if (const int fewest = fewest_testable_observers(settings.alpha); settings.observers.front() < fewest)
         results.remarks.push_back(fmt::format(
             "With fewer than {} observers the tests cannot give p at most {}: 2 / 2^n is the least.", fewest,
             settings.alpha));
-    if (settings.gaze.head_share_sd == 0.0)
+    const auto is_of_gaze = [](const PowerCurve& curve) { return !is_of_answers(curve.effect.measure); };
+    const bool any_of_gaze = std::ranges::any_of(results.curves, is_of_gaze);
+    for (const PowerCurve& curve : results.curves)
+        if (!is_of_gaze(curve) && asked_answer(protocol, curve.effect).truth.observer_sd == 0.0) {
+            results.remarks.emplace_back(
+                "Observers differ by chance alone in what they answer: `simulated` of the answer has no "
+                "observer_sd. Differences between levels differ over observers with :sd=… alone.");
+            break;
+        }
+    if (any_of_gaze && settings.gaze.head_share_sd == 0.0)
         results.remarks.emplace_back(
             "Observers differ by chance alone: the protocol has no head_share_sd, and --head-share-sd sets "
             "none. Real observers differ more, so that real studies find less.");
@@ -205,12 +272,17 @@ PowerResults simulate_power(const Experiment& experiment, const std::vector<Powe
     results.alpha = settings.alpha;
     results.target = settings.target;
     results.parameters = parameters_of(protocol, settings);
-    results.curves = empty_curves(effects, settings);
+    results.curves = empty_curves(protocol, effects, settings);
     const AllMaps maps = maps_for(experiment, effects, settings, progress);
     const std::vector<std::vector<std::size_t>> batches = batches_of(effects);
     const int all = settings.studies * static_cast<int>(batches.size());
     int done = 0;
     for (const std::vector<std::size_t>& batch : batches) {
+        if (is_of_answers(effects[batch.front()].measure)) {
+            simulate_answers(AnswerStudies(protocol, effects[batch.front()]), results.curves[batch.front()],
+                             settings, [&] { progress("studies", ++done, all); });
+            continue;
+        }
         std::vector<PowerEffect> own;
         std::vector<PowerCurve*> curves;
         for (const std::size_t i : batch) {

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "experiment/answers/answer_kinds.h"
 #include "experiment/base/error.h"
 #include "experiment/protocol/old_words.h"
 #include "experiment/scene/areas.h"
@@ -24,7 +25,13 @@ struct MeasureWords {
 
 constexpr MeasureWords measures[] = {{"area", "odds", "share of fixations on an area", 0.01, 100.0},
                                      {"wss", "ratio", "spread of fixations (WSS)", 0.05, 20.0},
-                                     {"cc", "share", "maps of all observers (CC)", 0.0, 0.95}};
+                                     {"cc", "share", "maps of all observers (CC)", 0.0, 0.95},
+                                     {"threshold", "shift", "threshold of", -1e6, 1e6},
+                                     {"slope", "ratio", "slope over", 0.01, 100.0},
+                                     {"correct", "odds", "share of correct answers to", 0.01, 100.0},
+                                     {"dprime", "odds", "d' of", 0.01, 100.0},
+                                     {"choice", "shift", "share of a choice of", -10.0, 10.0},
+                                     {"rating", "shift", "mean of", -1e6, 1e6}};
 
 const MeasureWords& words_of(PowerMeasure measure) { return measures[static_cast<std::size_t>(measure)]; }
 
@@ -106,13 +113,16 @@ class EffectReader {
         const bool is_area = name == "area";
         if (found == std::end(measures) || (is_area && parts[0] == "area") ||
             (!is_area && equals != std::string::npos))
-            fail(fmt::format("it begins with a measure, which is head, area=NAME, wss or cc, and not \"{}\"",
+            fail(fmt::format("it begins with a measure, which is head, area=NAME, wss or cc, or of answers "
+                             "threshold, slope, correct, dprime, choice or rating, and not \"{}\"",
                              parts[0]));
         if (is_area)
             take_area(equals == std::string::npos ? parts[0] : parts[0].substr(equals + 1));
         effect_.measure = static_cast<PowerMeasure>(found - std::begin(measures));
         for (std::size_t i = 1; i < parts.size(); ++i)
             take(parts[i]);
+        if (is_of_answers(effect_.measure))
+            find_answer();
         if (effect_.column.empty())
             fail("it has to say in which material or task the effect is, such as material=rough");
         if (!has_size_)
@@ -124,8 +134,9 @@ class EffectReader {
   private:
     [[noreturn]] void fail(const std::string& what) const {
         throw InputError(fmt::format("--effect {}: {}. An example: head:material=rough:odds=1.5, "
-                                     "area=rim:task=free:odds=2, wss:material=rough:ratio=1.2 or "
-                                     "cc:material=rough:share=0.2.",
+                                     "area=rim:task=free:odds=2, wss:material=rough:ratio=1.2, "
+                                     "cc:material=rough:share=0.2, threshold:object=bust:shift=0.05, "
+                                     "correct:material=rough:odds=1.5 or rating:material=rough:shift=0.5.",
                                      text_, what));
     }
 
@@ -155,23 +166,83 @@ class EffectReader {
         if (key == measure.size_key) {
             effect_.size = number(key, value, measure.least, measure.most);
             has_size_ = true;
+        } else if (key == "ratio" && effect_.measure == PowerMeasure::threshold && !has_size_) {
+            effect_.size = number(key, value, 0.01, 100.0);
+            has_size_ = effect_.is_ratio = true;
         } else if (key == "sd") {
             effect_.sd = number(key, value, 0.0, most_sd);
         } else if (key == "against") {
             effect_.against = value;
+        } else if (key == "answer" && is_of_answers(effect_.measure)) {
+            effect_.answer = value;
         } else if (const auto known = factors_of_effects(protocol_);
                    std::ranges::find(known, key) != known.end()) {
             check_level(key, value);
-            if (effect_.column.empty() && !is_of_objects(protocol_, key)) {
+            if (effect_.column.empty() &&
+                (is_of_answers(effect_.measure) || !is_of_objects(protocol_, key))) {
                 effect_.column = key;
                 effect_.level = value;
             } else {
                 effect_.within.push_back({key, value});
             }
         } else {
-            fail(fmt::format("\"{}\" is no key of {}, whose keys are {}, {}, against and sd", key,
-                             measure.name, fmt::join(known, ", "), measure.size_key));
+            fail(fmt::format("\"{}\" is no key of {}, whose keys are {}, {}, against, {}and sd", key,
+                             measure.name, fmt::join(known, ", "), measure.size_key,
+                             is_of_answers(effect_.measure) ? "answer, " : ""));
         }
+    }
+
+    /// Whether the truth of an answer says what an effect on the measure would change.
+    bool has_measure(const Task& task, const TaskAnswer& answer) const {
+        const AnswerTruth& truth = answer.truth;
+        switch (effect_.measure) {
+        case PowerMeasure::threshold:
+            // What moves both slots alike changes nothing between them.
+            return answer.is_choice() && !truth.by.empty() && truth.slope != 0.0 &&
+                   is_among_slots(task, answer) == effect_.is_ratio;
+        case PowerMeasure::slope:
+            return answer.is_choice() && !truth.by.empty() && truth.slope != 0.0;
+        case PowerMeasure::choice:
+            return answer.is_choice() && !truth.by.empty() && !is_among_slots(task, answer);
+        case PowerMeasure::correct:
+        case PowerMeasure::d_prime:
+            return answer.is_choice() && truth.by.empty();
+        case PowerMeasure::rating:
+            return row_of(answer.kind).name == "scale" || row_of(answer.kind).name == "number";
+        default:
+            return false;
+        }
+    }
+
+    void find_answer() {
+        std::vector<std::string> known;
+        for (const Task& task : protocol_.tasks) {
+            const bool is_asked = std::ranges::all_of(effect_.within, [&](const StudyKey& key) {
+                return key.column != "task" || key.value == task.id;
+            });
+            for (const TaskAnswer& answer : task.answers) {
+                if (!has_measure(task, answer) || !is_asked)
+                    continue;
+                known.push_back(answer.id);
+                if (effect_.task.empty() && (effect_.answer.empty() || effect_.answer == answer.id)) {
+                    effect_.answer = answer.id;
+                    effect_.task = task.id;
+                }
+            }
+        }
+        if (!effect_.task.empty())
+            return;
+        const MeasureWords& measure = words_of(effect_.measure);
+        fail(known.empty()
+                 ? fmt::format(
+                       "no answer's `simulated` says what {} is of: thresholds, slopes and choices are "
+                       "of choices that go \"by\" a factor (a threshold with shift=… of words, with ratio=… "
+                       "of "
+                       "slots; a choice of words), correct and dprime of those that do not, "
+                       "rating of scales and numbers",
+                       measure.name)
+                 : fmt::format("{} is of no answer \"{}\", but of {}", measure.name, effect_.answer,
+                               fmt::join(known, ", ")));
     }
 
     double number(const std::string& key, const std::string& value, double least, double most) const {
@@ -214,11 +285,17 @@ PowerEffect no_effect(PowerMeasure measure, const std::string& column,
     effect.column = column;
     effect.level = levels[0];
     effect.against = levels[1];
-    effect.size = measure == PowerMeasure::cc ? 0.0 : 1.0;
+    effect.size = effect.is_shift() ? 0.0 : 1.0;
     return effect;
 }
 
 } // namespace
+
+bool is_among_slots(const Task& task, const TaskAnswer& answer) {
+    return std::ranges::any_of(answer.choices, [&](const std::string& choice) {
+        return std::ranges::find(task.slots, choice) != task.slots.end();
+    });
+}
 
 std::string PowerEffect::text() const {
     const MeasureWords& of = words_of(measure);
@@ -226,9 +303,11 @@ std::string PowerEffect::text() const {
                                    measure != PowerMeasure::area ? std::string(of.name)
                                    : area == head_area           ? area
                                                                  : fmt::format("area={}", area),
-                                   column, level, of.size_key, size, against);
+                                   column, level, is_ratio ? "ratio" : of.size_key, size, against);
     for (const StudyKey& key : within)
         text += fmt::format(":{}={}", key.column, key.value);
+    if (!answer.empty())
+        text += fmt::format(":answer={}", answer);
     if (sd > 0.0)
         text += fmt::format(":sd={}", sd);
     return text;
@@ -237,9 +316,10 @@ std::string PowerEffect::text() const {
 std::string PowerEffect::words() const {
     std::string words =
         fmt::format("{}, {} {} against {}",
-                    measure != PowerMeasure::area ? std::string(words_of(measure).words)
-                    : area == head_area           ? "share of fixations on the head"
-                                                  : fmt::format("share of fixations on the area {}", area),
+                    is_of_answers(measure) ? fmt::format("{} \"{}\"", words_of(measure).words, answer)
+                    : measure != PowerMeasure::area ? std::string(words_of(measure).words)
+                    : area == head_area             ? "share of fixations on the head"
+                                                    : fmt::format("share of fixations on the area {}", area),
                     column, level, against);
     for (const StudyKey& key : within)
         words += fmt::format(", {} {}", key.column, key.value);

@@ -13,40 +13,6 @@ namespace overt {
 
 namespace {
 
-/// What a stimulus is in each factor in which stimuli can differ.
-AnsweredStimulus answered_stimulus(const SessionHeader& header, const Factors& factors, const Trial& trial,
-                                   const PlacedStimulus& shown) {
-    AnsweredStimulus stimulus;
-    const auto slot = static_cast<std::size_t>(shown.slot);
-    stimulus.slot = slot < header.slots.size() ? header.slots[slot].id : "";
-    for (const Factor& factor : factors.all()) {
-        const bool is_of_stimuli =
-            factor.source == Factor::Source::list || factor.source == Factor::Source::column;
-        if (!is_of_stimuli || factor.levels.size() < 2)
-            continue;
-        const FactorLevel& level =
-            factor.levels[static_cast<std::size_t>(factors.level_of(factor, trial, shown.stimulus))];
-        stimulus.levels.emplace_back(factor.name, level.name);
-        if (level.number)
-            stimulus.numbers.emplace_back(factor.name, *level.number);
-    }
-    return stimulus;
-}
-
-/// Levels of the trial's own, and those in which all of its stimuli are alike.
-std::vector<std::pair<std::string, std::string>> levels_of(const Trial& trial,
-                                                           const std::vector<AnsweredStimulus>& shown) {
-    std::vector<std::pair<std::string, std::string>> levels;
-    for (const TrialLevel& own : trial.levels)
-        levels.emplace_back(own.factor, own.level);
-    for (const auto& level : shown.front().levels)
-        if (std::ranges::all_of(shown, [&](const AnsweredStimulus& one) {
-                return std::ranges::find(one.levels, level) != one.levels.end();
-            }))
-            levels.push_back(level);
-    return levels;
-}
-
 /// What a procedure chose for a trial, as the record has it in words: "ID: FACTOR LEVEL, condition N, …".
 struct ChosenByProcedure {
     std::string procedure, factor;
@@ -80,6 +46,41 @@ std::map<int, ChosenByProcedure> procedure_choices(const SessionRecord& record) 
 
 } // namespace
 
+std::vector<AnsweredStimulus> answered_stimuli(const Factors& factors, std::span<const std::string> slots,
+                                               const Trial& trial) {
+    std::vector<AnsweredStimulus> stimuli;
+    for (const PlacedStimulus& shown : trial.all_shown()) {
+        AnsweredStimulus& stimulus = stimuli.emplace_back();
+        const auto slot = static_cast<std::size_t>(shown.slot);
+        stimulus.slot = slot < slots.size() ? slots[slot] : "";
+        for (const Factor& factor : factors.all()) {
+            const bool is_of_stimuli =
+                factor.source == Factor::Source::list || factor.source == Factor::Source::column;
+            if (!is_of_stimuli || factor.levels.size() < 2)
+                continue;
+            const FactorLevel& level =
+                factor.levels[static_cast<std::size_t>(factors.level_of(factor, trial, shown.stimulus))];
+            stimulus.levels.emplace_back(factor.name, level.name);
+            if (level.number)
+                stimulus.numbers.emplace_back(factor.name, *level.number);
+        }
+    }
+    return stimuli;
+}
+
+std::vector<std::pair<std::string, std::string>> levels_of(const Trial& trial,
+                                                           std::span<const AnsweredStimulus> shown) {
+    std::vector<std::pair<std::string, std::string>> levels;
+    for (const TrialLevel& own : trial.levels)
+        levels.emplace_back(own.factor, own.level);
+    for (const auto& level : shown.front().levels)
+        if (std::ranges::all_of(shown, [&](const AnsweredStimulus& one) {
+                return std::ranges::find(one.levels, level) != one.levels.end();
+            }))
+            levels.push_back(level);
+    return levels;
+}
+
 const std::string& StudyAnswer::level(const std::string& factor) const {
     static const std::string none;
     const auto found = std::ranges::find(levels, factor, &std::pair<std::string, std::string>::first);
@@ -103,14 +104,16 @@ std::vector<StudyAnswer> read_answers(std::span<const std::filesystem::path> ses
             std::ranges::find(same_observer, observer, &std::pair<std::string, std::string>::first);
         if (same != same_observer.end())
             observer = same->second;
+        std::vector<std::string> slots;
+        for (const RecordedSlot& slot : header.slots)
+            slots.push_back(slot.id);
         const std::map<int, ChosenByProcedure> procedures = procedure_choices(record);
         for (const TrialRecord& trial : record.trials()) {
             if (!trial.gives_results() || trial.outcome.given.empty())
                 continue;
-            std::vector<AnsweredStimulus> shown;
+            const std::vector<AnsweredStimulus> shown = answered_stimuli(factors, slots, trial.trial);
             std::vector<std::optional<SessionTime>> onsets;
             for (std::size_t i = 0; i < trial.trial.shown_count(); ++i) {
-                shown.push_back(answered_stimulus(header, factors, trial.trial, trial.trial.shown(i)));
                 const SessionTime onset = trial.seen_in(i).outcome.presentation_onset;
                 onsets.push_back(trial.reached(onset) ? std::optional(onset) : std::nullopt);
             }

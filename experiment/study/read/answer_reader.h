@@ -3,16 +3,28 @@
 
 #include <filesystem>
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
+#include "experiment/factors.h"
 #include "experiment/study/results/answer_rows.h"
 
 namespace overt {
 
 /// Of all trials that give results, in the order of the sessions and their attempts; sessions without answers
-/// of
-/// [[task.answer]] have none. `same_observer`: labels that stand for another. Throws as SessionRecord does.
+/// of [[task.answer]] have none. `same_observer`: labels that stand for another. Throws as SessionRecord
+/// does.
 std::vector<StudyAnswer> read_answers(std::span<const std::filesystem::path> sessions,
                                       std::span<const std::pair<std::string, std::string>> same_observer);
+
+/// What a trial shows, by place: of each stimulus its level of each factor of stimuli with several. `slots`:
+/// ids, by Trial::slot; empty where there are none.
+std::vector<AnsweredStimulus> answered_stimuli(const Factors& factors, std::span<const std::string> slots,
+                                               const Trial& trial);
+
+/// StudyAnswer::levels of a trial that shows these.
+std::vector<std::pair<std::string, std::string>> levels_of(const Trial& trial,
+                                                           std::span<const AnsweredStimulus> shown);
 
 } // namespace overt
