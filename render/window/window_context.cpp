@@ -54,12 +54,8 @@ struct WindowContext::State {
         static_cast<State*>(glfwGetWindowUserPointer(window))->window_size = {width, height};
     }
 
-    /// Where the pointer is, in pixels of the framebuffer: the desktop's own units may be larger. Half a
-    /// pixel more, since X tells the number of the pixel that the pointer is in.
     glm::dvec2 from_middle_px() const {
-        const glm::dvec2 scale =
-            glm::dvec2(framebuffer_px) / glm::dvec2(glm::max(window_size, glm::ivec2(1)));
-        return pointer_px * scale + 0.5 - 0.5 * glm::dvec2(framebuffer_px);
+        return pointer_from_middle_px(pointer_px, window_size, framebuffer_px);
     }
 
     static void on_position(GLFWwindow* window, int x, int y) {
@@ -161,7 +157,9 @@ struct WindowContext::State {
         written.key = WindowKey::character;
         written.character = static_cast<char32_t>(character);
         state.push(written);
-        state.inputs.push({.kind = ObserverInput::Kind::text, .character = written.character});
+        state.inputs.push({.kind = ObserverInput::Kind::text,
+                           .character = written.character,
+                           .is_repeated = written.is_repeated});
     }
 };
 

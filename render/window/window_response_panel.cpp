@@ -168,6 +168,10 @@ std::optional<ObserverInput> WindowResponsePanel::next_input() noexcept {
     using Kind = ObserverInput::Kind;
     for (WindowInput told; awaited_ == Awaited::answer && window_->next_input(told);) {
         const bool is_key = told.kind == Kind::key_down || told.kind == Kind::key_up;
+        has_key_gone_down_ = has_key_gone_down_ || told.kind == Kind::key_down;
+        // A key that is held since before writes on, but not here.
+        if (told.kind == Kind::text && told.is_repeated && !has_key_gone_down_)
+            continue;
         if (is_key && (is_operators_key(told.glfw_key) || !(answers_ || edits(told.glfw_key))))
             continue;
         const bool is_mouse = told.kind == Kind::pointer_moved || told.kind == Kind::pointer_down ||
@@ -282,6 +286,7 @@ void WindowResponsePanel::await(Awaited what, SessionTime since, const Trial* tr
     }
     pressed_on_.waits_for(what);
     awaited_ = what == Awaited::response ? Awaited::key : what;
+    has_key_gone_down_ = false;
     if (answering_)
         answering_->await(what, since, trial);
 }

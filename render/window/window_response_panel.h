@@ -84,6 +84,7 @@ class WindowResponsePanel final : public ResponsePanel {
     NamedKey yes_, no_, accept_, decline_;
     bool answers_ = true;            ///< the keyboard answers for the observer, too
     Awaited awaited_ = Awaited::key; ///< a response is a key, too
+    bool has_key_gone_down_ = false; ///< since something is awaited: what a key writes before is none of it
     // The operator's presses that came while something was prepared.
     std::array<ResponsePress, 16> kept_{};
     std::size_t kept_count_ = 0;

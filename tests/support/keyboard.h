@@ -29,19 +29,14 @@ class Keyboard {
         hold_code(XKeysymToKeycode(display_, symbol), times, modifiers);
     }
     void hold_code(unsigned code, int times, unsigned modifiers = 0) {
-        for (int i = 0; i <= times; ++i) {
-            XKeyEvent event{};
-            event.type = i < times ? KeyPress : KeyRelease;
-            event.display = display_;
-            event.window = window_;
-            event.root = XDefaultRootWindow(display_);
-            event.same_screen = True;
-            event.keycode = code;
-            event.state = modifiers;
-            event.time = time_ += 50;
-            XSendEvent(display_, window_, True, event.type == KeyPress ? KeyPressMask : KeyReleaseMask,
-                       reinterpret_cast<XEvent*>(&event));
-        }
+        for (int i = 0; i < times; ++i)
+            send(KeyPress, code, modifiers);
+        send(KeyRelease, code, modifiers);
+        XSync(display_, False);
+    }
+    /// Presses a key, or goes on holding it, and does not let it go.
+    void press(KeySym symbol) {
+        send(KeyPress, XKeysymToKeycode(display_, symbol), 0);
         XSync(display_, False);
     }
 
@@ -67,6 +62,20 @@ class Keyboard {
     Window window() const { return window_; }
 
   private:
+    void send(int type, unsigned code, unsigned modifiers) {
+        XKeyEvent event{};
+        event.type = type;
+        event.display = display_;
+        event.window = window_;
+        event.root = XDefaultRootWindow(display_);
+        event.same_screen = True;
+        event.keycode = code;
+        event.state = modifiers;
+        event.time = time_ += 50;
+        XSendEvent(display_, window_, True, type == KeyPress ? KeyPressMask : KeyReleaseMask,
+                   reinterpret_cast<XEvent*>(&event));
+    }
+
     Display* display_;
     Window window_;
     Time time_ = 1000;

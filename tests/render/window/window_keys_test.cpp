@@ -1,6 +1,7 @@
 /// Keys of a real window, sent to it as a keyboard's, and what they mean to a session.
 #include "render/window/window_response_panel.h"
 
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -283,6 +284,49 @@ TEST_CASE("while an answer is awaited, keys, characters and the mouse of a windo
     while (const auto input = beside_box.next_input())
         kinds.push_back(input->kind);
     CHECK(kinds == std::vector{Kind::text, Kind::key_down, Kind::key_up});
+}
+
+TEST_CASE("a key that is held since before an answer is awaited writes nothing into it", "[gl]") {
+    using Kind = ObserverInput::Kind;
+    const auto screen = test::VirtualScreen::start(640, 480, 24);
+    WindowWithKeyboard typed_at;
+    WindowResponsePanel panel = typed_at.panel();
+    test::Keyboard& keyboard = typed_at.keyboard;
+    const auto written = [&] {
+        std::u32string text;
+        panel.poll();
+        while (const auto input = panel.next_input())
+            if (input->kind == Kind::text)
+                text += input->character;
+        return text;
+    };
+    panel.await_answer({}, nullptr);
+    keyboard.press(XK_f);
+    keyboard.press(XK_f);
+    CHECK(written() == U"ff");
+    // The next answer's screen, and the key is still held.
+    panel.await_answer({}, nullptr);
+    keyboard.press(XK_f);
+    CHECK(written().empty());
+    keyboard.press(XK_g);
+    keyboard.press(XK_g);
+    CHECK(written() == U"gg");
+}
+
+TEST_CASE("a pointer's place is in pixels of the framebuffer, whatever the desktop's units are", "[unit]") {
+    // 800 x 600 units, each of a pixel, of two, and of one and a half.
+    for (const double scale : {1.0, 2.0, 1.5}) {
+        CAPTURE(scale);
+        const glm::ivec2 window(800, 600), framebuffer(glm::dvec2(window) * scale);
+        const auto place = [&](double x, double y) {
+            return pointer_from_middle_px({x, y}, window, framebuffer);
+        };
+        CHECK(place(0, 0) == glm::dvec2(-400.0 * scale + 0.5, -300.0 * scale + 0.5));
+        CHECK(place(400, 300) == glm::dvec2(0.5));
+        CHECK(place(500, 150) - place(400, 300) == glm::dvec2(100.0, -150.0) * scale);
+        // A window that is not there yet has no size.
+        CHECK(std::isfinite(pointer_from_middle_px({1, 1}, {}, framebuffer).x));
+    }
 }
 
 TEST_CASE("of movements of the mouse the last is kept, and what nobody asks for gives way", "[unit]") {
