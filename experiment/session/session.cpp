@@ -61,10 +61,10 @@ SessionResult Session::run(const TrialDone& trial_done, const SessionHistory& hi
             const std::optional<SessionStep> step = queue.next();
             if (!step)
                 break;
-            // What comes before the next trial is of its block.
+            // What comes before the next trial is of its block, but for the feedback on the one before.
             const std::optional<Trial> next =
                 step->kind == SessionStep::Kind::trial ? step->trial : queue.expected();
-            if (block_ >= 0 && next && next->block != block_)
+            if (block_ >= 0 && next && next->block != block_ && step->kind != SessionStep::Kind::feedback)
                 ask_after_block(block_);
             if (!state_.is_over())
                 run_step(queue, *step, result, trial_done);

@@ -169,3 +169,78 @@ tasks = "t"
     CHECK(*given[1].screen_onset > *given[0].answered_at);
     CHECK(given[2].key == "enter");
 }
+
+TEST_CASE("what is pressed after a window has closed is late, in the steps that follow, too", "[unit]") {
+    Sitting sitting(short_protocol(R"([[task]]
+id = "t"
+question = "Which?"
+steps = [ { show = "centre", for_s = 0.1, until = "answer" }, { answer = "which", limit_s = 0.4 },
+          { blank = 0.5 } ]
+[[task.answer]]
+id = "which"
+kind = "choice"
+choices = ["x", "y"]
+keys = ["f", "j"]
+correct = "x"
+limit_s = 0.3
+[[block]]
+id = "b"
+tasks = "t"
+)"));
+    // The limit is the answer's; its step goes on, and a blank one follows.
+    sitting.panel.does = pressing({{350, "f"}, {360, "f", ObserverInput::Kind::key_up}, {600, "j"}});
+    CHECK(sitting.run().completed_trials == 2);
+    for (const TrialOutcome& outcome : sitting.log.outcomes) {
+        REQUIRE(outcome.given.size() == 1);
+        CHECK(outcome.given.front().is_missed);
+        CHECK(outcome.given.front().value.empty());
+        REQUIRE(outcome.inputs.size() == 3);
+        for (const AnswerInput& input : outcome.inputs) {
+            CHECK(input.state == InputState::late);
+            CHECK_FALSE(input.has_counted);
+        }
+        CHECK(outcome.answer.empty());
+    }
+}
+
+TEST_CASE("a block's feedback comes right after its trials, and its questions after that", "[unit]") {
+    Protocol protocol = short_protocol(std::string(asked_at_stimulus) + R"(feedback = "{percent_correct} %"
+[[block]]
+id = "c"
+tasks = "t"
+feedback = "{correct} of {trials}"
+[[observer_field]]
+id = "effort_b"
+title = "Effort in b?"
+required = false
+kind = "text"
+when = "block:b"
+[[observer_field]]
+id = "effort_c"
+title = "Effort in c?"
+required = false
+kind = "text"
+when = "block:c"
+[[observer_field]]
+id = "remarks"
+title = "Remarks?"
+required = false
+kind = "text"
+when = "end"
+)");
+    Sitting sitting(protocol);
+    sitting.fields.resize(3);
+    sitting.panel.does = pressing({{200, "f"}, {210, "f", ObserverInput::Kind::key_up}});
+    CHECK(sitting.run().completed_trials == 4);
+    std::vector<std::string> order;
+    for (const Screen& screen : sitting.presenter.screens) {
+        std::string what = screen.text;
+        if (screen.kind == Screen::Kind::form && !screen.rows.empty())
+            what = screen.rows.front().label;
+        if (what != "100 %" && what != "2 of 2" && !what.starts_with("Effort") && what != "Remarks?")
+            continue;
+        if (order.empty() || order.back() != what)
+            order.push_back(what);
+    }
+    CHECK(order == std::vector<std::string>{"100 %", "Effort in b?", "2 of 2", "Effort in c?", "Remarks?"});
+}
