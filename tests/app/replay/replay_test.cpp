@@ -47,7 +47,7 @@ TEST_CASE("a session with faults, broken off and resumed, is presented again and
 TEST_CASE("a session that was killed is compared up to its last row, and its resumption after it",
           "[session]") {
     const SmallExperiment experiment(with(small_protocol, "duration_s = 1", "duration_s = 20"));
-    make_interrupted_session(experiment, 1);
+    make_interrupted_session(experiment, 1, {"--trials", "3"});
     const ProgramRun cut_off = replay(experiment);
     INFO(cut_off.out << cut_off.err);
     CHECK(cut_off.exit_code == 0);
@@ -58,7 +58,7 @@ TEST_CASE("a session that was killed is compared up to its last row, and its res
     const ProgramRun whole = replay(experiment);
     INFO(whole.out << whole.err);
     CHECK(whole.exit_code == 0);
-    CHECK_THAT(whole.out, Contains("sitting 2: 9 attempts with "));
+    CHECK_THAT(whole.out, Contains("sitting 2: 2 attempts with "));
 
     // What a later sitting recorded does not excuse an earlier one.
     change(experiment.session(), "UPDATE flip SET shown = shown + 1 WHERE trial_id = 2 AND n = 3");

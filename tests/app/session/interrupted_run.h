@@ -60,7 +60,10 @@ inline std::vector<TrialRecord> attempts_so_far(const std::filesystem::path& ses
 
 /// A session with `completed` trials, killed while the next one runs. Its trials must take much longer than
 /// the tenth of a second after which their rows can be seen.
-inline void make_interrupted_session(const SmallExperiment& experiment, std::size_t completed) {
+inline void make_interrupted_session(const SmallExperiment& experiment, std::size_t completed,
+                                     const std::vector<std::string>& more = {}) {
+    std::vector<std::string> arguments{"--virtual-time"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
     std::vector<TrialRecord> attempts;
     const auto is_in_the_next = [&] {
         attempts = attempts_so_far(experiment.session());
@@ -69,11 +72,10 @@ inline void make_interrupted_session(const SmallExperiment& experiment, std::siz
     // On a busy machine the trial may be over before it is seen.
     for (int tries = 0; tries < 10; ++tries) {
         std::filesystem::remove_all(experiment.session());
-        const bool was_killed =
-            run_and_kill(experiment, run_arguments(experiment, "P01", {"--virtual-time"}), [&] {
-                std::this_thread::sleep_for(std::chrono::milliseconds(5));
-                return is_in_the_next();
-            });
+        const bool was_killed = run_and_kill(experiment, run_arguments(experiment, "P01", arguments), [&] {
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+            return is_in_the_next();
+        });
         if (was_killed && is_in_the_next())
             return;
     }

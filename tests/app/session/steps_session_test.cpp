@@ -123,8 +123,8 @@ TEST_CASE("a killed session with steps goes on with the durations that it was dr
     const std::string long_ones =
         with(every_kind, "{ show = \"centre\", for_s = 0.5 }", "{ show = \"centre\", for_s = 20 }");
     const SmallExperiment experiment(stepped(long_ones)), whole(stepped(long_ones));
-    REQUIRE(whole.run().exit_code == 0);
-    make_interrupted_session(experiment, 1);
+    REQUIRE(whole.run({"--trials", "3"}).exit_code == 0);
+    make_interrupted_session(experiment, 1, {"--trials", "3"});
     REQUIRE(experiment.overt(run_arguments(experiment, "P01", {"--virtual-time", "--resume"})).exit_code ==
             0);
     const SessionRecord resumed(experiment.session()), uninterrupted(whole.session());
