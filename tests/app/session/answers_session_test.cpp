@@ -136,6 +136,93 @@ TEST_CASE("answers by keys are recorded, exported and presented again", "[sessio
     CHECK(replayed.exit_code == 0);
 }
 
+TEST_CASE("a criterion ends practice, feedback tells how it went, and keys stay an observer's own",
+          "[session]") {
+    const SmallExperiment experiment(answered(R"(
+  { show = "centre", for_s = 0.2, until = "answer" },
+  { answer = "seen", limit_s = 1 },
+)",
+                                              R"([[task.answer]]
+id = "seen"
+kind = "choice"
+choices = ["metal", "stone"]
+keys = ["f", "j"]
+correct = "metal"
+limit_s = 0.8
+mapping = "observer"
+simulated = { share_correct = 0.8, median_s = 0.35, shift_s = 0.1, missing = 0.1 }
+[[block]]
+id = "practice"
+tasks = "judge"
+repetitions = 6
+criterion = { correct = 3, of_last = 4, at_least = 5 }
+feedback = "{percent_correct} % in {median_s} s, {missed} missed, {trials} trials"
+[[block]]
+id = "test"
+tasks = "judge"
+feedback = "{correct} of {trials}"
+[[observer_field]]
+id = "effort"
+kind = "scale"
+steps = 5
+when = "block:practice"
+[[observer_field]]
+id = "remarks"
+kind = "text"
+required = false
+when = "end"
+)"));
+    const auto ran = [&](const std::string& observer, int number) {
+        const ProgramRun run = experiment.run({"--observer", observer, "--no-pictures"});
+        INFO(run.err);
+        REQUIRE(run.exit_code == 0);
+        return SessionRecord(experiment.session(number, observer));
+    };
+    // From what is on record, as the protocol says it.
+    const auto mapping_of = [](const SessionRecord& record) {
+        std::vector<bool> correct;
+        std::size_t practised = 0;
+        bool is_met = false;
+        int mapping = -1;
+        for (const TrialRecord& trial : record.trials()) {
+            REQUIRE(trial.outcome.given.size() == 1);
+            const GivenAnswer& given = trial.outcome.given.front();
+            mapping = given.mapping;
+            if (!given.is_missed)
+                CHECK(given.key == ((given.value == "metal") == (mapping == 0) ? "f" : "j"));
+            if (trial.trial.block != 0)
+                continue;
+            CHECK_FALSE(is_met); // nothing comes after that
+            ++practised;
+            correct.push_back(given.is_correct.value_or(false));
+            is_met = correct.size() >= 5 && std::count(correct.end() - 4, correct.end(), true) >= 3;
+        }
+        CHECK(is_met);
+        CHECK(practised >= 5);
+        CHECK(record.trials().size() == practised + 4);
+        return mapping;
+    };
+    const SessionRecord first = ran("P01", 1);
+    const int own = mapping_of(first);
+    CHECK(mapping_of(ran("P01", 2)) == own);
+    CHECK(mapping_of(ran("P02", 1)) == 1 - own);
+    // Feedback on a block, its questions, the next block, and the questions of the end.
+    std::vector<std::string> shown;
+    first.read_events([&](const RecordedEvent& event) {
+        if (event.kind == "text shown")
+            shown.push_back(event.detail);
+    });
+    CHECK(shown == std::vector<std::string>{"feedback on block practice", "feedback on block test"});
+    std::vector<std::string> filled;
+    for (const RecordedObserverField& field : first.observer_fields())
+        filled.push_back(field.id);
+    CHECK(filled == std::vector<std::string>{"effort", "remarks"});
+    REQUIRE(experiment.overt({"verify", experiment.session().string()}).exit_code == 0);
+    const ProgramRun replayed = replay(experiment);
+    INFO(replayed.out << replayed.err);
+    CHECK(replayed.exit_code == 0);
+}
+
 TEST_CASE("what is pointed at is a place of the surface, with how exact that is", "[session]") {
     const SmallExperiment experiment(answered(R"(
   { show = "centre", for_s = 2, until = "answer" },

@@ -346,3 +346,57 @@ TEST_CASE("a point is where the left button went down on the stimulus, once that
     const TaskAnswer by_keys = two_choices();
     CHECK_FALSE(AnswerSheet({form_of(by_keys)}, true).view("").shows_pointer);
 }
+
+TEST_CASE("a click that leaves the window, or whose window loses the keyboard, chooses nothing", "[unit]") {
+    using Kind = ObserverInput::Kind;
+    TaskAnswer answer = two_choices();
+    answer.with = AnsweredWith::mouse;
+    AnswerSheet sheet({form_of(answer)}, false);
+    const AnswerPlace left{.item = 0, .option = 0};
+    sheet.screen_lit(at_ms(0));
+    // Down on a choice, and up beside the screen.
+    sheet.take(mouse_at(10, Kind::pointer_down), left);
+    sheet.take(mouse_at(15, Kind::pointer_moved), {});
+    sheet.take(mouse_at(20, Kind::pointer_up), {});
+    CHECK_FALSE(sheet.is_complete());
+    // Down beside it, and up on a choice.
+    sheet.take(mouse_at(30, Kind::pointer_down), {});
+    sheet.take(mouse_at(40, Kind::pointer_up), left);
+    CHECK_FALSE(sheet.is_complete());
+    // Another window came in between.
+    sheet.take(mouse_at(50, Kind::pointer_down), left);
+    sheet.take(key_at(55, "", Kind::let_go), {});
+    sheet.take(mouse_at(60, Kind::pointer_up), left);
+    CHECK_FALSE(sheet.is_complete());
+    sheet.take(mouse_at(70, Kind::pointer_down), left);
+    sheet.take(mouse_at(80, Kind::pointer_up), left);
+    CHECK(sheet.is_complete());
+    CHECK(SheetRows(sheet).given[0].answered_at == at_ms(80));
+}
+
+TEST_CASE("what was typed outlasts another window, and is of any script", "[unit]") {
+    TaskAnswer answer;
+    answer.id = "word";
+    answer.kind = kind_called<AnswerKind>("text");
+    answer.longest = 5;
+    AnswerSheet sheet({form_of(answer)}, false);
+    // Before the screen nothing is written.
+    sheet.take(written_at(5, U'x'), {});
+    sheet.screen_lit(at_ms(10));
+    for (const char32_t character : U"ô漢")
+        if (character != 0)
+            sheet.take(written_at(20, character), {});
+    sheet.take(key_at(30, "", ObserverInput::Kind::let_go), {});
+    // A letter and its accent for themselves, a tab, and one outside of the basic plane; then one too many.
+    for (const char32_t character : {char32_t{'e'}, char32_t{0x301}, char32_t{'\t'}, char32_t{0x1F600}, U'z'})
+        sheet.take(written_at(40, character), {});
+    CHECK(sheet.view("ok").items[0].typed == "ô漢e\xCC\x81\xF0\x9F\x98\x80");
+    // One character at a time is taken back, however many bytes it has.
+    for (const double ms : {50.0, 60.0}) {
+        sheet.take(key_at(ms, "backspace"), {});
+        sheet.take(up_at(ms + 5, "backspace"), {});
+    }
+    sheet.take(key_at(70, "enter"), {});
+    CHECK(SheetRows(sheet).given[0].value == "ô漢e");
+    CHECK(SheetRows(sheet).inputs.front().state == InputState::before);
+}
