@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "tests/support/asc_text.h"
+#include "tests/support/program.h"
 #include "tests/support/running_program.h"
 #include "tests/support/temporary_folder.h"
 
@@ -48,6 +49,26 @@ TEST_CASE("an import that is interrupted leaves nothing behind, and says so", "[
     std::ifstream stream(said);
     CHECK_THAT((std::string{std::istreambuf_iterator<char>(stream), {}}),
                Catch::Matchers::Contains("The import was interrupted"));
+}
+
+TEST_CASE("an import says of each recording how many of its lines were read", "[session]") {
+    const test::TemporaryFolder root;
+    std::string text = asc_text({});
+    // A sample and an event of the second recording are broken.
+    const std::size_t sample = text.find("\n7010\t"), event = text.find("EFIX L   7030");
+    REQUIRE(sample != std::string::npos);
+    REQUIRE(event != std::string::npos);
+    text.replace(event, 13, "EFIX L   x030");
+    text.insert(sample + 6, "x");
+    const fs::path file = write_asc(root.path() / "p07.asc", text);
+    const test::ProgramRun run =
+        test::run_overt({"import", file.string(), "--out", (root.path() / "session").string()});
+    INFO(run.err);
+    REQUIRE(run.exit_code == 0);
+    CHECK_THAT(run.out,
+               Catch::Matchers::Contains("recording 1, from 5000 ms: 60 of 60 samples' lines read") &&
+                   Catch::Matchers::Contains("recording 2, from 7000 ms: 59 of 60 samples' lines read"));
+    CHECK_THAT(run.out, Catch::Matchers::Contains("3 of 4 events' lines\n"));
 }
 
 TEST_CASE("an import of a file whose name is no observer's asks for one", "[session]") {

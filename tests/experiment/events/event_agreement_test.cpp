@@ -53,6 +53,11 @@ TEST_CASE("errors of begins and ends are told of events with a partner", "[unit]
     CHECK(agreement.detected() == 3);
     CHECK(agreement.median_onset_error_ms().value() == 3.0);
     CHECK(agreement.median_offset_error_ms().value() == 3.0);
+    // Without any there is no error, and none of 0.
+    EventAgreement apart(Kind::saccade);
+    apart.add(std::vector{event(Kind::saccade, 0, 40)}, std::vector{event(Kind::saccade, 200, 240)});
+    CHECK_FALSE(apart.median_onset_error_ms());
+    CHECK_FALSE(apart.median_offset_error_ms());
 }
 
 TEST_CASE("kappa is agreement beyond chance", "[unit]") {

@@ -39,8 +39,10 @@ TEST_CASE("lost samples are lost, whatever edf2asc -miss wrote for them, in eith
     const std::string lost = "\t   .\t   .\t    0.0", seen = "\t  200.0\t  300.0\t  900.0";
     const std::string left_alone = replaced(asc_text(both), lost + lost, "\t-1\t-1\t    0.0" + seen),
                       right_alone = replaced(asc_text(both), lost + lost, seen + "\t-1\t-1\t    0.0");
-    CHECK(lost_of(samples_of(bench.import(left_alone))) == 20);
-    CHECK(lost_of(samples_of(bench.import(right_alone))) == 20);
+    for (const std::string& alone : {left_alone, right_alone}) {
+        CHECK(lost_of(samples_of(bench.import(alone))) == 20);
+        CHECK_THAT(bench.remarks(), Contains("Places of -1 are lost gaze"));
+    }
 }
 
 TEST_CASE("what looks like a missing value and is gaze stays gaze", "[unit]") {
@@ -56,12 +58,32 @@ TEST_CASE("what looks like a missing value and is gaze stays gaze", "[unit]") {
     values[51] = {300.0, -1.0, 1200.0};
     CHECK(lost_of(samples_of(bench.import(made_recording(values)))) == 20);
     CHECK_THAT(bench.remarks(), Contains("Places of -1 are lost gaze"));
+    // Two lost samples that stood on the diagonal are not what most have.
+    for (int n = 0; n < 100; ++n)
+        values[static_cast<std::size_t>(n)] = {400.0 + n, 300.0, n < 20 ? 0.0 : 1200.0};
+    values[5] = values[6] = {512.0, 512.0, 0.0};
+    values[60] = {512.0, 512.0, 1200.0};
+    CHECK(lost_of(samples_of(bench.import(made_recording(values)))) == 20);
     // Named by whoever imports, where no sample tells.
     values.assign(100, {512.5, 400.5, 1200.0});
     values[7] = {777.0, 777.0, 1200.0};
     CHECK(lost_of(samples_of(bench.import(made_recording(values)))) == 0);
     bench.reading.missing = "777";
     CHECK(lost_of(samples_of(bench.import(made_recording(values)))) == 1);
+}
+
+TEST_CASE("a word for what is missing is it in either coordinate, and others are no numbers", "[unit]") {
+    AscConventions conventions;
+    conventions.missing_word = "lost";
+    for (const auto& [x, y] :
+         {std::pair{"lost", "300.0"}, {"300.0", "lost"}, {"lost", "."}, {"other", "other"}}) {
+        CAPTURE(x, y);
+        CHECK(place_of(x, y, conventions).is_valid);
+        CHECK_FALSE(place_of(x, y, conventions).point);
+    }
+    CHECK_FALSE(place_of("other", "300.0", conventions).is_valid);
+    CHECK_FALSE(place_of("lost", "other", conventions).is_valid);
+    CHECK(place_of("10.5", "300.0", conventions).point == ScreenPoint{10.5, 300.0});
 }
 
 TEST_CASE("a pupil below 15 is none, except where pupils are in another unit or were not recorded",
@@ -75,8 +97,12 @@ TEST_CASE("a pupil below 15 is none, except where pupils are in another unit or 
     };
     CHECK(lost_with([](int n) { return n < 30 ? 14.9 : 1200.0; }) == 30);
     CHECK(lost_with([](int n) { return n < 30 ? 0.0 : 15.0; }) == 30);
+    // However many: a pupil of 0 is none in any unit.
+    CHECK(lost_with([](int n) { return n < 70 ? 0.0 : 1200.0; }) == 70);
     CHECK(lost_with([](int) { return 3.6; }) == 0);
     CHECK_THAT(bench.remarks(), Contains("Pupils are not as EyeLinks have them"));
+    // In another unit some are above it.
+    CHECK(lost_with([](int n) { return n < 40 ? 16.0 : 9.0; }) == 0);
     CHECK(lost_with([](int) { return 0.0; }) == 0);
 }
 
@@ -116,6 +142,10 @@ TEST_CASE("field cases give their right values", "[unit]") {
     }
     check_same(samples_of(bench.field_case("a30_decimal_comma")), usual);
     CHECK_THAT(bench.remarks(), Contains("100 lines of samples have decimal commas"));
+    // Times with fractions have one, too.
+    std::string halves = text_of(fs::path(OVERT_SOURCE_DIR) / "tests/data/asc/a30_decimal_comma.asc");
+    halves = replaced(halves, "\n1000000\t", "\n1000000,5\t");
+    CHECK(samples_of(bench.import(halves)).front().sampled_at == tracker_time(1'000'000'500));
     check_same(samples_of(bench.field_case("a26_comments")), usual);
     CHECK(bench.summary.survey.skipped_lines == 0);
     CHECK(bench.summary.survey.comments == 4);
@@ -124,6 +154,14 @@ TEST_CASE("field cases give their right values", "[unit]") {
     CHECK(left.eyes(1).left);
     CHECK_FALSE(left.eyes(1).right);
     CHECK(samples_of(left).size() == 100);
+
+    // The other eye's, where the set-up came later and says both.
+    std::string right_eye =
+        text_of(fs::path(OVERT_SOURCE_DIR) / "tests/data/asc/a36_l_option_reccfg_after.asc");
+    right_eye = replaced(right_eye, "\tLEFT\t", "\tRIGHT\t");
+    const SessionRecord right = bench.import(right_eye);
+    CHECK(right.eyes(1).right);
+    CHECK_FALSE(right.eyes(1).left);
 
     const SessionRecord href = bench.field_case("a09_href_events");
     const std::vector<GazeEvent> fixations = events_of_kind(href, GazeEvent::Kind::fixation),
@@ -227,6 +265,10 @@ TEST_CASE("areas and diameters of pupils are told recording by recording", "[uni
 
     const std::string calibrated = text_of(fs::path(OVERT_SOURCE_DIR) / "tests/data/asc/c_cal.asc");
     CHECK_THAT(dictionary_of(bench.import(calibrated)), Contains("\"Pupil area\""));
-    CHECK_THAT(dictionary_of(bench.import(replaced(calibrated, "PUPIL\tAREA", "PUPIL\tDIAMETER"))),
-               Contains("\"Pupil diameter\""));
+    const SessionRecord diameters = bench.import(replaced(calibrated, "PUPIL\tAREA", "PUPIL\tDIAMETER"));
+    CHECK_THAT(dictionary_of(diameters), Contains("\"Pupil diameter\""));
+    // Also of a recording whose begin is not in the file.
+    CHECK(diameters.gaze_source(1)->pupil_is_diameter);
+    CHECK(tracker_facts(diameters, 1).pupil == PupilMeasure::diameter);
+    CHECK_FALSE(bench.import(calibrated).gaze_source(1)->pupil_is_diameter);
 }

@@ -59,7 +59,8 @@ TEST_CASE("two files of different recordings are refused", "[unit]") {
     for (const char* const thousand : {"5", "7"})
         later = replaced(later, fmt::format("\n{}", thousand), fmt::format("\n1{}", thousand));
     const auto other = halves(later, "other");
-    CHECK_THROWS_WITH(bench.import(AscFiles(other.first, one.second)), Contains("not of one recording"));
+    CHECK_THROWS_WITH(bench.import(AscFiles(other.first, one.second)),
+                      Contains("not of one recording") && Contains("outside of the recordings"));
     // The same time, another observer.
     const auto elsewhere =
         halves(replaced(replaced(second, "\t  101.", "\t  901."), "\t  201.", "\t  801."), "where");

@@ -47,4 +47,23 @@ TEST_CASE("a gap in rounded times stays one, and no time is farther off than the
     REQUIRE(samples.size() == true_ms.size());
     for (std::size_t i = 0; i < samples.size(); ++i)
         CHECK(std::abs(samples[i].sampled_at.time_since_epoch().count() - 1000 * true_ms[i]) <= 1000);
+
+    // A tracker that is slower than it says by a hundredth: its stamps are right to a millisecond.
+    std::string slow = "START\t20000001 \tLEFT\tSAMPLES\tEVENTS\n"
+                       "SAMPLES\tGAZE\tLEFT\tRATE\t1000.00\tTRACKING\tCR\n";
+    std::vector<double> true_of_slow_ms;
+    for (int n = 0; n < 600; ++n) {
+        true_of_slow_ms.push_back(20'000'001 + 1.01 * n);
+        slow += fmt::format("{:.1f}\t  500.5\t  400.5\t 1000.0\t...\n",
+                            static_cast<float>(true_of_slow_ms.back()));
+    }
+    const std::vector<GazeSample> kept = samples_of(bench.import(slow));
+    REQUIRE(kept.size() > 580); // of two that come to one time one is left out
+    std::size_t at = 0;
+    for (const GazeSample& sample : kept) {
+        const double ms = 1e-3 * static_cast<double>(sample.sampled_at.time_since_epoch().count());
+        while (at + 1 < true_of_slow_ms.size() && true_of_slow_ms[at] < ms - 0.5)
+            ++at;
+        CHECK(std::abs(ms - true_of_slow_ms[at]) <= 2.0);
+    }
 }

@@ -13,6 +13,7 @@
 #include "experiment/base/error.h"
 #include "experiment/record/asc/asc_import.h"
 #include "experiment/record/read/session_record.h"
+#include "experiment/record/read/tracker_facts.h"
 #include "tests/experiment/record/session_fixture.h"
 #include "tests/support/asc_readers.h"
 #include "tests/support/asc_text.h"

@@ -166,6 +166,12 @@ TEST_CASE("more than 256 parts are refused, unless regions take their place", "[
     MeshImport import;
     import.regions = {{ "top", {}, { { {0, 0, 0.5}, { 0, 0, 1 } } } }};
     CHECK(import_mesh(path, import, report).part_names == std::vector<std::string>{"body", "top"});
+    // Labels of a file of their own are meant, and are not left aside.
+    std::string labels;
+    for (std::size_t i = 0; i < cube().triangles.size() + 257; ++i)
+        labels += fmt::format("{}\n", i);
+    import.labels = folder.file("labels.txt", labels);
+    CHECK_THAT(message_of<InputError>([&] { import_mesh(path, import, report); }), Catch::Contains("parts"));
 }
 
 TEST_CASE("a mesh written as PLY is read back to the bit, with parts and their names", "[unit]") {
