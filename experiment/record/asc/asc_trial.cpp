@@ -42,17 +42,32 @@ std::vector<std::pair<std::string, std::string>> variables_of(const SessionHeade
     return variables;
 }
 
+/// A message of an interest area, and when it is sent; nothing: it holds for all the trial.
+struct AreaMessage {
+    std::optional<SessionTime> at;
+    std::string text;
+};
+
 /// The slots of a trial that shows several stimuli, as the interest areas of EyeLink Data Viewer: number,
-/// left, top, right, bottom, name.
-std::vector<std::string> interest_areas(const SessionHeader& header, const Trial& trial) {
-    std::vector<std::string> texts;
-    for (std::size_t i = 0; i < trial.shown_count() && !trial.beside.empty(); ++i) {
-        const RecordedSlot& slot = header.slots[static_cast<std::size_t>(trial.shown(i).slot)];
+/// left, top, right, bottom, name. Before it from when until when, in milliseconds after the message, the
+/// latter with a minus sign: once for each step that lights the slot. Of sessions whose trials have no steps
+/// they hold all the trial.
+std::vector<AreaMessage> interest_areas(const SessionHeader& header, const TrialRecord& trial) {
+    std::vector<AreaMessage> messages;
+    for (std::size_t i = 0; i < trial.trial.shown_count() && !trial.trial.beside.empty(); ++i) {
+        const RecordedSlot& slot = header.slots[static_cast<std::size_t>(trial.trial.shown(i).slot)];
         const glm::ivec2 end = slot.origin_px + slot.size_px;
-        texts.push_back(fmt::format("!V IAREA RECTANGLE {} {} {} {} {} {}", i + 1, slot.origin_px.x,
-                                    slot.origin_px.y, end.x, end.y, slot.id));
+        const std::string box = fmt::format("RECTANGLE {} {} {} {} {} {}", i + 1, slot.origin_px.x,
+                                            slot.origin_px.y, end.x, end.y, slot.id);
+        const bool has_steps = std::ranges::any_of(
+            trial.outcome.steps, [](const AttemptStep& step) { return step.kind == "show"; });
+        if (!has_steps)
+            messages.push_back({{}, "!V IAREA " + box});
+        for (const auto& [from, until] : trial.seen_in(i).lit_spans())
+            if (const long ms = std::lround(1e3 * to_seconds(until - from)); ms > 0)
+                messages.push_back({from, fmt::format("!V IAREA 0 -{} {}", ms, box)});
     }
-    return texts;
+    return messages;
 }
 
 std::vector<GazeEvent> events_of(const SessionRecord& record, const TrialRecord& trial) {
@@ -216,7 +231,9 @@ std::vector<std::string> condition_texts(const SessionHeader& header, const Tria
     texts.front() += fmt::format(" attempt={}", trial.attempt);
     if (const RecordedStimulus* const stimulus = stimulus_of(header, header.in_slot(trial.trial.shown(0))))
         texts.push_back(fmt::format("!V TRIAL_VAR frames {}", ascii_of(stimulus->source)));
-    std::ranges::move(interest_areas(header, trial.trial), std::back_inserter(texts));
+    for (AreaMessage& area : interest_areas(header, trial))
+        if (!area.at)
+            texts.push_back(std::move(area.text));
     return texts;
 }
 
@@ -283,6 +300,10 @@ void AscTrial::write_down(const SessionRecord& record, const TrialRecord& trial,
         for (const AttemptStep* const step : further_steps(trial))
             add(at(*step->begin),
                 fmt::format("STEP {}{}{}", step->kind, step->id.empty() ? "" : " ", step->id));
+    if (clock_map)
+        for (const AreaMessage& area : interest_areas(header, trial))
+            if (area.at)
+                add(at(*area.at), area.text);
     if (span) {
         if (const std::string answer = answer_text(trial); !answer.empty())
             add(span->second, answer);
@@ -368,13 +389,18 @@ void AscTrial::add_missing(const SessionRecord& record, const TrialRecord& trial
     }
     if (header.stimuli.empty())
         return; // of a recording made elsewhere, which says itself what was shown
-    if (!has("CONDITION"))
+    const bool says_conditions = has("CONDITION");
+    if (!says_conditions)
         for (const std::string& text : condition_texts(header, trial))
             insert(message_at(span ? span->first : first, text));
     if (clock_map)
         for (const auto& [word, screen] : screens_of(trial))
             if (!has(word) && !(word == end_message && has(earlier_end_message)))
                 insert(message_at(clock_map->to_other(screen), std::string(word)));
+    if (clock_map && !says_conditions)
+        for (const AreaMessage& area : interest_areas(header, trial))
+            if (area.at)
+                insert(message_at(clock_map->to_other(*area.at), area.text));
     if (!has("TRIAL_RESULT"))
         lines_.push_back(message_at(latest(span ? span->second : first) + std::chrono::milliseconds(1),
                                     result_text(trial)));

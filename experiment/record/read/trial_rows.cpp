@@ -144,9 +144,10 @@ void add_refreshes(const SQLite::Database& database, std::vector<TrialRecord>& t
         "ORDER BY trial_id, place",
         &PresentedRefreshes::shown);
     // From the few flips that missed some to the slots that they light, which the key of slot_flip finds.
-    add("SELECT of.trial_id, lit.place, SUM(of.missed) FROM flip AS of CROSS JOIN slot_flip AS lit "
-        "WHERE of.missed > 0 AND lit.trial_id = of.trial_id AND lit.refresh_in_trial = of.refresh_in_trial "
-        "AND lit.shown >= 0 GROUP BY of.trial_id, lit.place ORDER BY of.trial_id, lit.place",
+    add("SELECT late.trial_id, lit.place, SUM(late.missed) FROM flip AS late CROSS JOIN slot_flip AS lit "
+        "WHERE late.missed > 0 AND lit.trial_id = late.trial_id AND lit.refresh_in_trial = "
+        "late.refresh_in_trial "
+        "AND lit.shown >= 0 GROUP BY late.trial_id, lit.place ORDER BY late.trial_id, lit.place",
         &PresentedRefreshes::missed);
 }
 
