@@ -19,19 +19,43 @@ struct StimulusList {
     /// Tables have its column, and words its entry, though it may have one entry only; else with several.
     bool is_always_named;
     std::string_view shown; ///< what the column of a table tells
+    /// Keys by which an entry is called that has no id: the first that it has, a word or a file's name. An
+    /// entry that has none of them is called by the list.
+    std::array<std::string_view, 2> named_by = {};
 };
 
 /// Orders, checks, the record, tables and commands go by these rows, in their order. Where a protocol has the
 /// entries: entries_of_lists (experiment/protocol/protocol.h).
 inline constexpr std::array stimulus_lists{
-    StimulusList{"object", "objects", &Stimulus::object, true, true, true, "Which object was shown"},
-    StimulusList{"material", "materials", &Stimulus::material, false, true, true,
-                 "In which material it was shown"},
-    StimulusList{"light", "lights", &Stimulus::light, false, true, false, "Under which light it was shown"},
-    StimulusList{"motion", "motions", &Stimulus::motion, true, true, false, "In which motion it was shown"},
+    StimulusList{"object",
+                 "objects",
+                 &Stimulus::object,
+                 true,
+                 true,
+                 true,
+                 "Which object was shown",
+                 {"shipped", "mesh"}},
+    StimulusList{"material",
+                 "materials",
+                 &Stimulus::material,
+                 false,
+                 true,
+                 true,
+                 "In which material it was shown",
+                 {"kind"}},
+    StimulusList{
+        "light", "lights", &Stimulus::light, false, true, false, "Under which light it was shown", {"probe"}},
+    StimulusList{
+        "motion", "motions", &Stimulus::motion, true, true, false, "In which motion it was shown", {"kind"}},
     StimulusList{"view", "views", &Stimulus::view, true, true, false, "In which view it was shown"},
-    StimulusList{"background", "backgrounds", &Stimulus::background, false, true, false,
-                 "Before which background it was shown"},
+    StimulusList{"background",
+                 "backgrounds",
+                 &Stimulus::background,
+                 false,
+                 true,
+                 false,
+                 "Before which background it was shown",
+                 {"picture"}},
 };
 static_assert(stimulus_lists.size() * sizeof(int) == sizeof(Stimulus), "each index is one of a list");
 
