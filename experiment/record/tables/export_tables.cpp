@@ -33,13 +33,16 @@ ExportTables::ExportTables(const SessionHeader& header, const SharedColumns& sha
       display_box(display_box_layout()), buttons(buttons_layout()), key_presses(key_presses_layout()),
       markers(markers_layout()), steps(steps_layout(header)),
       given_answers(given_answers_layout(shared, header)), answer_inputs(answer_inputs_layout()),
-      participants(participants_layout(participant)), has_slots_(shared.has_slots) {
+      points(points_layout(header)), probes(probes_layout(shared, header)),
+      gauges(gauges_layout(shared, header)), gauge_changes(gauge_changes_layout()),
+      participants(participants_layout(participant)), has_slots_(shared.has_slots),
+      has_points_(!header.points.empty()) {
     const std::vector<LeadingColumn> leading{
         {{"observer", "Label of the observer"}, header.schedule.observer.label},
         {{"session", "Which session of this observer, from 1"}, std::to_string(header.session_number), true}};
     const auto lead = [&](auto&... layouts) { (layouts.lead_with(leading), ...); };
     lead(trials, presentations, flips, samples, gaze_events, events, responses, stimuli, display_box, buttons,
-         key_presses, markers, steps, given_answers, answer_inputs);
+         key_presses, markers, steps, given_answers, answer_inputs, points, probes, gauges, gauge_changes);
 }
 
 std::vector<const Table*> ExportTables::all() const {
@@ -50,6 +53,9 @@ std::vector<const Table*> ExportTables::all() const {
                                      &given_answers.table(), &answer_inputs.table(), &participants.table()};
     if (has_slots_)
         tables.push_back(&presentations.table());
+    if (has_points_)
+        for (const Table* table : {&points.table(), &probes.table(), &gauges.table(), &gauge_changes.table()})
+            tables.push_back(table);
     return tables;
 }
 

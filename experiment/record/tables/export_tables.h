@@ -12,6 +12,7 @@
 #include "experiment/record/tables/gaze_event_rows.h"
 #include "experiment/record/tables/ledger_rows.h"
 #include "experiment/record/tables/participant_rows.h"
+#include "experiment/record/tables/probe_tables.h"
 #include "experiment/record/tables/session_tables.h"
 #include "experiment/record/tables/trial_tables.h"
 #include "experiment/units.h"
@@ -46,12 +47,17 @@ class ExportTables {
     RowLayout<StepRow> steps;
     RowLayout<GivenAnswerRow> given_answers;
     RowLayout<AnswerInputRow> answer_inputs;
+    // Of sessions whose protocols name places on surfaces.
+    RowLayout<RecordedPoint> points;
+    RowLayout<ProbeRow> probes;
+    RowLayout<GaugeRow> gauges;
+    RowLayout<GaugeChangeRow> gauge_changes;
     RowLayout<ParticipantRow> participants;
 
     std::vector<const Table*> all() const;
 
   private:
-    bool has_slots_;
+    bool has_slots_, has_points_;
     ExportTables(const SessionHeader& header, const SharedColumns& shared, const PupilWords& pupil,
                  std::optional<Degrees> cone_accuracy, const std::string& event_origins,
                  const std::vector<ParticipantRow>& participant);

@@ -56,6 +56,7 @@ class TableExport {
     /// One that has no rows in the other tables.
     void write_other_attempt(const TrialRecord& trial) { write(tables_.trials, TrialRow{trial, nullptr}); }
     void write_what_belongs_to_no_trial();
+    void write_probes();
     void close();
     const TableExportCounts& counts() const { return counts_; }
 
@@ -295,6 +296,26 @@ void TableExport::take_lines_of(const Table& table, const TrialRecord& trial,
     fs::rename(merged, aside_file(table, trial));
 }
 
+void TableExport::write_probes() {
+    if (header_.points.empty())
+        return;
+    for (const RecordedPoint& point : header_.points)
+        write(tables_.points, point);
+    for (const TrialRecord& trial : record_.trials()) {
+        for (const ShownProbe& probe : trial.outcome.probes)
+            write(tables_.probes, ProbeRow{trial, probe});
+        for (const GivenAnswer& given : trial.outcome.given)
+            if (given.gauge)
+                write(tables_.gauges, GaugeRow{trial, given, *given.gauge});
+        int number = 0;
+        for (const AnswerInput& input : trial.outcome.inputs) {
+            ++number;
+            if (input.attitude)
+                write(tables_.gauge_changes, GaugeChangeRow{trial, number, input});
+        }
+    }
+}
+
 void TableExport::write_what_belongs_to_no_trial() {
     write_gaze_events_outside(writer(tables_.gaze_events), tables_.gaze_events, record_);
     record_.read_events([this](const RecordedEvent& event) { write(tables_.events, event); });
@@ -321,6 +342,7 @@ void TableExport::write_what_belongs_to_no_trial() {
         for (const AnswerInput& input : trial.outcome.inputs)
             write(tables_.answer_inputs, AnswerInputRow{trial, ++number, input});
     }
+    write_probes();
     for (const auto& [sitting, box] : record_.display_boxes()) {
         const auto readings = record_.box_clock_readings(sitting);
         write(tables_.display_box,
