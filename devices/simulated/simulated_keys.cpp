@@ -76,14 +76,13 @@ std::optional<double> SimulatedAnswers::level(const Trial& trial, const Stimulus
     return found->levels[static_cast<std::size_t>(factors_.level_of(*found, trial, stimulus))].number;
 }
 
-int SimulatedAnswers::choose(const AnswerOffer& offer, const std::vector<std::string>& values,
-                             const Trial& trial, const AnswerTruth& truth, RandomStream& random) const {
-    const int count = static_cast<int>(values.size());
-    const int by_chance = static_cast<int>(random.below(static_cast<std::uint32_t>(std::max(1, count))));
-    if (random.uniform() < truth.lapses)
-        return by_chance;
+SimulatedAnswers::Judged SimulatedAnswers::judged(const AnswerOffer& offer,
+                                                  const std::vector<std::string>& values, const Trial& trial,
+                                                  const AnswerTruth& truth) const {
     // Among slots: the first as written in the protocol has the bias, wherever its key is.
-    std::vector<std::optional<double>> of_slot(values.size());
+    Judged judged;
+    std::vector<double> slots(values.size(), 0.0);
+    bool any_slot = false;
     for (std::size_t i = 0; i < trial.shown_count() && !truth.by.empty(); ++i) {
         const auto [stimulus, slot] = trial.shown(i);
         const auto at = std::ranges::find(values, protocol_.slots[static_cast<std::size_t>(slot)].id);
@@ -91,49 +90,75 @@ int SimulatedAnswers::choose(const AnswerOffer& offer, const std::vector<std::st
         if (at == values.end() || !here)
             continue;
         const Leaning leaning = leaning_to(offer.id, trial, stimulus);
-        of_slot[static_cast<std::size_t>(at - values.begin())] =
+        slots[static_cast<std::size_t>(at - values.begin())] =
             truth.slope * leaning.slope * *here + leaning.shift;
+        any_slot = true;
     }
     const double bias = truth.bias + inclination(offer, truth);
-    if (std::ranges::any_of(of_slot, [](const auto& one) { return one.has_value(); })) {
+    if (any_slot) {
+        slots.front() += bias;
+        judged.slots = std::move(slots);
+        return judged;
+    }
+    const Leaning leaning = leaning_to(offer.id, trial, trial.stimulus);
+    if (const auto here = truth.by.empty() ? std::nullopt : level(trial, trial.stimulus, truth.by)) {
+        judged.words =
+            truth.slope * leaning.slope * (*here - truth.offset.value_or(0.0)) + leaning.shift + bias;
+        return judged;
+    }
+    const auto correct = std::ranges::find(values, offer.correct);
+    if (correct != values.end())
+        judged.right = static_cast<int>(correct - values.begin());
+    const double odds = leaning.odds * truth.share_correct;
+    judged.share_right = odds / (1.0 - truth.share_correct + odds);
+    return judged;
+}
+
+int SimulatedAnswers::choose(const AnswerOffer& offer, const std::vector<std::string>& values,
+                             const Trial& trial, const AnswerTruth& truth, RandomStream& random) const {
+    const int count = static_cast<int>(values.size());
+    const int by_chance = static_cast<int>(random.below(static_cast<std::uint32_t>(std::max(1, count))));
+    if (random.uniform() < truth.lapses)
+        return by_chance;
+    const Judged means = judged(offer, values, trial, truth);
+    if (!means.slots.empty()) {
         int best = 0;
         double most = -1e300;
         for (int i = 0; i < count; ++i) {
-            const double judged = of_slot[static_cast<std::size_t>(i)].value_or(0.0) + (i == 0 ? bias : 0.0) +
-                                  random.normal() / std::numbers::sqrt2;
-            if (judged > most) {
-                most = judged;
+            const double here =
+                means.slots[static_cast<std::size_t>(i)] + random.normal() / std::numbers::sqrt2;
+            if (here > most) {
+                most = here;
                 best = i;
             }
         }
         return best;
     }
-    const Leaning leaning = leaning_to(offer.id, trial, trial.stimulus);
-    if (const auto here = truth.by.empty() ? std::nullopt : level(trial, trial.stimulus, truth.by)) {
-        const double judged = truth.slope * leaning.slope * (*here - truth.offset.value_or(0.0)) +
-                              leaning.shift + bias + random.normal();
-        return std::clamp(static_cast<int>(std::lround(0.5 * (count - 1) + judged)), 0, count - 1);
-    }
-    const auto correct = std::ranges::find(values, offer.correct);
-    if (correct == values.end())
+    if (means.words)
+        return std::clamp(static_cast<int>(std::lround(0.5 * (count - 1) + *means.words + random.normal())),
+                          0, count - 1);
+    if (means.right < 0)
         return by_chance;
-    const int right = static_cast<int>(correct - values.begin());
-    const double odds = leaning.odds * truth.share_correct;
-    if (count < 2 || random.uniform() < odds / (1.0 - truth.share_correct + odds))
-        return right;
-    return (right + 1 + static_cast<int>(random.below(static_cast<std::uint32_t>(count - 1)))) % count;
+    if (count < 2 || random.uniform() < means.share_right)
+        return means.right;
+    return (means.right + 1 + static_cast<int>(random.below(static_cast<std::uint32_t>(count - 1)))) % count;
 }
 
 std::optional<double> SimulatedAnswers::judge(const AnswerOffer& offer, const Trial& trial,
                                               const AnswerTruth& truth, RandomStream& random) const {
     if (!offer.low && !offer.high && truth.by.empty() && !truth.offset)
         return std::nullopt;
+    return number_judged(offer, trial, truth, random.normal());
+}
+
+double SimulatedAnswers::number_judged(const AnswerOffer& offer, const Trial& trial, const AnswerTruth& truth,
+                                       double noise) const {
     const std::optional<double> here =
         truth.by.empty() ? std::nullopt : level(trial, trial.stimulus, truth.by);
     const double middle = here ? 0.0 : 0.5 * (offer.low.value_or(0.0) + offer.high.value_or(0.0));
     const Leaning leaning = leaning_to(offer.id, trial, trial.stimulus);
     const double judged = truth.offset.value_or(middle) + truth.gain * leaning.slope * here.value_or(0.0) +
-                          leaning.shift + inclination(offer, truth) + truth.noise * random.normal();
+                          leaning.shift + inclination(offer, truth) + truth.noise * noise;
     if (!truth.cuts.empty() && !offer.numbers.empty()) {
         const auto below = static_cast<std::size_t>(
             std::ranges::count_if(truth.cuts, [&](double cut) { return cut < judged; }));

@@ -36,6 +36,13 @@ class SimulatedAnswers {
         std::vector<int> at = {}; ///< of a match: index of the value that is set, for each column
     };
     Intended answer(const AnswerOffer& offer, const Trial& trial) const;
+
+    /// What answer() means on average over the noise of this observer's judgements.
+    struct Expected {
+        std::vector<double> shares;      ///< of choices: of each of the offer's values
+        std::optional<double> mean = {}; ///< of scales and numbers
+    };
+    Expected expected(const AnswerOffer& offer, const Trial& trial) const;
     std::uint64_t seed() const { return seed_; }
 
     /// How the first of the task's choices that says so (AnswerTruth::look_share, look_area) has the observer
@@ -54,6 +61,18 @@ class SimulatedAnswers {
     double inclination(const AnswerOffer& offer, const AnswerTruth& truth) const;
     /// What can be chosen, as the protocol has it; the offer has it by keys.
     static std::vector<std::string> values_of(const AnswerOffer& offer, const TaskAnswer* settings);
+    /// What a choice goes by, before noise.
+    struct Judged {
+        std::vector<double>
+            slots; ///< of choices among slots: by value, in standard deviations of a difference
+        std::optional<double> words; ///< of words that go by a factor: from the middle one
+        int right = -1;              ///< else: index of the value that is correct; -1: nobody knows
+        double share_right = 1.0;
+    };
+    Judged judged(const AnswerOffer& offer, const std::vector<std::string>& values, const Trial& trial,
+                  const AnswerTruth& truth) const;
+    double number_judged(const AnswerOffer& offer, const Trial& trial, const AnswerTruth& truth,
+                         double noise) const;
     /// Index into `values`.
     int choose(const AnswerOffer& offer, const std::vector<std::string>& values, const Trial& trial,
                const AnswerTruth& truth, RandomStream& random) const;
