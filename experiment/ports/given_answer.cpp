@@ -14,6 +14,12 @@ std::vector<std::pair<std::string, std::string>> answer_variables(const std::vec
         variables.emplace_back(name, given.is_missed ? "n/a" : given.value);
         if (const std::optional<SessionDuration> time = given.response_time())
             variables.emplace_back(name + "_time_ms", fmt::format("{:.3f}", 1e3 * to_seconds(*time)));
+        if (given.gauge && !given.is_missed) {
+            variables.emplace_back(name + "_slant_deg", fmt::format("{:.3f}", given.gauge->set.slant.value));
+            variables.emplace_back(name + "_tilt_deg", fmt::format("{:.3f}", given.gauge->set.tilt.value));
+            if (const std::optional<Degrees> deviation = given.gauge->deviation())
+                variables.emplace_back(name + "_deviation_deg", fmt::format("{:.3f}", deviation->value));
+        }
         if (given.is_correct)
             variables.emplace_back(name + "_correct", *given.is_correct ? "1" : "0");
     }

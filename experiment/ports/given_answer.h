@@ -121,7 +121,8 @@ inline std::optional<bool> correctness_of(const std::vector<GivenAnswer>& answer
 }
 
 /// Names and values for viewers of a tracker's file, in which a trial has variables: the answer by its id,
-/// its time "which_time_ms", and "which_correct" as 1 or 0. Names are without blanks.
+/// its time "which_time_ms", and "which_correct" as 1 or 0; of a gauge also "which_slant_deg",
+/// "which_tilt_deg" and "which_deviation_deg". Names are without blanks.
 std::vector<std::pair<std::string, std::string>> answer_variables(const std::vector<GivenAnswer>& answers);
 
 /// Where an input fell.

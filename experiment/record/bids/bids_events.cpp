@@ -49,6 +49,37 @@ auto of_given(auto of) {
     return [of](const BidsEvent& row) { return of_maybe(row.given, of); };
 }
 
+/// What was set with a gauge: an angle of it, which may not be known.
+auto of_gauge(auto angle) {
+    return [angle](const BidsEvent& row) -> std::optional<Fixed> {
+        if (!row.given || !row.given->gauge || row.given->is_missed)
+            return std::nullopt;
+        const std::optional<Degrees> degrees = angle(*row.given->gauge);
+        return degrees ? std::optional(Fixed{degrees->value, angle_decimals}) : std::nullopt;
+    };
+}
+auto true_angle(Degrees Attitude::*angle) {
+    return of_gauge([angle](const GaugeAnswer& gauge) {
+        return gauge.truth ? std::optional(*gauge.truth.*angle) : std::nullopt;
+    });
+}
+
+/// Of sessions whose protocols name places on surfaces.
+std::vector<RowLayout<BidsEvent>::Column> gauge_columns() {
+    const std::string tilt = "direction on the screen in which it leans, from the right counter-clockwise";
+    return {
+        {{"slant_deg", "Of the normal that was set with a gauge, its angle from the line of sight", "deg"},
+         of_gauge([](const GaugeAnswer& gauge) { return std::optional(gauge.set.slant); })},
+        {{"tilt_deg", "The " + tilt, "deg"},
+         of_gauge([](const GaugeAnswer& gauge) { return std::optional(gauge.set.tilt); })},
+        {{"true_slant_deg", "The same angle of the surface's own normal", "deg"},
+         true_angle(&Attitude::slant)},
+        {{"true_tilt_deg", "Of the surface's own normal, the " + tilt, "deg"}, true_angle(&Attitude::tilt)},
+        {{"deviation_deg", "Between both normals", "deg"},
+         of_gauge([](const GaugeAnswer& gauge) { return gauge.deviation(); })},
+    };
+}
+
 /// Of sessions with such answers.
 std::vector<RowLayout<BidsEvent>::Column> answer_columns() {
     return {
@@ -179,6 +210,8 @@ RowLayout<BidsEvent> events_layout(const SessionHeader& header, SessionTime zero
     });
     if (has_given_answers)
         layout.add<BidsEvent>(answer_columns());
+    if (!header.points.empty())
+        layout.add<BidsEvent>(gauge_columns());
     if (const SharedColumns shared(header); shared.has_slots)
         layout.add<BidsEvent>({{shared.slot, [&header](auto& row) {
                                     return when(row.what == presentation_event,
