@@ -14,6 +14,7 @@
 #include "experiment/record/tables/participant_rows.h"
 #include "experiment/record/tables/probe_tables.h"
 #include "experiment/record/tables/session_tables.h"
+#include "experiment/record/tables/steered_tables.h"
 #include "experiment/record/tables/trial_tables.h"
 #include "experiment/units.h"
 
@@ -52,6 +53,10 @@ class ExportTables {
     RowLayout<ProbeRow> probes;
     RowLayout<GaugeRow> gauges;
     RowLayout<GaugeChangeRow> gauge_changes;
+    // What the observer moved.
+    RowLayout<SettingRow> settings;
+    RowLayout<MoveRow> moves;
+    RowLayout<TurnRow> turns;
     RowLayout<ParticipantRow> participants;
 
     std::vector<const Table*> all() const;

@@ -204,8 +204,11 @@ void TableExport::write_trial(const TrialRecord& trial) {
     SampleCounts of_trial;
     for (std::size_t i = 0; i < trial.trial.shown_count(); ++i) {
         const TrialRecord seen = trial.seen_in(i);
-        const std::int64_t flips =
-            write_ledger(writer(tables_.flips), tables_.flips, header_, seen, record_.ledger(seen));
+        const std::optional<TrialLedger> ledger = record_.ledger(seen);
+        const std::int64_t flips = write_ledger(writer(tables_.flips), tables_.flips, header_, seen, ledger);
+        write_moves(writer(tables_.moves), tables_.moves, record_, seen, ledger);
+        for (const ObserverTurns& turns : observer_turns(record_, seen, ledger))
+            write(tables_.turns, TurnRow{seen, turns});
         const SampleCounts& samples = aside_.at({trial.id, seen.place}).samples;
         of_trial.on_object += samples.on_object;
         of_trial.off_plan += samples.off_plan;
@@ -338,6 +341,9 @@ void TableExport::write_what_belongs_to_no_trial() {
                   GivenAnswerRow{trial, trial.outcome.given[i],
                                  pointed == points_.end() ? nullptr : &pointed->second});
         }
+        for (const GivenAnswer& given : trial.outcome.given)
+            for (const MatchSetting& set : given.settings)
+                write(tables_.settings, SettingRow{trial, given, set});
         number = 0;
         for (const AnswerInput& input : trial.outcome.inputs)
             write(tables_.answer_inputs, AnswerInputRow{trial, ++number, input});
