@@ -173,6 +173,7 @@ bool read_written_keys(ProtocolExamination& examination, std::string_view text, 
             return files_of(examination, reader, pattern, place);
         },
         diagnostics);
+    name_entries(joined.toml);
     KeyWalk(protocol_keys(), protocol.file.string(), protocol.places, examination.faulty, diagnostics)
         .read(joined.toml, protocol);
     complete(protocol);

@@ -13,9 +13,10 @@ constexpr std::string_view axes[] = {"x", "y", "z", "-x", "-y", "-z"};
 template <class Entry> std::vector<Key> entry_keys(std::vector<Key> own, bool is_never_empty = false) {
     std::vector<Key> keys{
         {"id", member_of<Entry>(&ListEntry::id),
-         is_never_empty ? identifier().left_out("the list's name, for its only entry")
-                        : identifier().required(),
-         "Short name, used in file names and tables."},
+         identifier().left_out(is_never_empty ? "of the only entry the list's name; else as it is called"
+                                              : "as it is called"),
+         "Short name, used in file names and tables. An entry is called by the value of its key `shipped`, "
+         "`mesh`, `kind`, `probe` or `picture`, the ending of a file left out; without any, by its list."},
         {"title", member_of<Entry>(&ListEntry::title), left_out("the id"), "Name for figures and reports."},
         {"columns", member_of<Entry>(&ListEntry::columns), left_out("none"),
          "What tables are to say of it besides, words or numbers: `{gloss=\"high\", size_cm=12}`. Each "
@@ -152,17 +153,26 @@ std::vector<Key> motion() {
              "before `to_deg`."},
             {"to_deg", turn, &O::to, range(-360, 720, "deg"),
              "Of observer: how far counter-clockwise. 360 deg after `from_deg` it goes all round."},
-            {"start", turn, &O::start, {},
-             "Of observer: whether it comes up in the pose nearest to `angle_deg`, or in one that is drawn for "
+            {"start",
+             turn,
+             &O::start,
+             {},
+             "Of observer: whether it comes up in the pose nearest to `angle_deg`, or in one that is drawn "
+             "for "
              "each trial. In further steps of a trial it stands as it was left."},
-            {"with", turn, &O::with, {},
+            {"with",
+             turn,
+             &O::with,
+             {},
              "Of observer: turned by dragging with the mouse and by its wheel, by held keys, or by either."},
             {"keys", turn, &O::keys, left_out("left, right"),
-             "Of observer: the key that turns the front to the left, and the one that turns it to the right."},
+             "Of observer: the key that turns the front to the left, and the one that turns it to the "
+             "right."},
             {"speed_deg_s", turn, &O::speed_deg_s, range(1, 1000, "deg/s"),
              "Of observer: how fast it turns while a key is held. It stops when the key is let go."},
             {"drag_deg", turn, &O::drag_deg, range(1, 3600, "deg"),
-             "Of observer: how far a drag over the width of its image turns it. The wheel turns it by a pose."},
+             "Of observer: how far a drag over the width of its image turns it. The wheel turns it by a "
+             "pose."},
             {"simulated_turn_deg", turn, &O::simulated_turn_deg, range(0, 720, "deg"),
              "Of observer: standard deviation of the turns that a simulated observer makes by its keys, one "
              "after the other."},

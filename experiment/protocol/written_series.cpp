@@ -46,11 +46,26 @@ std::string id_part(std::string text) {
     return text;
 }
 
+/// By what an entry without an id is called (StimulusList::named_by): the key and its value, or null.
+const TomlEntry* naming_key(TomlTable& table, const StimulusList& list) {
+    for (const std::string_view key : list.named_by)
+        if (const TomlEntry* entry = key.empty() ? nullptr : entry_called(table, key))
+            if (std::holds_alternative<std::string>(entry->value.content))
+                return entry;
+    return nullptr;
+}
+
+std::string name_of_entry(TomlTable& table, const StimulusList& list) {
+    const TomlEntry* const named = naming_key(table, list);
+    const std::string name = named ? id_part(*text_of_value(named->value)) : "";
+    return name.empty() ? std::string(list.name) : name;
+}
+
 class SeriesWriter {
   public:
-    SeriesWriter(const Section& section, const std::string& file, const FilesOfPattern& files_of,
-                 Diagnostics& diagnostics)
-        : section_(section), file_(file), files_of_(files_of), diagnostics_(diagnostics) {}
+    SeriesWriter(const StimulusList& list, const Section& section, const std::string& file,
+                 const FilesOfPattern& files_of, Diagnostics& diagnostics)
+        : list_(list), section_(section), file_(file), files_of_(files_of), diagnostics_(diagnostics) {}
 
     /// The entries that stand in an entry's place.
     TomlList written_out(TomlValue entry) {
@@ -174,6 +189,9 @@ class SeriesWriter {
         TomlValue one = entry;
         auto& table = std::get<TomlTable>(one.content);
         std::string ending, words;
+        const bool is_called_by_series =
+            !entry_called(table, "id") &&
+            std::ranges::any_of(keys, [this](const TomlEntry& key) { return names_entry(key); });
         for (const TomlEntry& key : keys) {
             const TomlValue& value = (*key.value.list())[index];
             table.push_back({key.key, key.key_place, value});
@@ -184,10 +202,19 @@ class SeriesWriter {
             words += " " + *text_of_value(value);
             column(table, key, value);
         }
-        name(table, "id", ending, one.place);
-        if (entry_called(table, "title"))
-            name(table, "title", words, one.place);
+        if (is_called_by_series)
+            table.push_back({"id", one.place, {one.place, ending.substr(1)}});
+        else
+            name_by_list(table, ending, one.place);
+        if (TomlEntry* title = entry_called(table, "title"))
+            if (auto* text = std::get_if<std::string>(&title->value.content))
+                *text += words;
         return one;
+    }
+
+    /// Whether a key of the series is one by which entries are called.
+    bool names_entry(const TomlEntry& key) const {
+        return std::ranges::find(list_.named_by, key.key) != list_.named_by.end();
     }
 
     static bool is_named_as_before(const TomlTable& keys, const TomlEntry& key, std::size_t index) {
@@ -214,15 +241,15 @@ class SeriesWriter {
         columns->push_back({key.key, key.key_place, std::move(content)});
     }
 
-    /// Puts an ending behind an id or a title. An id left out, of a list that may have one entry, is its
-    /// name.
-    void name(TomlTable& table, std::string_view key, const std::string& ending, Place place) const {
-        TomlEntry* known = entry_called(table, key);
-        if (!known && !section_.is_never_empty())
-            return; // is found to be missing
-        if (!known)
-            known =
-                &table.emplace_back(TomlEntry{std::string(key), place, {place, std::string(section_.name)}});
+    /// Puts an ending behind the id. One left out is the name of a list that may have one entry, or what its
+    /// entry is called by.
+    void name_by_list(TomlTable& table, const std::string& ending, Place place) const {
+        TomlEntry* known = entry_called(table, "id");
+        if (!known) {
+            const std::string name =
+                section_.is_never_empty() ? std::string(list_.name) : name_of_entry(table, list_);
+            known = &table.emplace_back(TomlEntry{"id", place, {place, name}});
+        }
         if (auto* text = std::get_if<std::string>(&known->value.content))
             *text += ending;
     }
@@ -232,6 +259,7 @@ class SeriesWriter {
         return false;
     }
 
+    const StimulusList& list_;
     const Section& section_;
     const std::string& file_;
     const FilesOfPattern& files_of_;
@@ -258,7 +286,7 @@ void write_out_series(TomlFile& toml, const std::string& file, const FilesOfPatt
                       Diagnostics& diagnostics) {
     for (const StimulusList& list : stimulus_lists) {
         const Section& section = protocol_keys().section(list.name);
-        SeriesWriter writer(section, file, files_of, diagnostics);
+        SeriesWriter writer(list, section, file, files_of, diagnostics);
         for (TomlEntry& root : toml.root) {
             if (!section.is_called(root.key))
                 continue;
@@ -277,6 +305,23 @@ void write_out_series(TomlFile& toml, const std::string& file, const FilesOfPatt
                 continue;
             }
             root.value.content = std::move(entries);
+        }
+    }
+}
+
+void name_entries(TomlFile& toml) {
+    for (const StimulusList& list : stimulus_lists) {
+        const Section& section = protocol_keys().section(list.name);
+        for (TomlEntry& root : toml.root) {
+            auto* const entries = std::get_if<TomlList>(&root.value.content);
+            if (!section.is_called(root.key) || !entries ||
+                (entries->size() == 1 && section.is_never_empty()))
+                continue;
+            for (TomlValue& entry : *entries) {
+                auto* const table = std::get_if<TomlTable>(&entry.content);
+                if (table && !entry_called(*table, "id"))
+                    table->push_back({"id", entry.place, {entry.place, name_of_entry(*table, list)}});
+            }
         }
     }
 }

@@ -24,10 +24,16 @@ using FilesOfPattern =
     std::function<std::optional<std::vector<std::string>>(const std::string& pattern, Place place)>;
 
 /// Puts several entries in place of each that has a series, in all lists that stimuli are made of: with the
-/// key's value, an id that ends with it, and a column of the key's name. Values keep their places, so that
-/// what is found wrong in one is found where it is written. A pattern in place of a list is the list of its
-/// files. Faults of the series itself go to `diagnostics`.
+/// key's value, an id that ends with it (or is it, of an entry without an id whose series is of a key by
+/// which entries are called), and a column of the key's name. Values keep their places, so that what is found
+/// wrong in one is found where it is written. A pattern in place of a list is the list of its files. Faults
+/// of the series itself go to `diagnostics`.
 void write_out_series(TomlFile& toml, const std::string& file, const FilesOfPattern& files_of,
                       Diagnostics& diagnostics);
+
+/// Gives entries of these lists that have no id the one that they are called by: the value of the first of
+/// StimulusList::named_by that they have, else the list's name. The only entry of a list that is never empty
+/// stays without. To be called once series are written out.
+void name_entries(TomlFile& toml);
 
 } // namespace overt
