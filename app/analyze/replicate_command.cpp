@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "app/analyze/analyze_commands.h"
+#include "app/analyze/planted_answers.h"
 #include "app/analyze/planted_truth.h"
 #include "app/analyze/study_folder.h"
 #include "app/cli/command_options.h"
@@ -209,6 +210,62 @@ void print_spreads(const StudyResults& results) {
                    100.0 * results.confidence);
 }
 
+/// A number of answers beside what was planted.
+void print_answer(const std::string& what, const Estimate& found, const std::optional<double>& planted,
+                  Agreement& agreement) {
+    if (!planted || !found.value)
+        return;
+    fmt::print("{:44} {:8.3g} {:8.3g}", what, *planted, *found.value);
+    if (found.interval) {
+        fmt::print("   {:.3g} … {:.3g}", found.interval->low, found.interval->high);
+        ++agreement.intervals;
+        agreement.holding += found.interval->contains(*planted);
+    }
+    fmt::print("\n");
+}
+
+void print_answers(const StudyResults& results) {
+    const StudyAnswers& answers = results.answers;
+    if (answers.given.empty())
+        return;
+    fmt::print("answers, over observers\n{:44} {:>8} {:>8}   interval\n", "", "planted", "found");
+    Agreement agreement;
+    const auto named = [](const AnswerOf& of) {
+        return of.item.empty() ? of.answer : fmt::format("{} {}", of.answer, of.item);
+    };
+    for (const AnswerCurveRow& row : answers.curves) {
+        if (!row.of.observer.empty())
+            continue;
+        const std::string within =
+            row.column.empty() ? std::string() : fmt::format(", {} {}", row.column, row.level);
+        print_answer(fmt::format("{}: threshold of {}{}", named(row.of), row.factor, within), row.threshold,
+                     row.planted_threshold, agreement);
+        if (row.slope)
+            print_answer(fmt::format("{}: slope over {}{}", named(row.of), row.factor, within),
+                         Estimate::of(*row.slope), row.planted_slope, agreement);
+    }
+    for (const AnswerScaleRow& row : answers.scales)
+        if (row.of.observer.empty())
+            print_answer(fmt::format("{}: scale at {} {}", named(row.of), row.factor, row.level), row.value,
+                         row.planted, agreement);
+    for (const AnswerRatingRow& row : answers.ratings)
+        if (row.of.observer.empty())
+            print_answer(fmt::format("{}: mean{}", named(row.of),
+                                     row.factor.empty() ? "" : fmt::format(", {} {}", row.factor, row.level)),
+                         row.mean, row.planted, agreement);
+    for (const AnswerDifferenceRow& row : answers.differences)
+        print_answer(
+            fmt::format("{}: {}, {} {} less {}", named(row.of), row.measure, row.column, row.a, row.b),
+            row.difference, row.planted, agreement);
+    for (const GazeChoiceRow& row : answers.gaze_choices)
+        if (row.of.observer.empty())
+            print_answer(fmt::format("{}: {} of the chosen", named(row.of), row.measure), row.value,
+                         row.planted, agreement);
+    if (agreement.intervals > 0)
+        fmt::print("{} of {} intervals of {:g} % hold what was planted\n", agreement.holding,
+                   agreement.intervals, 100.0 * results.confidence);
+}
+
 void print(const StudyResults& results, const fs::path& analysis) {
     fmt::print("{}, {}, {} samples, {} of {} fixations counted\n",
                counted(results.glance.observers, "simulated observer"),
@@ -238,6 +295,7 @@ void print(const StudyResults& results, const fs::path& analysis) {
         fmt::print("{} of {} corrected intervals of {:g} % hold what was planted\n", agreement.holding,
                    agreement.intervals, 100.0 * results.confidence);
     print_spreads(results);
+    print_answers(results);
     fmt::print("analysis: {}\n", analysis.string());
 }
 
@@ -255,6 +313,7 @@ int run_replicate(const ReplicateOptions& options) {
     study.seed = options.seed;
     StudyResults results = analyzed(replicas.sessions(), study);
     add_planted_truth(results, experiment, replicas.seeds());
+    add_planted_answers(results, experiment.protocol, replicas.seeds(), replicas.sessions());
     folder.publish(results, TableFormat::csv, {});
     if (options.json)
         fmt::print("{}", study_json(results));

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "devices/simulated/simulated_keys.h"
-#include "experiment/answers/answer_kinds.h"
 #include "experiment/base/random.h"
 #include "experiment/design/answer_forms.h"
 #include "experiment/design/procedure_trials.h"
@@ -86,37 +85,6 @@ MeasuredAnswer measure_of(const PowerEffect& effect, const TaskAnswer& answer) {
     default:
         return {AnswerMeasure::mean, ""};
     }
-}
-
-/// What a simulated observer is offered, without keys: as SimulatedAnswers reads it.
-AnswerOffer offer_of(const Protocol& protocol, const TaskAnswer& answer, const std::string& item,
-                     const Trial& trial) {
-    AnswerOffer offer;
-    offer.id = answer.id;
-    offer.item = item;
-    offer.kind = row_of(answer.kind).name;
-    offer.limit_s = answer.limit_s;
-    offer.correct = correct_value(protocol, answer, trial);
-    if (answer.is_choice() || offer.kind == "key") {
-        offer.values = answer.is_choice() ? answer.choices : answer.keys;
-        return offer;
-    }
-    if (offer.kind == "scale") {
-        offer.low = answer.low();
-        offer.high = answer.high();
-        for (int step = 0; answer.steps && step < *answer.steps; ++step) {
-            offer.numbers.push_back(answer.number_of_step(step));
-            offer.values.push_back(fmt::format("{:g}", offer.numbers.back()));
-        }
-        if (answer.steps && *answer.steps > 1)
-            offer.step = (*offer.high - *offer.low) / (*answer.steps - 1);
-    } else {
-        offer.low = answer.min;
-        offer.high = answer.max;
-    }
-    if (!answer.steps)
-        offer.step = answer.step.value_or(0.0);
-    return offer;
 }
 
 } // namespace

@@ -255,10 +255,7 @@ GazeFavour SimulatedAnswers::favour_of(const Trial& lit, const std::vector<std::
         };
         if (!std::ranges::all_of(answer.choices, is_lit))
             continue; // the choice is not made yet, or was
-        AnswerOffer offer;
-        offer.id = answer.id;
-        offer.values = answer.choices;
-        offer.correct = correct_value(protocol_, answer, lit);
+        const AnswerOffer offer = offer_of(protocol_, answer, "", lit);
         const int chosen = this->answer(offer, lit).choice;
         if (truth.look_share) {
             favour.slot = slot_of(answer.choices[static_cast<std::size_t>(chosen)]);

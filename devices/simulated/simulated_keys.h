@@ -89,6 +89,11 @@ class SimulatedAnswers {
     std::vector<std::array<std::vector<bool>, stimulus_lists.size()>> effect_entries_;
 };
 
+/// What an observer is offered of an answer or an item, without keys: as SimulatedAnswers reads it. What can
+/// be chosen stands as the protocol has it.
+AnswerOffer offer_of(const Protocol& protocol, const TaskAnswer& answer, const std::string& item,
+                     const Trial& trial);
+
 /// Presses planned in advance, that come when their time has come. next() and window_opened() allocate and
 /// throw nothing.
 class SimulatedKeys {
