@@ -205,6 +205,7 @@ struct GazeChoiceRow {
 /// What was set to look like one level of a reference.
 struct AnswerMatchRow {
     AnswerOf of;
+    std::string column, level; ///< of trials with this level of a factor; empty: of all
     std::string along; ///< the column that was set
     double reference = 0.0;
     int settings = 0;
@@ -217,11 +218,13 @@ struct AnswerMatchRow {
 /// The line of settings over references.
 struct AnswerMatchLineRow {
     AnswerOf of;
+    std::string column, level; ///< of trials with this level of a factor; empty: of all
     std::string along;
     int references = 0, settings = 0;
     Estimate slope, intercept; ///< by least squares
     /// With errors of the same size in both.
     std::optional<double> deming_slope = {}, deming_intercept = {};
+    std::optional<double> planted = {}; ///< slope that simulated observers mean to give
 };
 
 struct StudyAnswers {
