@@ -200,6 +200,27 @@ std::vector<int> SimulatedAnswers::match(const AnswerOffer& offer, const Trial& 
     return at;
 }
 
+namespace {
+
+/// Of a surface that leans by slant and tilt the depth rises by the tangent of its slant, towards its tilt.
+glm::dvec2 rise_of(const Attitude& attitude) {
+    const double slant = to_radians(attitude.slant).value, tilt = to_radians(attitude.tilt).value;
+    return std::tan(slant) * glm::dvec2(std::cos(tilt), std::sin(tilt));
+}
+
+std::optional<Attitude> lean_of(const AnswerOffer& offer, const AnswerTruth& truth, RandomStream& random) {
+    if (!offer.true_attitude)
+        return std::nullopt;
+    const glm::dvec2 shear =
+        truth.shear.size() == 2 ? glm::dvec2(truth.shear[0], truth.shear[1]) : glm::dvec2(0.0);
+    const double right = random.normal(), up = random.normal();
+    const glm::dvec2 rise =
+        truth.gain * rise_of(*offer.true_attitude) + shear + truth.noise * glm::dvec2(right, up);
+    return attitude_of(glm::dvec3(rise, 1.0));
+}
+
+} // namespace
+
 SimulatedAnswers::Intended SimulatedAnswers::answer(const AnswerOffer& offer, const Trial& trial) const {
     const Task& task = protocol_.tasks[static_cast<std::size_t>(trial.task)];
     const auto found = std::ranges::find(task.answers, offer.id, &TaskAnswer::id);
@@ -217,6 +238,9 @@ SimulatedAnswers::Intended SimulatedAnswers::answer(const AnswerOffer& offer, co
         given.after = from_seconds(*offer.limit_s + late_by_s);
     if (!offer.axes.empty()) {
         given.at = match(offer, trial, truth, what);
+    } else if (offer.attitude) {
+        given.attitude = lean_of(offer, truth, what);
+        given.is_missing = given.is_missing || !given.attitude;
     } else if (offer.kind == "point") {
         const ScreenGeometry screen =
             slot_geometry(protocol_, protocol_.slots[static_cast<std::size_t>(trial.shown(0).slot)]);
@@ -300,6 +324,27 @@ void SimulatedKeys::type(const std::string& text, SessionDuration& after) {
     }
 }
 
+/// By one drag of the mouse, from the middle of the screen.
+void SimulatedKeys::lean(const AnswerOffer& offer, const Attitude& attitude, SessionDuration& after) {
+    const auto vector_of = [](const Attitude& of) {
+        const double tilt = to_radians(of.tilt).value;
+        return of.slant.value * glm::dvec2(std::cos(tilt), std::sin(tilt));
+    };
+    const glm::dvec2 by = (vector_of(attitude) - vector_of(*offer.attitude)) / offer.slant_per_px_deg;
+    ObserverInput input;
+    input.device = ShortName(simulated_observer_device);
+    input.kind = ObserverInput::Kind::pointer_down;
+    input.button = 1;
+    planned_.push_back({input, after});
+    input.right_px = by.x;
+    input.down_px = -by.y;
+    for (const auto kind : {ObserverInput::Kind::pointer_moved, ObserverInput::Kind::pointer_up}) {
+        after += between_keys;
+        input.kind = kind;
+        planned_.push_back({input, after});
+    }
+}
+
 void SimulatedKeys::point_at(double right_px, double down_px, SessionDuration after) {
     ObserverInput input;
     input.device = ShortName(simulated_observer_device);
@@ -374,6 +419,8 @@ void SimulatedKeys::plan(const SimulatedAnswers& answers, const std::vector<Answ
             continue;
         if (!offer.axes.empty()) {
             set(offer, given.at, after);
+        } else if (given.attitude) {
+            lean(offer, *given.attitude, after);
         } else if (offer.kind == "point") {
             point_at(given.right_px, given.down_px, after);
         } else if (!offer.values.empty() && offer.numbers.empty()) {

@@ -33,6 +33,9 @@ class SimulatedAnswers {
         /// Of a point, from the middle of the screen: normally distributed about the middle of the first
         /// image that is shown, with an eighth of its height for standard deviation.
         double right_px = 0.0, down_px = 0.0;
+        /// Of a gauge: gain x the surface's own rise in depth + shear + noise x normal, as AnswerTruth has
+        /// them.
+        std::optional<Attitude> attitude = {};
         std::vector<int> at = {}; ///< of a match: index of the value that is set, for each column
     };
     Intended answer(const AnswerOffer& offer, const Trial& trial) const;
@@ -112,6 +115,7 @@ class SimulatedKeys {
         SessionDuration after{}; ///< the window opened, or inputs were awaited
     };
     void press(std::vector<PlannedInput>& to, std::string_view key, SessionDuration after);
+    void lean(const AnswerOffer& offer, const Attitude& attitude, SessionDuration& after);
     void point_at(double right_px, double down_px, SessionDuration after);
     void move_to(const AnswerOffer& offer, double number, SessionDuration& after);
     void set(const AnswerOffer& offer, const std::vector<int>& at, SessionDuration& after);
