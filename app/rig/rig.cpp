@@ -140,8 +140,10 @@ void Rig::open(SimulatedFaults faults, SessionTime start) {
     open_further_trackers();
     panels_ = make_response_devices({*protocol_, clock(), *observer_, display_.window(),
                                      request_.simulate_observer, operator_keys_, simulated_answers_.get()});
-    if (is_on_a_real_screen())
-        display_.window()->hold_still();
+    if (!is_on_a_real_screen())
+        return;
+    display_.window()->hold_still();
+    screen_watch_.emplace(display_.window()->native());
 }
 
 void Rig::open_further_trackers() {

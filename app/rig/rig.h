@@ -21,6 +21,7 @@
 #include "render/stimulus/stimulus_library.h"
 #include "render/window/quiet_desktop.h"
 #include "render/window/screen_check.h"
+#include "render/window/screen_watch.h"
 #include "render/window/window_context.h"
 
 namespace overt {
@@ -131,6 +132,11 @@ class Rig {
     std::shared_ptr<const ProbeView> point_of(const PlacedStimulus& stimulus, const std::string& point) {
         return points_.point_of(stimulus, point);
     }
+    /// What of the screen is not as it was at the last call, a sentence each; see ScreenWatch. Nothing unless
+    /// is_on_a_real_screen().
+    std::vector<std::string> screen_changes() {
+        return screen_watch_ ? screen_watch_->take_changes() : std::vector<std::string>();
+    }
     LiveMaps* live_maps() { return live_maps_.get(); } ///< null unless maps_are_live()
 
   private:
@@ -143,6 +149,7 @@ class Rig {
     OpenDisplay display_; // objects of OpenGL go before the context they live in
     std::vector<ScreenFinding> screen_findings_;
     std::optional<QuietDesktop> quiet_desktop_; ///< on a real screen
+    std::optional<ScreenWatch> screen_watch_;   ///< the same, once open
     StimulusLibrary library_;
     SeenAreas areas_;
     SeenPoints points_;

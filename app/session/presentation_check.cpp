@@ -38,8 +38,9 @@ void check_presentation(Rig& rig, const Protocol& protocol, const Schedule& sche
         std::vector<PresentationListener*> listeners;
         if (LiveMaps* const maps = rig.live_maps())
             listeners.push_back(maps);
-        check = check_presentation(protocol, schedule.trials.front(),
-                                   {rig.clock(), rig.presenter(), log, listeners, trackers});
+        check = check_presentation(
+            protocol, schedule.trials.front(),
+            {rig.clock(), rig.presenter(), log, listeners, trackers, !header.display.is_timing_unproven()});
         for (SessionStore& written : stores) {
             written.close();
             lost += written.lost();

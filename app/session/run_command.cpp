@@ -51,8 +51,7 @@ int run_session_of(Experiment experiment, const RunOptions& options, const Prese
         fmt::print(stderr, "{}\n", warning);
     for (const std::string& warning : equipment.closing_warnings())
         fmt::print(stderr, "{}\n", warning);
-    say_after(options, result, record.lost(), plan.schedule, record.folder(),
-              record.header().display.is_timing_unproven());
+    say_after(options, result, record.lost(), plan.schedule, record.folder(), record.header().display.timing);
     return result.aborted ? 1 : 0;
 }
 

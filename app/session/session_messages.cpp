@@ -10,6 +10,7 @@
 #include "experiment/base/whole_file.h"
 #include "experiment/protocol/all_stimuli.h"
 #include "experiment/record/read/session_faults.h"
+#include "experiment/session/missed_in_words.h"
 
 namespace overt {
 
@@ -53,8 +54,7 @@ std::vector<std::string> remarks_on(const TrialOutcome& outcome, double drift_li
     using enum TrialOutcome::Afterwards;
     std::vector<std::string> remarks;
     if (outcome.missed_refreshes > 0)
-        remarks.push_back(counted(outcome.missed_refreshes, "refresh", "refreshes") +
-                          (is_timing_unproven ? " missed, by times that nothing proves" : " missed"));
+        remarks.push_back(missed_in_words(outcome.missed_refreshes, !is_timing_unproven));
     if (outcome.drift && outcome.drift->value > drift_limit_deg)
         remarks.push_back(fmt::format("the drift check found {:.2f} deg, more than {}", outcome.drift->value,
                                       drift_limit_deg));
@@ -119,10 +119,18 @@ void say_faults(const std::filesystem::path& folder) {
     }
 }
 
+/// A number where real vertical blanks tell it, or where time itself is made up.
+std::string said_of_missed(int missed, std::string_view timing, bool virtual_time) {
+    if (timing == "none")
+        return virtual_time ? missed_in_words(missed, true) + ", as simulated"
+                            : std::string("missed refreshes: there was no screen");
+    return timing == "unproven" ? std::string("missed refreshes: unproven") : missed_in_words(missed, true);
+}
+
 } // namespace
 
 void say_after(const RunOptions& options, const SessionResult& result, const LostRows& lost,
-               const Schedule& schedule, const std::filesystem::path& folder, bool is_unproven) {
+               const Schedule& schedule, const std::filesystem::path& folder, std::string_view timing) {
     if (lost.flips + lost.samples > 0)
         fmt::print(stderr, "the disk was too slow: {} and {} were not recorded\n",
                    counted(lost.flips, "flip"), counted(lost.samples, "sample"));
@@ -130,9 +138,7 @@ void say_after(const RunOptions& options, const SessionResult& result, const Los
     const bool is_short = !result.aborted && result.completed_trials < planned;
     fmt::print("{} of {} completed{}, {}\nsession: {}\n", result.completed_trials, counted(planned, "trial"),
                is_short ? fmt::format(", {} skipped", planned - result.completed_trials) : "",
-               is_unproven ? "missed refreshes: unproven"
-                           : counted(result.missed_refreshes, "refresh", "refreshes") + " missed",
-               folder.string());
+               said_of_missed(result.missed_refreshes, timing, options.virtual_time), folder.string());
     say_faults(folder);
     if (!options.print_session_to.empty())
         write_to(options.print_session_to, folder.string() + "\n");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string_view>
 #include <vector>
 
 #include "app/cli/progress_bar.h"
@@ -45,10 +46,10 @@ class TrialProgress {
     ProgressBar bar_;
 };
 
-/// How it ended and where it lies, also into the file of --print-session-to. `is_unproven`: nothing proves
-/// the times of its flips. Throws RecordError if that
-/// cannot be written.
+/// How it ended and where it lies, also into the file of --print-session-to. `timing`:
+/// RecordedDisplay::timing, without whose proof no number of missed refreshes is said. Throws RecordError if
+/// that cannot be written.
 void say_after(const RunOptions& options, const SessionResult& result, const LostRows& lost,
-               const Schedule& schedule, const std::filesystem::path& folder, bool is_unproven);
+               const Schedule& schedule, const std::filesystem::path& folder, std::string_view timing);
 
 } // namespace overt

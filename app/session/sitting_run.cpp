@@ -64,7 +64,9 @@ class WatchedSitting {
                 [this](const PlacedStimulus& stimulus, const std::string& point) {
                     return equipment_.rig().point_of(stimulus, point);
                 },
-            .on_phase = [this](SessionPhase phase, int trial) { enter(phase, trial); }};
+            .on_phase = [this](SessionPhase phase, int trial) { enter(phase, trial); },
+            .screen_changes = [this] { return equipment_.rig().screen_changes(); },
+            .has_proven_times = options.virtual_time || record_.header().display.timing == "proven"};
     }
 
     void attempt_ended(const Trial& trial, const TrialOutcome& outcome, int done) {

@@ -26,6 +26,11 @@ bool show_form(SessionState& state, OperatorControl& control, ObserverForm& form
         }
         if (state.ends_by_itself())
             return false;
+        if (control.await_keyboard()) {
+            if (state.is_over())
+                return false;
+            show();
+        }
         // Several keys in one look: drawn once. Presses that come while it is drawn are kept.
         if (is_changed)
             state.show(form.screen());

@@ -74,6 +74,17 @@ OperatorControl::Press OperatorControl::wait(const Waiting& waiting) {
         }
         if (state_.ends_by_itself())
             return {How::session_over, state_.now()};
+        // What is typed goes nowhere, and the screen would go on naming keys.
+        if (const SessionTime began = state_.now(); await_keyboard()) {
+            if (state_.is_over())
+                return {How::session_over, state_.now()};
+            const SessionTime shown_again = state_.show(waiting.screen);
+            earliest += shown_again - began;
+            latest = waiting.starts_over ? shown_again + from_seconds(waiting.max_s)
+                                         : latest + (shown_again - began);
+            await(shown_again);
+            continue;
+        }
         if (waiting.meanwhile)
             waiting.meanwhile();
         if (waiting.is_over)
@@ -175,6 +186,8 @@ std::optional<int> OperatorControl::confirm(const Screen& screen, int reasons) {
             is_decided = true;
             break;
         }
+        if (!is_decided && await_keyboard() && !state_.is_over())
+            state_.ports.panel.await_decision(false, state_.show(screen));
         if (!is_decided)
             rest_a_little(SessionTime::max());
     }
@@ -182,9 +195,11 @@ std::optional<int> OperatorControl::confirm(const Screen& screen, int reasons) {
     return state_.is_over() ? std::nullopt : answer;
 }
 
-void OperatorControl::await_keyboard() {
-    if (state_.ports.panel.has_keyboard())
-        return;
+bool OperatorControl::await_keyboard() {
+    // Who ends the session meanwhile, at another device, is asked whether that is meant.
+    if (is_awaiting_keyboard_ || state_.ports.panel.has_keyboard())
+        return false;
+    is_awaiting_keyboard_ = true;
     const SessionPhase phase = state_.phase();
     const int trial = state_.trial();
     state_.enter(SessionPhase::pause, trial);
@@ -195,12 +210,40 @@ void OperatorControl::await_keyboard() {
             if (press->key == ResponseKey::abort && act_on(*press))
                 state_.ports.panel.await_key(state_.show(screen));
             if (state_.is_over())
-                return;
+                break;
         }
-        rest_a_little(SessionTime::max());
+        if (!state_.is_over())
+            rest_a_little(SessionTime::max());
     }
+    is_awaiting_keyboard_ = false;
     if (!state_.is_over())
         state_.enter(phase, trial);
+    return true;
+}
+
+std::vector<std::string> OperatorControl::note_screen_changes() {
+    std::vector<std::string> changes;
+    if (state_.ports.screen_changes)
+        changes = state_.ports.screen_changes();
+    for (const std::string& change : changes)
+        state_.note(screen_changed_event, change);
+    return changes;
+}
+
+void OperatorControl::look_at_screen() {
+    const std::vector<std::string> changes = note_screen_changes();
+    if (changes.empty() || state_.is_over())
+        return;
+    std::string question = state_.protocol.words.screen_changed;
+    for (const std::string& change : changes)
+        question += "\n" + change;
+    const bool goes_on = confirm(question).has_value();
+    if (state_.is_over())
+        return;
+    state_.note(operator_event, goes_on ? "goes on with a screen that has changed"
+                                        : "ends the session: the screen has changed");
+    if (!goes_on)
+        state_.end_session("the screen changed: " + changes.front());
 }
 
 void OperatorControl::pause() {
@@ -223,6 +266,8 @@ void OperatorControl::pause() {
                 state_.ports.panel.await_key(state_.show(screen));
             }
         }
+        if (!goes_on && await_keyboard() && !state_.is_over())
+            state_.ports.panel.await_key(state_.show(screen));
         if (!goes_on)
             rest_a_little(SessionTime::max());
     }

@@ -84,8 +84,14 @@ class OperatorControl {
     /// notes what was found. Does nothing else about a drift, except where the tracker asks to be set up.
     void check_drift();
     /// Where what is typed goes to another window: says so on the screen until it comes back, or the session
-    /// is over. Between trials.
-    void await_keyboard();
+    /// is over; false: it did not. Every screen that waits for a key looks for it, and counts none of that
+    /// time.
+    bool await_keyboard();
+    /// Records what of the screen has changed, and gives it. Between trials.
+    std::vector<std::string> note_screen_changes();
+    /// Where the screen is not what it was any more: records what has changed, and asks whether to go on;
+    /// else the session is over. Between trials.
+    void look_at_screen();
     /// The session's own tracker was lost, with what it said: asks whether to connect again, and sets it up.
     /// Otherwise the session is over.
     void regain_tracker(const std::string& why = {});
@@ -110,6 +116,7 @@ class OperatorControl {
 
     SessionState& state_;
     TrialDecision decision_;
+    bool is_awaiting_keyboard_ = false;
 };
 
 } // namespace overt

@@ -6,6 +6,7 @@
 
 #include "experiment/base/counted.h"
 #include "experiment/protocol/all_stimuli.h"
+#include "experiment/session/missed_in_words.h"
 #include "experiment/session/tracker_feed.h"
 #include "experiment/timing/refresh_ledger.h"
 #include "experiment/timing/slot_cycles.h"
@@ -92,6 +93,7 @@ PresentationCheck check_presentation(const Protocol& protocol, const Trial& tria
 
     check.refreshes = ledger.shown_refreshes();
     check.missed = ledger.missed_refreshes();
+    check.has_proven_times = ports.has_proven_times;
     for (std::size_t i = 0; i < flips.size(); ++i) {
         check.work_ms.push_back(1e3 * to_seconds(flips[i].swapped - flips[i].requested));
         if (i > 0)
@@ -102,7 +104,9 @@ PresentationCheck check_presentation(const Protocol& protocol, const Trial& tria
 }
 
 std::string counts_of(const PresentationCheck& check) {
-    return fmt::format("{}, {} missed, {}", counted(check.refreshes, "refresh", "refreshes"), check.missed,
+    const std::string missed = check.has_proven_times ? fmt::format("{} missed", check.missed)
+                                                      : missed_in_words(check.missed, check.has_proven_times);
+    return fmt::format("{}, {}, {}", counted(check.refreshes, "refresh", "refreshes"), missed,
                        check.tracker_refusal ? "without the eye tracker: " + *check.tracker_refusal
                                              : counted(check.samples, "sample") + " of gaze");
 }

@@ -29,11 +29,13 @@ struct PresentationCheckPorts {
     SessionLog& log; ///< of all trackers, see SharedLog
     std::span<PresentationListener* const> listeners;
     std::span<const CheckedTracker> trackers; ///< the session's own first
+    bool has_proven_times = true;             ///< see SessionPorts
 };
 
 struct PresentationCheck {
     int refreshes = 0; ///< that got their picture
     int missed = 0;
+    bool has_proven_times = true;               ///< else `missed` is told by times that nothing proves
     std::int64_t samples = 0;                   ///< of all trackers, meanwhile
     std::vector<double> intervals_ms;           ///< from each vertical blank with a picture to the next such
     std::vector<double> work_ms;                ///< from asking for each picture to handing over its swap

@@ -1,4 +1,5 @@
 #include "experiment/session/session.h"
+#include "experiment/session/missed_in_words.h"
 
 #include <algorithm>
 
@@ -69,6 +70,7 @@ SessionResult Session::run(const TrialDone& trial_done, const SessionHistory& hi
             if (!state_.is_over())
                 run_step(queue, *step, result, trial_done);
         }
+        control_.note_screen_changes(); // in the last trial
         if (!state_.is_over() && block_ >= 0)
             ask_after_block(block_);
         if (!state_.is_over())
@@ -119,6 +121,9 @@ void Session::farewell() {
 void Session::run_step(TrialQueue& queue, const SessionStep& step, SessionResult& result,
                        const TrialDone& trial_done) {
     control_.await_keyboard();
+    control_.look_at_screen();
+    if (state_.is_over())
+        return;
     control_.regain_further_trackers();
     if (state_.is_over())
         return;
@@ -171,13 +176,14 @@ void Session::judge(TrialQueue& queue, const Trial& trial, TrialRun::Attempt& at
     constexpr std::string_view afterwards[] = {"does not come again", "comes again now",
                                                "comes again at the end of the block"};
     const std::string why = control_.decision().why;
-    state_.record().event({state_.now(), trial.index, trial_failed_event,
-                           fmt::format("{}{}{} ({} missed, {:.1f} % of samples without gaze): {}{}",
-                                       name_of(verdict.failure), why.empty() ? "" : ": ", why,
-                                       counted(attempt.result.missed_refreshes, "refresh", "refreshes"),
-                                       100.0 * attempt.result.gaze_lost_share,
-                                       afterwards[static_cast<int>(verdict.comes_again)],
-                                       verdict.counts ? ", and counts as it is" : "")});
+    state_.record().event(
+        {state_.now(), trial.index, trial_failed_event,
+         fmt::format("{}{}{} ({}, {:.1f} % of samples without gaze): {}{}", name_of(verdict.failure),
+                     why.empty() ? "" : ": ", why,
+                     missed_in_words(attempt.result.missed_refreshes, ports_.has_proven_times),
+                     100.0 * attempt.result.gaze_lost_share,
+                     afterwards[static_cast<int>(verdict.comes_again)],
+                     verdict.counts ? ", and counts as it is" : "")});
 }
 
 /// What was answered in a block, to whom it was.

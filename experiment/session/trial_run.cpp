@@ -348,7 +348,9 @@ void TrialRun::mark_result(const Trial& trial, const Attempt& attempt) {
     }
     for (const auto& [name, value] : answer_variables(attempt.outcome.given))
         variable(name, value);
-    variable("missed_refreshes", fmt::format("{}", attempt.outcome.missed_refreshes));
+    variable("missed_refreshes", state_.ports.has_proven_times
+                                     ? fmt::format("{}", attempt.outcome.missed_refreshes)
+                                     : std::string("unproven"));
     mark(MarkedEvent::result, now, fmt::format("TRIAL_RESULT {}", goes_on(attempt) ? 0 : 1));
 }
 
