@@ -283,7 +283,9 @@ struct Sitting {
                         .can_type = true,
                         .recorder = recorder,
                         .further_trackers = further,
-                        .on_camera = [this](const CameraImage& image) { cameras.push_back(image); }},
+                        .on_camera = [this](const CameraImage& image) { cameras.push_back(image); },
+                        .screen_changes = screen_changes,
+                        .has_proven_times = has_proven_times},
                        fields)
             .run({});
     }
@@ -297,6 +299,8 @@ struct Sitting {
     AnswerRecorder* recorder = nullptr;
     std::vector<FurtherTracker> further;
     std::vector<CameraImage> cameras; ///< that the session told of
+    std::function<std::vector<std::string>()> screen_changes;
+    bool has_proven_times = true;
 };
 
 inline Protocol short_protocol(std::string_view more) {
