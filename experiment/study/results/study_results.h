@@ -24,6 +24,7 @@
 #include "experiment/screen_geometry.h"
 #include "experiment/statistics/estimate.h"
 #include "experiment/study/results/answer_rows.h"
+#include "experiment/study/results/relief_rows.h"
 #include "experiment/study/results/screen_area_rows.h"
 #include "experiment/study/results/session_setup.h"
 #include "experiment/study/results/study_key.h"
@@ -526,6 +527,7 @@ struct StudyResults {
     std::vector<AreaTransitionRow> area_transitions;
     std::vector<ScreenAreaRow> screen_area_groups;
     StudyAnswers answers;                      ///< of [[task.answer]]
+    StudyReliefs reliefs;                      ///< of gauges
     std::vector<StudyQuality> session_quality; ///< by session
     std::vector<ReportingItem> reporting;
     std::vector<MethodsParagraph> methods;
