@@ -8,6 +8,7 @@
 #include "experiment/design/schedule.h"
 #include "experiment/protocol/all_stimuli.h"
 #include "experiment/record/session_directory.h"
+#include "experiment/scene/sculptures/novel_shapes.h"
 #include "experiment/scene/sculptures/sculptures.h"
 
 namespace overt {
@@ -16,6 +17,8 @@ std::vector<std::string_view> shipped_sculpture_names() {
     std::vector<std::string_view> names;
     for (const SculptureDescription& object : shipped_sculptures())
         names.push_back(object.name);
+    for (const std::string& shape : novel_shape_names())
+        names.push_back(shape);
     return names;
 }
 

@@ -188,7 +188,8 @@ std::vector<Key> object() {
     return entry_keys<S>({
         {"shipped", &S::shipped, left_out("see `mesh` and `lut`"),
          "An object that overt makes itself, with the areas head, body and plinth: \"muse\", \"runner\" or "
-         "\"scholar\"."},
+         "\"scholar\"; or one of 24 novel shapes with the areas trunk, crest, left and right: \"shape-01\" "
+         "to \"shape-24\"."},
         {"mesh", &S::mesh, left_out("see `shipped` and `lut`"),
          "A PLY, OBJ or STL file of triangles, by its path from the protocol's folder."},
         {"up", &S::up, one_of(axes), "The axis of the mesh file that points up."},

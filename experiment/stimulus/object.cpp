@@ -11,6 +11,7 @@
 #include "experiment/scene/files/mesh_reader.h"
 #include "experiment/scene/files/ply_writer.h"
 #include "experiment/scene/ray_caster.h"
+#include "experiment/scene/sculptures/novel_shapes.h"
 #include "experiment/scene/sculptures/sculptures.h"
 #include "experiment/scene/triangle_order.h"
 
@@ -53,7 +54,8 @@ Mesh shipped_sculpture(const std::string& name, const std::filesystem::path& cac
         MeshCleaningReport unused;
         return import_mesh(kept, {}, unused);
     }
-    Mesh mesh = make_sculpture(name);
+    const std::optional<int> novel = novel_shape_number(name);
+    Mesh mesh = novel ? make_novel_shape(*novel) : make_sculpture(name);
     order_for_drawing(mesh);
     std::filesystem::create_directories(cache);
     write_ply(kept, mesh);
