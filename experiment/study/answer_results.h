@@ -47,6 +47,11 @@ std::vector<AnswerTimeRow> answer_times(const AnswersBy& answers, const StudyOpt
 /// correct, with ten times for each part at least.
 std::vector<AnswerSpeedRow> answer_speeds(const AnswersBy& answers, const StudyOptions& options);
 
+/// Settings of matches that were accepted, for each level of the reference, and the lines over references: of
+/// an observer with intervals by drawing settings again, of all the means of the observers'. Besides, those of
+/// each level of each other factor in which the references of trials differ.
+void reckon_matches(StudyAnswers& answers, const AnswersBy& by, const StudyOptions& options);
+
 /// All of these, and the differences between levels (answer_differences.h).
 void reckon_answers(StudyAnswers& answers, const StudyOptions& options);
 

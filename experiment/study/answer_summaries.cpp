@@ -177,6 +177,7 @@ void reckon_answers(StudyAnswers& answers, const StudyOptions& options) {
     answers.times = answer_times(by, options);
     answers.speeds = answer_speeds(by, options);
     answers.differences = answer_differences(by, options);
+    reckon_matches(answers, by, options);
 }
 
 } // namespace overt

@@ -33,6 +33,16 @@ std::optional<ChosenByProcedure> chosen_by_procedure(std::string_view words) {
     return ChosenByProcedure{std::string(words.substr(0, id)), std::string(chosen.substr(0, blank)), *number};
 }
 
+/// Of a match, those of the stimulus that is matched: the first in another slot.
+std::vector<std::pair<std::string, std::string>>
+levels_beside(const GivenAnswer& match, const Trial& trial, std::span<const AnsweredStimulus> shown) {
+    std::vector<AnsweredStimulus> reference;
+    for (std::size_t i = 0; i < shown.size() && reference.empty(); ++i)
+        if (trial.shown(i).slot != match.slot)
+            reference.push_back(shown[i]);
+    return levels_of(trial, reference.empty() ? shown : std::span<const AnsweredStimulus>(reference));
+}
+
 /// By trial, that of its last attempt.
 std::map<int, ChosenByProcedure> procedure_choices(const SessionRecord& record) {
     std::map<int, ChosenByProcedure> choices;
@@ -139,7 +149,8 @@ std::vector<StudyAnswer> read_answers(std::span<const std::filesystem::path> ses
                         answer.shown[i].until_answer_s = to_seconds(*given.answered_at - *onsets[i]);
                 answer.session = static_cast<int>(session);
                 answer.trial = trial.trial.index + 1;
-                answer.levels = levels;
+                answer.levels = given.settings.empty() ? levels : levels_beside(given, trial.trial, shown);
+                answer.settings = given.settings;
                 if (procedure != procedures.end()) {
                     answer.procedure = procedure->second.procedure;
                     answer.procedure_factor = procedure->second.factor;

@@ -24,5 +24,7 @@ RowLayout<AnswerGazeRow> answer_gaze_layout();
 RowLayout<GazeChoiceRow> gaze_choices_layout();
 RowLayout<AnswerScaleRow> answer_scales_layout();
 RowLayout<AnswerRatingRow> ratings_layout();
+RowLayout<AnswerMatchRow> matches_layout();
+RowLayout<AnswerMatchLineRow> match_lines_layout();
 
 } // namespace overt

@@ -107,6 +107,20 @@ nlohmann::ordered_json answers_json(const StudyResults& results) {
         add_number(one, "planted", row.planted);
         json["ratings"].push_back(std::move(one));
     }
+    for (const AnswerMatchLineRow& row : answers.match_lines) {
+        if (!row.of.observer.empty())
+            continue;
+        AnswersJson one = named(row.of);
+        one["along"] = row.along;
+        if (!row.column.empty()) {
+            one["compared"] = row.column;
+            one["level"] = row.level;
+        }
+        add_estimate(one, "slope", row.slope);
+        add_estimate(one, "intercept", row.intercept);
+        add_number(one, "planted", row.planted);
+        json["matches"].push_back(std::move(one));
+    }
     for (const AnswerDifferenceRow& row : answers.differences) {
         AnswersJson one = named(row.of);
         one["measure"] = row.measure;

@@ -95,6 +95,8 @@ template <class Visit> void for_each_table(const StudyResults& results, const Vi
     all(gaze_choices_layout(), results.answers.gaze_choices, false);
     all(answer_scales_layout(), results.answers.scales, false);
     all(ratings_layout(), results.answers.ratings, false);
+    all(matches_layout(), results.answers.matches, false);
+    all(match_lines_layout(), results.answers.match_lines, false);
     all(reporting_layout(), results.reporting, true);
 }
 
