@@ -11,7 +11,7 @@ namespace overt {
 namespace {
 
 /// So many changes can be undone; of more, the last.
-constexpr std::size_t most_undone = 512;
+constexpr std::size_t most_changes_undone = 512;
 
 /// What a slot shows is set from level to level. What stands there says something from the start: who finds
 /// that it matches accepts it.
@@ -24,7 +24,7 @@ class MatchAnswering final : public Answering {
             axes_[i].count = static_cast<int>(columns[i].values.size());
             axes_[i].at = columns[i].start;
         }
-        before_.reserve(most_undone);
+        before_.reserve(most_changes_undone);
     }
 
     Effect take(const ObserverInput& input, const AnswerPlace&) noexcept override {

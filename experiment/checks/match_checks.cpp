@@ -137,8 +137,8 @@ double loaded_mb(const Protocol& protocol, const Trial& trial) {
 }
 
 /// Of one answer where this stimulus stands. Whether it is sound.
-bool check_levels(ProtocolExamination& examination, std::size_t task, std::size_t number,
-                  const Stimulus& stimulus) {
+bool check_levels_of_match(ProtocolExamination& examination, std::size_t task, std::size_t number,
+                           const Stimulus& stimulus) {
     const TaskAnswer& answer = examination.protocol.tasks[task].answers[number];
     MatchProblem problem;
     const MatchLevels levels = match_levels_of(examination.protocol, answer, stimulus, problem);
@@ -186,7 +186,7 @@ void check_match_levels(ProtocolExamination& examination) {
                 for (const PlacedStimulus& shown : trial.all_shown())
                     if (is_match(answers[i]) && !slots.empty() && shown.slot == slots.front() &&
                         known.emplace(task, i, shown.stimulus).second && !told.contains(task) &&
-                        !check_levels(examination, task, i, shown.stimulus))
+                        !check_levels_of_match(examination, task, i, shown.stimulus))
                         told.insert(task);
             }
             const double needed_mb =

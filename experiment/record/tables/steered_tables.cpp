@@ -11,13 +11,13 @@ namespace {
 
 constexpr int setting_decimals = 9;
 
-std::vector<RowLayout<TrialRecord>::Column> attempt_columns() {
+std::vector<RowLayout<TrialRecord>::Column> steered_attempt_columns() {
     return {{{"trial", "Position of the trial in the observer's order, from 1"}, number_of_trial},
             {{"attempt", "Which attempt at this trial, from 1"}, attempt_number},
             {{"counts", "Whether this is the attempt that counts"}, attempt_counts}};
 }
 
-auto slot_of(const SessionHeader& header) {
+auto slot_of_seen(const SessionHeader& header) {
     return [&header](const TrialRecord& seen) -> std::string_view {
         const auto* const slot = item_of(header.slots, seen.trial.slot);
         return slot ? std::string_view(slot->id) : std::string_view();
@@ -31,7 +31,7 @@ RowLayout<SettingRow> settings_layout(const SharedColumns& shared, const Session
         "settings",
         "A row for each column along which something was set to match, in each attempt that ended.",
         {}};
-    layout.add<TrialRecord>(attempt_columns());
+    layout.add<TrialRecord>(steered_attempt_columns());
     layout.add<TrialRecord>({{shared.task, task_of(header)}});
     layout.add<TrialRecord>(shared.of_stimulus<TrialRecord>(shown_in));
     layout.add<TrialRecord>(own_columns<RowLayout<TrialRecord>::Column>(header));
@@ -82,7 +82,7 @@ RowLayout<MoveRow> moves_layout(const SharedColumns& shared, const SessionHeader
         "A row for each flip, of trials that count, of what the observer moves: which level or pose was lit, "
         "and the latest input that it contains.",
         {}};
-    layout.add<TrialRecord>({{shared.trial, number_of_trial}, {shared.slot, slot_of(header)}});
+    layout.add<TrialRecord>({{shared.trial, number_of_trial}, {shared.slot, slot_of_seen(header)}});
     layout.add<MoveRow>({
         {{"refresh", "As in flips: refresh of the display since the presentation's onset, from 0"},
          [](auto& row) { return row.moved.refresh_in_trial; }},
@@ -117,8 +117,9 @@ RowLayout<MoveRow> moves_layout(const SharedColumns& shared, const SessionHeader
 RowLayout<TurnRow> turns_layout(const SharedColumns& shared, const SessionHeader& header) {
     RowLayout<TurnRow> layout{
         "turns", "A row for each show of an object that the observer turned, of trials that count.", {}};
-    layout.add<TrialRecord>(
-        {{shared.trial, number_of_trial}, {shared.task, task_of(header)}, {shared.slot, slot_of(header)}});
+    layout.add<TrialRecord>({{shared.trial, number_of_trial},
+                             {shared.task, task_of(header)},
+                             {shared.slot, slot_of_seen(header)}});
     layout.add<TrialRecord>(shared.of_stimulus<TrialRecord>(shown_in));
     const auto degrees = [](Degrees ObserverTurns::*of) {
         return [of](const TurnRow& row) { return Fixed{(row.turns.*of).value, angle_decimals}; };
