@@ -36,7 +36,7 @@ Silhouette silhouette_of_map(const StimulusLibrary& library, const ViewedObject&
                              PoseIndex pose) {
     Silhouette silhouette;
     if (has_mesh) {
-        for (const std::uint32_t code : read_triangle_map(library.cache().map_file(viewed, pose)).codes)
+        for (const std::uint32_t code : library.cache().read_map(viewed, pose).codes)
             silhouette.push_back(code != 0);
         return silhouette;
     }

@@ -1,5 +1,9 @@
 #include "app/inputs/prepared_stimuli.h"
 
+#include <cstdio>
+
+#include <fmt/format.h>
+
 #include "app/cli/interruption.h"
 #include "app/cli/progress_bar.h"
 #include "experiment/base/error.h"
@@ -54,6 +58,8 @@ void prepare_stimuli(StimulusLibrary& library, MapsNow maps, BakeQuality least,
     with_bar(meanwhile, [&](const Progress& show) {
         make_maps(library, maps, show);
         library.prepare_frames(show, least);
+        for (const std::string& remark : library.remarks())
+            fmt::print(stderr, "\n{}\n", remark);
         make_light(library, show);
         make_first_frames(library);
     });

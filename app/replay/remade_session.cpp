@@ -82,7 +82,7 @@ void remake_session(const RemakeRequest& request, ReplayReport& report) {
     const bool has_pictures = no_frames.empty() && fs::exists(record.directory() / "stimuli");
     SessionHeader now =
         make_session_header(experiment.protocol, schedule, experiment.objects, stimuli.library(),
-                            stimuli.context().description(), header.tracker, header.clock, true);
+                            stimuli.context().description(), header.tracker, header.clock, true, no_frames.empty());
     now.session_number = header.session_number;
     now.display.timing = header.display.timing; // what the display proved cannot be found again
     keep_recorded_maps(header, now);

@@ -59,7 +59,10 @@ class TrialPictures {
         pages_ = stimuli_.library().page_of_frame(stimulus);
         for (const RecordedStimulus& recorded : record.header().stimuli)
             if (recorded.stimulus == stimulus &&
-                recorded.made_from_sha256 != stimuli_.library().made_from_hash(stimulus))
+                !recorded.is_same_as({stimulus,
+                                      {},
+                                      stimuli_.library().frames_hash(stimulus),
+                                      stimuli_.library().made_from_hash(stimulus)}))
                 fmt::print(stderr,
                            "the frames that are there ({}) are not those that were shown ({}): the picture "
                            "has other light\n",

@@ -124,7 +124,7 @@ void record_points(SessionHeader& header, std::span<const Object> objects) {
 SessionHeader make_session_header(const Protocol& protocol, const Schedule& schedule,
                                   std::span<const Object> objects, const StimulusLibrary& library,
                                   const GlDescription& graphics, const TrackerDescription& tracker,
-                                  ClockKind clock, bool with_prepared_maps) {
+                                  ClockKind clock, bool with_prepared_maps, bool with_frames) {
     SessionHeader header;
     header.protocol = {protocol.name, protocol.title, protocol.text, hash_of_text(protocol.text), {}};
     for (const IncludedText& file : protocol.included)
@@ -153,7 +153,9 @@ SessionHeader make_session_header(const Protocol& protocol, const Schedule& sche
         header.tasks.push_back({task.id, task.question});
     for (const Stimulus& stimulus : stimuli_in_slots(protocol))
         header.stimuli.push_back(
-            {stimulus, library.source_of(stimulus), {}, library.made_from_hash(stimulus)});
+            {stimulus, library.source_of(stimulus), with_frames ? library.frames_hash(stimulus) : ContentHash(),
+                                  library.made_from_hash(stimulus),
+                                  with_frames ? library.renderer_of(stimulus) : std::string()});
     describe_objects(header, protocol, objects, library, with_prepared_maps);
     record_points(header, objects);
     for (std::size_t list = 0; list < stimulus_lists.size(); ++list)

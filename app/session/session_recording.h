@@ -13,11 +13,11 @@
 namespace overt {
 
 /// What a session is made of, gathered for its record. The library's frames must be prepared, and its maps if
-/// they are to be in it. File names are those that put_files() gives.
+/// they are to be in it. `with_frames`: false where nothing is drawn, and the pixels of frames are not known. File names are those that put_files() gives.
 SessionHeader make_session_header(const Protocol& protocol, const Schedule& schedule,
                                   std::span<const Object> objects, const StimulusLibrary& library,
                                   const GlDescription& graphics, const TrackerDescription& tracker,
-                                  ClockKind clock, bool with_prepared_maps);
+                                  ClockKind clock, bool with_prepared_maps, bool with_frames = true);
 
 /// Puts the meshes, the maps and, with pictures, one of each stimulus into the directory as the header names
 /// them, the header itself into a new session file, a copy of the protocol beside it, and a manifest of it

@@ -111,7 +111,7 @@ struct BakeOutcome {
 };
 
 bool is_cached(const StimulusLibrary& library, const BakeJob& job, const BakeUnit& unit) {
-    return std::filesystem::exists(library.cache().frame_file_of(unit.stimulus, job.quality, unit.pose));
+    return library.cache().has_frame(unit.stimulus, job.quality, unit.pose);
 }
 
 /// Renders what is missing. While one frame is written, the next is traced; each is on the disk, whole, or

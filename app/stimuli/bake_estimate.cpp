@@ -101,8 +101,7 @@ BakeEstimate bake_estimate(const Experiment& experiment, const StimulusLibrary& 
         QualityEstimate one{quality_of(quality, experiment.protocol.bake)};
         for (const BakeUnit& unit : bake_units(stimuli, all_frames, library.cache(), one.quality, false)) {
             ++one.frames;
-            if (std::filesystem::exists(
-                    library.cache().frame_file_of(unit.stimulus, one.quality, unit.pose))) {
+            if (library.cache().has_frame(unit.stimulus, one.quality, unit.pose)) {
                 ++one.there;
                 continue;
             }

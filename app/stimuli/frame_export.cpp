@@ -165,8 +165,8 @@ ChannelPicture FrameExport::picture_of(const BakeUnit& unit, const SpectralFrame
         }
         return picture;
     }
-    LinearImage image =
-        read_linear_image(library_->cache().frame_file_of(unit.stimulus, *quality_, unit.pose));
+    LinearImage image;
+    library_->cache().read_frame(unit.stimulus, *quality_, unit.pose, image);
     transform(image, options_->as == ExportedLight::display
                          ? library_->cache().display_from_frame(unit.stimulus, *quality_)
                          : protocol_->light_of(unit.stimulus).exposure *

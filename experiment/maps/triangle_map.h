@@ -10,6 +10,9 @@
 
 #include <glm/glm.hpp>
 
+#include "experiment/base/content_hash.h"
+#include "experiment/units.h"
+
 namespace overt {
 
 struct TriangleMap {
@@ -28,7 +31,7 @@ struct TriangleMap {
     std::size_t covered_pixels() const;
 };
 
-/// Text attributes kept with a map: mesh hash, camera, pose.
+/// Text attributes kept with a map: mesh_sha256, camera, angle_deg. The hash of its codes is one, too.
 using MapAttributes = std::vector<std::pair<std::string, std::string>>;
 
 /// Writes an EXR file with one 32-bit unsigned channel, "triangle" (code as above), losslessly compressed; at
@@ -36,7 +39,12 @@ using MapAttributes = std::vector<std::pair<std::string, std::string>>;
 void write_triangle_map(const std::filesystem::path& file, const TriangleMap& map,
                         const MapAttributes& attributes);
 
-/// Throws InputError if the file is missing or is no such map.
+/// Whether the file is a map, whole, that says to be of this mesh at this angle; what it does not say, as maps
+/// of early programs, counts as said.
+bool is_map_of(const std::filesystem::path& file, const ContentHash& mesh, Degrees angle);
+
+/// Throws InputError if the file is missing or is no such map, and if its codes are not those that it was
+/// written with.
 TriangleMap read_triangle_map(const std::filesystem::path& file);
 
 } // namespace overt

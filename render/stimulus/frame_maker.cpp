@@ -4,8 +4,9 @@
 #include <exception>
 #include <set>
 
+#include <fmt/format.h>
+
 #include "experiment/base/whole_file.h"
-#include "render/stimulus/frame_description.h"
 
 namespace overt {
 
@@ -91,8 +92,7 @@ void FrameMaker::make_frames(std::span<const Stimulus> stimuli, const FrameQuali
 void FrameMaker::draw_live_frame(const Stimulus& stimulus, const Pose& pose, const FrameQuality& quality,
                                  std::future<void>& writing) {
     const SceneView& scene = cache_->scene_of(stimulus);
-    const std::filesystem::path file = cache_->frame_file_of(stimulus, quality, pose);
-    std::filesystem::create_directories(file.parent_path());
+    std::filesystem::create_directories(cache_->frame_file_of(stimulus, quality, pose).parent_path());
     if (!renderer_ || live_light_ != stimulus.light || live_size_px_ != scene.view.image_px) {
         renderer_.emplace(*context_, cache_->protocol().light_of(stimulus), scene.view.image_px);
         live_material_ = -1;
@@ -105,19 +105,18 @@ void FrameMaker::draw_live_frame(const Stimulus& stimulus, const Pose& pose, con
     LinearImage image = renderer_->draw(maps_->buffers_of(stimulus.object, true), scene, pose);
     if (writing.valid())
         writing.get();
-    ImageAttributes attributes = describe_stimulus(cache_->protocol(), cache_->objects(), stimulus, pose);
-    attributes.emplace_back("overt:renderer", "OpenGL");
-    writing =
-        std::async(std::launch::async, [file, image = std::move(image), attributes = std::move(attributes)] {
-            write_linear_exr(file, image, attributes);
-        });
+    const GlDescription& gl = context_->description();
+    writing = std::async(std::launch::async, [this, stimulus, pose, quality, image = std::move(image),
+                                              renderer = fmt::format("{}, OpenGL {}", gl.renderer, gl.version)] {
+        cache_->store_live(stimulus, pose, quality, image, renderer);
+    });
 }
 
 SpectralFrame FrameMaker::trace(const Stimulus& stimulus, const Pose& pose, const FrameQuality& quality,
                                 const BakeProgress& progress) {
     const PoseIndex turn = cache_->poses().index_of(pose.object);
     maps_->draw_missing_map(viewed(stimulus), turn);
-    const TriangleMap map = read_triangle_map(cache_->map_file(viewed(stimulus), turn));
+    const TriangleMap map = cache_->read_map(viewed(stimulus), turn);
     const MaterialSettings& material = cache_->material_of(stimulus);
     if (!light_ || light_of_ != stimulus.light)
         light_.emplace(cache_->protocol().light_of(stimulus));

@@ -43,7 +43,7 @@ void MapMaker::prepare_maps(const ViewedObject& viewed, const Progress& progress
     const int count = cache_->poses().count();
     bool drew = false;
     for (int pose = 0; pose < count; ++pose) {
-        if (progress && !std::filesystem::exists(cache_->map_file(viewed, {pose})))
+        if (progress && !cache_->has_map(viewed, {pose}))
             progress(what, pose, count, static_cast<double>(pose) / count);
         drew = draw_missing_map(viewed, {pose}) || drew;
     }
@@ -53,7 +53,7 @@ void MapMaker::prepare_maps(const ViewedObject& viewed, const Progress& progress
 
 bool MapMaker::draw_missing_map(const ViewedObject& viewed, PoseIndex pose) {
     const std::filesystem::path file = cache_->map_file(viewed, pose);
-    if (std::filesystem::exists(file))
+    if (cache_->has_map(viewed, pose))
         return false;
     const Object& figure = cache_->objects()[static_cast<std::size_t>(viewed.object)];
     const Degrees angle = cache_->poses().angle_of(pose);

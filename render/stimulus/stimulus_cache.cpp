@@ -1,12 +1,15 @@
 #include "render/stimulus/stimulus_cache.h"
 
 #include <algorithm>
+#include <atomic>
 #include <limits>
 #include <set>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "experiment/base/error.h"
+#include "experiment/base/parallel.h"
 #include "experiment/maps/coordinate_image_file.h"
 #include "render/signal/display_light.h"
 #include "render/stimulus/frame_description.h"
@@ -65,10 +68,78 @@ std::vector<Pose> StimulusCache::missing_frames(const Stimulus& stimulus, const 
             key = picture_key(stimulus, quality, pose.light);
             key_of = pose.light;
         }
-        if (!std::filesystem::exists(file_of("frames", key, pose.object)))
+        if (!is_frame(file_of("frames", key, pose.object), {key, pose.object}, quality))
             missing.push_back(pose);
     }
     return missing;
+}
+
+FrameIdentity StimulusCache::identity_of(const Stimulus& stimulus, const FrameQuality& quality,
+                                         const Pose& pose) const {
+    return {picture_key(stimulus, quality, pose.light), pose.object};
+}
+
+bool StimulusCache::is_frame(const std::filesystem::path& file, const FrameIdentity& identity,
+                             const FrameQuality& quality) const {
+    // Live frames that do not say all of themselves are drawn again in no time.
+    return std::filesystem::exists(file) && !why_no_frame(file, identity, quality.is_live());
+}
+
+bool StimulusCache::has_frame(const Stimulus& stimulus, const FrameQuality& quality, const Pose& pose) const {
+    return is_frame(frame_file_of(stimulus, quality, pose), identity_of(stimulus, quality, pose), quality);
+}
+
+std::vector<std::string> StimulusCache::unsound_frames(std::span<const Stimulus> stimuli,
+                                                       const FrameQuality& quality) const {
+    std::set<std::filesystem::path> files;
+    std::vector<std::string> sentences;
+    for (const Stimulus& stimulus : stimuli)
+        for (const Pose& pose : pictures_of(stimulus)) {
+            const auto [file, is_new] = files.insert(frame_file_of(stimulus, quality, pose));
+            if (!is_new || !std::filesystem::exists(*file))
+                continue;
+            if (const auto why = why_no_frame(*file, identity_of(stimulus, quality, pose), false))
+                sentences.push_back(fmt::format("{} {}", file->string(), *why));
+        }
+    return sentences;
+}
+
+void StimulusCache::read_frame(const Stimulus& stimulus, const FrameQuality& quality, const Pose& pose,
+                               LinearImage& into) const {
+    read_cached_frame(frame_file_of(stimulus, quality, pose), identity_of(stimulus, quality, pose), into);
+}
+
+ContentHash StimulusCache::pixels_hash(const Stimulus& stimulus, const FrameQuality& quality) const {
+    const std::span<const Pose> pictures = pictures_of(stimulus);
+    std::vector<ContentHash> hashes(pictures.size());
+    std::atomic<bool> are_all_there = true;
+    parallel_for(static_cast<int>(pictures.size()), [&](int i) {
+        const Pose& pose = pictures[static_cast<std::size_t>(i)];
+        const std::filesystem::path file = frame_file_of(stimulus, quality, pose);
+        if (!std::filesystem::exists(file))
+            are_all_there = false;
+        if (are_all_there)
+            hashes[static_cast<std::size_t>(i)] =
+                pixels_hash_of(file, identity_of(stimulus, quality, pose));
+    });
+    if (!are_all_there)
+        return {};
+    ContentHasher hasher;
+    for (std::size_t i = 0; i < pictures.size(); ++i)
+        hasher.add(pictures[i].object.value)
+            .add(pictures[i].light.value)
+            .add(std::string_view(hashes[i]));
+    return hasher.finish();
+}
+
+std::string StimulusCache::renderer_of(const Stimulus& stimulus, const FrameQuality& quality) const {
+    std::set<std::string> renderers;
+    for (const Pose& pose : pictures_of(stimulus)) {
+        const std::filesystem::path file = frame_file_of(stimulus, quality, pose);
+        if (quality.is_live() && std::filesystem::exists(file))
+            renderers.insert(renderer_of_frame(file));
+    }
+    return fmt::format("{}", fmt::join(renderers, " and "));
 }
 
 FrameCount StimulusCache::count_frames(std::span<const Stimulus> stimuli, const FrameQuality& quality) const {
@@ -78,7 +149,7 @@ FrameCount StimulusCache::count_frames(std::span<const Stimulus> stimuli, const 
         for (const Pose& pose : pictures_of(stimulus)) {
             const auto [file, is_new] = files.insert(frame_file_of(stimulus, quality, pose));
             count.all += is_new;
-            count.missing += is_new && !std::filesystem::exists(*file);
+            count.missing += is_new && !is_frame(*file, identity_of(stimulus, quality, pose), quality);
         }
     }
     return count;
@@ -143,6 +214,15 @@ glm::dmat3 StimulusCache::display_from_frame(const Stimulus& stimulus, const Fra
            display_from(rendered_colours(protocol_->bake.observer), protocol_->display);
 }
 
+void StimulusCache::store_live(const Stimulus& stimulus, const Pose& pose, const FrameQuality& quality,
+                               const LinearImage& image, const std::string& renderer) const {
+    ImageAttributes attributes = describe_stimulus(*protocol_, objects_, stimulus, pose);
+    attributes.emplace_back("overt:renderer", "OpenGL");
+    attributes.emplace_back("overt:gl_renderer", renderer);
+    write_cached_frame(frame_file_of(stimulus, quality, pose), image, identity_of(stimulus, quality, pose),
+                       std::move(attributes));
+}
+
 void StimulusCache::store(const Stimulus& stimulus, const Pose& pose, const FrameQuality& quality,
                           const SpectralFrame& frame) const {
     OVERT_EXPECTS(frame.is_complete);
@@ -151,8 +231,8 @@ void StimulusCache::store(const Stimulus& stimulus, const Pose& pose, const Fram
     ImageAttributes attributes = describe_stimulus(*protocol_, objects_, stimulus, pose);
     for (auto& attribute : describe_tracing(quality, *protocol_, material_of(stimulus).kind))
         attributes.push_back(std::move(attribute));
-    attributes.emplace_back("overt:key", picture_key(stimulus, quality, pose.light));
-    write_linear_exr(file, seen_by(protocol_->bake.observer, frame), attributes);
+    write_cached_frame(file, seen_by(protocol_->bake.observer, frame), identity_of(stimulus, quality, pose),
+                       std::move(attributes));
 }
 
 bool StimulusCache::has_given_maps(int object) const {
@@ -193,12 +273,27 @@ SceneView StimulusCache::scene_of_given_maps(const ViewedObject& viewed) const {
     return scene;
 }
 
+bool StimulusCache::has_map(const ViewedObject& viewed, PoseIndex pose) const {
+    const std::filesystem::path file = map_file(viewed, pose);
+    return std::filesystem::exists(file) &&
+           is_map_of(file, objects_[static_cast<std::size_t>(viewed.object)].mesh_hash, poses_.angle_of(pose));
+}
+
+TriangleMap StimulusCache::read_map(const ViewedObject& viewed, PoseIndex pose) const {
+    const std::filesystem::path file = map_file(viewed, pose);
+    if (std::filesystem::exists(file) && !has_map(viewed, pose))
+        throw InputError(fmt::format("{}: this file of the cache is not the map that its name says, or not whole: "
+                                     "remove it, so that it is made anew",
+                                     file.string()));
+    return read_triangle_map(file);
+}
+
 CoordinateMaps StimulusCache::maps_of(const ViewedObject& viewed) const {
     const Object& figure = objects_[static_cast<std::size_t>(viewed.object)];
     OVERT_EXPECTS(figure.has_mesh());
     std::vector<TriangleMap> maps;
     for (int pose = 0; pose < poses_.count(); ++pose)
-        maps.push_back(read_triangle_map(map_file(viewed, {pose})));
+        maps.push_back(read_map(viewed, {pose}));
     return {figure.mesh, figure.scene(viewed.view), poses_.angles, std::move(maps)};
 }
 

@@ -12,6 +12,7 @@
 #include "experiment/stimulus/object.h"
 #include "experiment/trial.h"
 #include "render/bake/spectral_frame.h"
+#include "render/stimulus/cached_frame.h"
 #include "render/stimulus/frame_key.h"
 #include "render/stimulus/frame_quality.h"
 
@@ -73,6 +74,18 @@ class StimulusCache {
     /// have poses in common.
     std::vector<Pose> missing_frames(const Stimulus& stimulus, const FrameQuality& quality) const;
 
+    /// Whether there is a frame, whole, and of what its name says.
+    bool has_frame(const Stimulus& stimulus, const FrameQuality& quality, const Pose& pose) const;
+
+    /// "FILE is not whole", of files that lie where frames of these stimuli should and are none.
+    std::vector<std::string> unsound_frames(std::span<const Stimulus> stimuli,
+                                            const FrameQuality& quality) const;
+
+    /// Reads a frame as it lies in its file, and compares it with what the file says of it. Throws InputError
+    /// (cached_frame.h).
+    void read_frame(const Stimulus& stimulus, const FrameQuality& quality, const Pose& pose,
+                    LinearImage& into) const;
+
     FrameCount count_frames(std::span<const Stimulus> stimuli, const FrameQuality& quality) const;
 
     /// The best quality of which every frame of these stimuli is there, if it is no less than `least`.
@@ -89,8 +102,20 @@ class StimulusCache {
     /// Everything that makes a stimulus's frames but the object's angles.
     ContentHash frame_key(const Stimulus& stimulus, const FrameQuality& quality) const;
 
+    /// Of the pixels of a stimulus's frames, in the order of its pictures, with their poses; empty while one of
+    /// them is not there. Throws InputError.
+    ContentHash pixels_hash(const Stimulus& stimulus, const FrameQuality& quality) const;
+
+    /// What OpenGL said of its renderer when it drew a stimulus's live frames: several, where it was not always
+    /// the same. Empty for others.
+    std::string renderer_of(const Stimulus& stimulus, const FrameQuality& quality) const;
+
     /// What turns a stimulus's frame file into the display's light; the exposure is in it.
     glm::dmat3 display_from_frame(const Stimulus& stimulus, const FrameQuality& quality) const;
+
+    /// Writes a live frame. `renderer`: what OpenGL says of it. Throws RecordError.
+    void store_live(const Stimulus& stimulus, const Pose& pose, const FrameQuality& quality,
+                    const LinearImage& image, const std::string& renderer) const;
 
     /// Writes a traced frame, which must be complete. Throws RecordError.
     void store(const Stimulus& stimulus, const Pose& pose, const FrameQuality& quality,
@@ -112,6 +137,12 @@ class StimulusCache {
         return folder_ / "first_frames" / (frame.substr(0, 24) + ".png");
     }
 
+    /// Whether there is a map of an object with a mesh, whole, and of what its name says.
+    bool has_map(const ViewedObject& viewed, PoseIndex pose) const;
+
+    /// Reads it. Throws InputError, also for a map of something else.
+    TriangleMap read_map(const ViewedObject& viewed, PoseIndex pose) const;
+
     /// The box of an object with ready-made maps, and where the camera stood: the field of view is 0 if the
     /// maps do not say. The maps must be there (MapMaker).
     SceneView scene_of_given_maps(const ViewedObject& viewed) const;
@@ -124,6 +155,9 @@ class StimulusCache {
         std::vector<Pose> pictures;
         std::vector<int> picture_of_frame;
     };
+    FrameIdentity identity_of(const Stimulus& stimulus, const FrameQuality& quality, const Pose& pose) const;
+    bool is_frame(const std::filesystem::path& file, const FrameIdentity& identity,
+                  const FrameQuality& quality) const;
     static Pictures pictures_of_motion(const Animation& motion);
     std::filesystem::path file_of(std::string_view kind, const ContentHash& hash, Degrees turn) const;
 

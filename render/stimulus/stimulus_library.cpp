@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "experiment/base/error.h"
 #include "experiment/base/parallel.h"
@@ -46,19 +47,23 @@ void StimulusLibrary::prepare_frames(const Progress& progress, BakeQuality least
         return;
     }
     const FrameQuality quality = quality_of(least, protocol_->bake);
+    const std::vector<std::string> unsound = cache_.unsound_frames(stimuli, quality);
     if (least > BakeQuality::preview) {
         const FrameCount count = cache_.count_frames(stimuli, quality);
         const std::string file = protocol_->file.string();
         throw InputError(
-            fmt::format("{}: this session needs frames of {} quality, and {} of {} are not baked "
+            fmt::format("{}{}: this session needs frames of {} quality, and {} of {} are not baked "
                         "yet: run `overt bake {}{}` first (`overt check` says how long it "
                         "takes), or, for a trial run, be content with --quality preview{}",
-                        file, describe(quality), count.missing, count.all, file,
+                        unsound.empty() ? "" : fmt::format("{}\n", fmt::join(unsound, "\n")), file,
+                        describe(quality), count.missing, count.all, file,
                         least == BakeQuality::standard ? "" : fmt::format(" --quality {}", name_of(least)),
                         protocol_->bake.quality ? ""
                                                 : ". What people are shown at least is [bake] quality in the "
                                                   "protocol, which is \"standard\" where it is left out"));
     }
+    for (const std::string& sentence : unsound)
+        remarks_.push_back(sentence + ": it was made anew");
     frames_.make_frames(stimuli, quality, progress);
     take_frames(quality);
 }
@@ -144,8 +149,7 @@ const LinearImage& StimulusLibrary::read_object(const Stimulus& stimulus, int pa
     }
     const FrameQuality& quality = qualities_.at(stimulus);
     const Pose& pose = cache_.pictures_of(stimulus)[static_cast<std::size_t>(page)];
-    read_linear_image(cache_.frame_file_of(stimulus, quality, pose), FrameEncoding::linear,
-                      FileColours::as_they_stand, room);
+    cache_.read_frame(stimulus, quality, pose, room);
     transform(room, cache_.display_from_frame(stimulus, quality));
     return room;
 }
@@ -159,6 +163,35 @@ std::string StimulusLibrary::source_of(const Stimulus& stimulus) const {
     const BakeSettings settings = bake_settings(quality, protocol_->bake, cache_.material_of(stimulus).kind);
     return fmt::format("path traced, {}: {} samples, {}", name_of(quality.level), settings.samples,
                        protocol_->bake.observer == StandardObserver::cie2006 ? "CIE 2006" : "CIE 1931");
+}
+
+ContentHash StimulusLibrary::frames_hash(const Stimulus& stimulus) const {
+    ContentHash object = object_pixels_hash(stimulus);
+    if (object.empty() || is_displays_own(protocol_->background_of(stimulus)))
+        return object;
+    ContentHasher hasher;
+    hasher.add(std::string_view(object)).add(std::string_view(hash_of_pixels(background_of(stimulus))));
+    return hasher.finish();
+}
+
+ContentHash StimulusLibrary::object_pixels_hash(const Stimulus& stimulus) const {
+    if (cache_.is_ready_made(stimulus))
+        return object_hash(stimulus); // the files' bytes are in it
+    const ContentHash pixels = cache_.pixels_hash(stimulus, qualities_.at(stimulus));
+    if (pixels.empty())
+        return {};
+    ContentHasher hasher;
+    hasher.add(std::string_view("pixels")).add(std::string_view(pixels));
+    // Live frames have the exposure themselves.
+    hasher.add(qualities_.at(stimulus).is_live() ? 1.0 : protocol_->light_of(stimulus).exposure);
+    if (const auto& light = protocol_->display.characterisation)
+        hasher.add(std::string_view(light->sha256));
+    return hasher.finish();
+}
+
+std::string StimulusLibrary::renderer_of(const Stimulus& stimulus) const {
+    return cache_.is_ready_made(stimulus) ? std::string()
+                                          : cache_.renderer_of(stimulus, qualities_.at(stimulus));
 }
 
 ContentHash StimulusLibrary::made_from_hash(const Stimulus& stimulus) const {
@@ -234,9 +267,12 @@ std::optional<std::filesystem::path> StimulusLibrary::light_file(const Stimulus&
     const FrameSequenceSettings* const sequence = cache_.sequence_of(stimulus);
     if (sequence && !has_alpha(frame_file(*sequence, {0})))
         return std::nullopt;
-    // The angles are not in the frames' hash.
+    const ContentHash frames = object_pixels_hash(stimulus);
+    if (frames.empty() && !make)
+        return std::nullopt;
+    // The angles are not in the hash of ready-made frames.
     ContentHasher hasher;
-    hasher.add(std::string_view(object_hash(stimulus)));
+    hasher.add(std::string_view(frames));
     for (const Pose& pose : cache_.pictures_of(stimulus))
         hasher.add(pose.object.value);
     const std::filesystem::path file = cache_.light_file(hasher.finish());
@@ -252,7 +288,7 @@ std::optional<std::filesystem::path> StimulusLibrary::light_file(const Stimulus&
 std::filesystem::path StimulusLibrary::first_frame_file(const Stimulus& stimulus) const {
     const int first = page_of_frame(stimulus).front();
     ContentHasher hasher;
-    hasher.add(std::string_view(made_from_hash(stimulus)));
+    hasher.add(std::string_view(frames_hash(stimulus)));
     if (!cache_.is_ready_made(stimulus))
         hasher.add(cache_.pictures_of(stimulus).front().object.value);
     if (protocol_->display.background != 0.0)

@@ -63,6 +63,16 @@ class StimulusLibrary final : public FrameSource {
     /// the files' bytes.
     ContentHash made_from_hash(const Stimulus& stimulus) const;
 
+    /// Of the pixels that are shown, with what makes them the display's light, and the poses; of ready-made
+    /// frames, of the files' bytes. Empty while a frame is not there. Throws InputError.
+    ContentHash frames_hash(const Stimulus& stimulus) const;
+
+    /// Of live frames, what OpenGL said of the renderer that drew them; else empty.
+    std::string renderer_of(const Stimulus& stimulus) const;
+
+    /// Frames of the cache that were none, and were made anew by prepare_frames(): a sentence each.
+    const std::vector<std::string>& remarks() const { return remarks_; }
+
     /// The file with the luminance of a stimulus in small pictures (light_pictures.h), one for each picture
     /// of its motion, from the cache. What is not there is made if `make` says so, which reads all frames of
     /// the stimulus. Nothing for what is not there, and for ready-made frames without alpha: what they show
@@ -76,6 +86,7 @@ class StimulusLibrary final : public FrameSource {
   private:
     const LinearImage& read_object(const Stimulus& stimulus, int page, LinearImage& room) const;
     const LinearImage& background_of(const Stimulus& stimulus) const;
+    ContentHash object_pixels_hash(const Stimulus& stimulus) const;
     ContentHash object_hash(const Stimulus& stimulus) const;
     LightPictures light_of(const Stimulus& stimulus) const;
     glm::ivec2 image_px(const Stimulus& stimulus) const;
@@ -88,6 +99,7 @@ class StimulusLibrary final : public FrameSource {
     /// By background and view, once a page needed them; pages are read by several threads.
     mutable std::mutex backgrounds_mutex_;
     mutable std::map<std::pair<int, int>, LinearImage> backgrounds_;
+    std::vector<std::string> remarks_;
 };
 
 } // namespace overt
