@@ -80,9 +80,9 @@ void remake_session(const RemakeRequest& request, ReplayReport& report) {
                          request.context);
     const std::string no_frames = stimuli.prepare(record, experiment.protocol);
     const bool has_pictures = no_frames.empty() && fs::exists(record.directory() / "stimuli");
-    SessionHeader now =
-        make_session_header(experiment.protocol, schedule, experiment.objects, stimuli.library(),
-                            stimuli.context().description(), header.tracker, header.clock, true, no_frames.empty());
+    SessionHeader now = make_session_header(experiment.protocol, schedule, experiment.objects,
+                                            stimuli.library(), stimuli.context().description(),
+                                            header.tracker, header.clock, true, no_frames.empty());
     now.session_number = header.session_number;
     now.display.timing = header.display.timing; // what the display proved cannot be found again
     keep_recorded_maps(header, now);
@@ -98,6 +98,8 @@ void remake_session(const RemakeRequest& request, ReplayReport& report) {
     take_what_happened(recorded_file, remade_file, !no_frames.empty());
     const RecordComparison found = compare_records(recorded_file, remade_file);
     report.differences = found.differences;
+    if (found.unknown_frames > 0)
+        report.not_compared.push_back(pixels_not_known(found.unknown_frames));
     report.compared.push_back(fmt::format("what stands fixed before the first trial{}",
                                           no_frames.empty() ? ", with the hashes of all frames" : ""));
     if (!no_frames.empty())

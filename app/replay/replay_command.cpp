@@ -86,6 +86,8 @@ void present_again(const SessionRecord& record, const ReplayOptions& options, co
         if (replay->cut)
             report.not_compared.push_back(fmt::format("what follows the end of sitting {}'s record, for {}",
                                                       sitting, replay->cut->why));
+        if (found.unknown_frames > 0 && sitting == 1)
+            report.not_compared.push_back(pixels_not_known(found.unknown_frames));
         report.differences = found.differences;
         for (const auto& [id, further] : replay->further) {
             report.compared.push_back(

@@ -18,6 +18,13 @@ std::string sentence_on(const FileDifference& difference) {
 
 } // namespace
 
+std::string pixels_not_known(std::int64_t stimuli) {
+    return fmt::format(
+        "the pixels of the frames of {}: the session's program hashed what they are made from, and "
+        "not them, or drew nothing",
+        counted(static_cast<std::size_t>(stimuli), "stimulus", "stimuli"));
+}
+
 std::string to_text(const ReplayReport& report) {
     std::string text;
     if (!report.why_not.empty())

@@ -1,6 +1,7 @@
 /// What came out of presenting a session again, in words and for programs.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,6 +24,9 @@ struct ReplayReport {
     std::vector<FileDifference> files;         ///< of the folder and of the exports
     bool is_same() const { return differences.empty() && files.empty(); }
 };
+
+/// Of stimuli of whose frames the record, or the replay, does not know the pixels.
+std::string pixels_not_known(std::int64_t stimuli);
 
 /// The first difference first.
 std::string to_text(const ReplayReport& report);

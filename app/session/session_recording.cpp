@@ -152,8 +152,8 @@ SessionHeader make_session_header(const Protocol& protocol, const Schedule& sche
     for (const Task& task : protocol.tasks)
         header.tasks.push_back({task.id, task.question});
     for (const Stimulus& stimulus : stimuli_in_slots(protocol))
-        header.stimuli.push_back(
-            {stimulus, library.source_of(stimulus), with_frames ? library.frames_hash(stimulus) : ContentHash(),
+        header.stimuli.push_back({stimulus, library.source_of(stimulus),
+                                  with_frames ? library.frames_hash(stimulus) : ContentHash(),
                                   library.made_from_hash(stimulus),
                                   with_frames ? library.renderer_of(stimulus) : std::string()});
     describe_objects(header, protocol, objects, library, with_prepared_maps);

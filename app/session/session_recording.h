@@ -13,7 +13,8 @@
 namespace overt {
 
 /// What a session is made of, gathered for its record. The library's frames must be prepared, and its maps if
-/// they are to be in it. `with_frames`: false where nothing is drawn, and the pixels of frames are not known. File names are those that put_files() gives.
+/// they are to be in it. `with_frames`: false where nothing is drawn, and the pixels of frames are not known.
+/// File names are those that put_files() gives.
 SessionHeader make_session_header(const Protocol& protocol, const Schedule& schedule,
                                   std::span<const Object> objects, const StimulusLibrary& library,
                                   const GlDescription& graphics, const TrackerDescription& tracker,

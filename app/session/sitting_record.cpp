@@ -25,8 +25,7 @@ SittingRecord::Folder SittingRecord::open_folder(const RunOptions& options, cons
                                                  Rig& rig) {
     SessionHeader now = make_session_header(
         experiment.protocol, plan.schedule, experiment.objects, rig.library(), rig.context().description(),
-        rig.tracker().description(), rig.clock_kind(), !rig.maps_are_live(),
-        options.draws_stimuli);
+        rig.tracker().description(), rig.clock_kind(), !rig.maps_are_live(), options.draws_stimuli);
     now.display.timing = rig.timing_word();
     if (plan.resumed) {
         require_same_stimuli(*plan.resumed, now);

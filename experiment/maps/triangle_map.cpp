@@ -65,9 +65,10 @@ TriangleMap read_triangle_map(const std::filesystem::path& file) {
     picture.read(1, PixelType::bits32, map.codes.data());
     const std::string said = header.text(codes_attribute);
     if (!said.empty() && said != hash_of_codes(map))
-        throw InputError(fmt::format("{}: has other triangles than it was written with: it is damaged, or was "
-                                     "changed",
-                                     file.string()));
+        throw InputError(
+            fmt::format("{}: has other triangles than it was written with: it is damaged, or was "
+                        "changed",
+                        file.string()));
     return map;
 }
 

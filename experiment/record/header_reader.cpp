@@ -195,10 +195,12 @@ void read_objects(const SQLite::Database& database, SessionHeader& header) {
         header.objects[object].part_names.push_back(row.text());
     }
     read_cameras(database, header);
-    const bool knows_pixels = has_column(database, "stimulus", "made_from_sha256");
-    for (Query row(database, fmt::format("SELECT {}, source, frames_sha256, {} FROM stimulus",
+    const auto or_empty = [&](const char* column) {
+        return has_column(database, "stimulus", column) ? column : "''";
+    };
+    for (Query row(database, fmt::format("SELECT {}, source, frames_sha256, {}, {} FROM stimulus",
                                          stimulus_columns_of(database, "stimulus"),
-                                         knows_pixels ? "made_from_sha256, drawn_by" : "'', ''")
+                                         or_empty("made_from_sha256"), or_empty("drawn_by"))
                                  .c_str());
          row.step();) {
         RecordedStimulus& stimulus = header.stimuli.emplace_back();
@@ -206,7 +208,7 @@ void read_objects(const SQLite::Database& database, SessionHeader& header) {
                  stimulus.drawn_by);
         // What earlier programs called the hash of the frames is that of what they are made from.
         if (stimulus.made_from_sha256.empty())
-            std::swap(stimulus.frames_sha256, stimulus.made_from_sha256, stimulus.drawn_by);
+            std::swap(stimulus.frames_sha256, stimulus.made_from_sha256);
     }
     // In version 1 all maps were of triangles.
     Query version(database, "PRAGMA user_version");

@@ -67,7 +67,7 @@ void show_todays_names(SQLite::Database& database) {
         std::vector<std::string> shown;
         for (const std::string& column : columns) {
             if (has_recipes_alone && column == "frames_sha256")
-                shown.emplace_back("'' AS frames_sha256, frames_sha256 AS made_from_sha256, '' AS drawn_by");
+                shown.emplace_back("'' AS frames_sha256, frames_sha256 AS made_from_sha256");
             else
                 shown.push_back(fmt::format("\"{}\" AS \"{}\"", column, todays_name(column)));
         }

@@ -50,8 +50,8 @@ std::optional<std::string> why_header_is_no_frame(const PictureHeader& header, c
 }
 
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& why) {
-    throw InputError(fmt::format("{}: this file of the cache {}: remove it, so that it is made anew",
-                                 file.string(), why));
+    throw InputError(
+        fmt::format("{}: this file of the cache {}: remove it, so that it is made anew", file.string(), why));
 }
 
 } // namespace

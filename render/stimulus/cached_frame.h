@@ -32,8 +32,8 @@ void write_cached_frame(const std::filesystem::path& file, const LinearImage& im
 std::optional<std::string> why_no_frame(const std::filesystem::path& file, const FrameIdentity& identity,
                                         bool must_say_all);
 
-/// The hash of a frame's pixels, as its file says it. A file of an earlier program, which does not, is read and
-/// written again with it, where it can be. Throws InputError.
+/// The hash of a frame's pixels, as its file says it. A file of an earlier program, which does not, is read
+/// and written again with it, where it can be. Throws InputError.
 ContentHash pixels_hash_of(const std::filesystem::path& file, const FrameIdentity& identity);
 
 /// Reads a frame, and compares identity and pixels with what its file says. Throws InputError naming the file

@@ -106,10 +106,11 @@ void FrameMaker::draw_live_frame(const Stimulus& stimulus, const Pose& pose, con
     if (writing.valid())
         writing.get();
     const GlDescription& gl = context_->description();
-    writing = std::async(std::launch::async, [this, stimulus, pose, quality, image = std::move(image),
-                                              renderer = fmt::format("{}, OpenGL {}", gl.renderer, gl.version)] {
-        cache_->store_live(stimulus, pose, quality, image, renderer);
-    });
+    writing =
+        std::async(std::launch::async, [this, stimulus, pose, quality, image = std::move(image),
+                                        renderer = fmt::format("{}, OpenGL {}", gl.renderer, gl.version)] {
+            cache_->store_live(stimulus, pose, quality, image, renderer);
+        });
 }
 
 SpectralFrame FrameMaker::trace(const Stimulus& stimulus, const Pose& pose, const FrameQuality& quality,

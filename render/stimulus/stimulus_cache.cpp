@@ -119,16 +119,13 @@ ContentHash StimulusCache::pixels_hash(const Stimulus& stimulus, const FrameQual
         if (!std::filesystem::exists(file))
             are_all_there = false;
         if (are_all_there)
-            hashes[static_cast<std::size_t>(i)] =
-                pixels_hash_of(file, identity_of(stimulus, quality, pose));
+            hashes[static_cast<std::size_t>(i)] = pixels_hash_of(file, identity_of(stimulus, quality, pose));
     });
     if (!are_all_there)
         return {};
     ContentHasher hasher;
     for (std::size_t i = 0; i < pictures.size(); ++i)
-        hasher.add(pictures[i].object.value)
-            .add(pictures[i].light.value)
-            .add(std::string_view(hashes[i]));
+        hasher.add(pictures[i].object.value).add(pictures[i].light.value).add(std::string_view(hashes[i]));
     return hasher.finish();
 }
 
@@ -276,15 +273,17 @@ SceneView StimulusCache::scene_of_given_maps(const ViewedObject& viewed) const {
 bool StimulusCache::has_map(const ViewedObject& viewed, PoseIndex pose) const {
     const std::filesystem::path file = map_file(viewed, pose);
     return std::filesystem::exists(file) &&
-           is_map_of(file, objects_[static_cast<std::size_t>(viewed.object)].mesh_hash, poses_.angle_of(pose));
+           is_map_of(file, objects_[static_cast<std::size_t>(viewed.object)].mesh_hash,
+                     poses_.angle_of(pose));
 }
 
 TriangleMap StimulusCache::read_map(const ViewedObject& viewed, PoseIndex pose) const {
     const std::filesystem::path file = map_file(viewed, pose);
     if (std::filesystem::exists(file) && !has_map(viewed, pose))
-        throw InputError(fmt::format("{}: this file of the cache is not the map that its name says, or not whole: "
-                                     "remove it, so that it is made anew",
-                                     file.string()));
+        throw InputError(
+            fmt::format("{}: this file of the cache is not the map that its name says, or not whole: "
+                        "remove it, so that it is made anew",
+                        file.string()));
     return read_triangle_map(file);
 }
 

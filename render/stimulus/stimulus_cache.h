@@ -102,12 +102,12 @@ class StimulusCache {
     /// Everything that makes a stimulus's frames but the object's angles.
     ContentHash frame_key(const Stimulus& stimulus, const FrameQuality& quality) const;
 
-    /// Of the pixels of a stimulus's frames, in the order of its pictures, with their poses; empty while one of
-    /// them is not there. Throws InputError.
+    /// Of the pixels of a stimulus's frames, in the order of its pictures, with their poses; empty while one
+    /// of them is not there. Throws InputError.
     ContentHash pixels_hash(const Stimulus& stimulus, const FrameQuality& quality) const;
 
-    /// What OpenGL said of its renderer when it drew a stimulus's live frames: several, where it was not always
-    /// the same. Empty for others.
+    /// What OpenGL said of its renderer when it drew a stimulus's live frames: several, where it was not
+    /// always the same. Empty for others.
     std::string renderer_of(const Stimulus& stimulus, const FrameQuality& quality) const;
 
     /// What turns a stimulus's frame file into the display's light; the exposure is in it.

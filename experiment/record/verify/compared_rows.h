@@ -27,10 +27,17 @@ inline constexpr CircumstanceColumn circumstance_columns[] = {
     {"session", "gl_version"},      {"sitting", "started_utc"},
     {"sitting", "program_version"}, {"sitting", "program_sha256"},
     {"consent", "at_utc"},          {"map", "sha256"}, // of the file; its pixels are compared
+    {"stimulus", "drawn_by"},
 };
 inline bool is_circumstance(std::string_view table, std::string_view column) {
     return std::any_of(std::begin(circumstance_columns), std::end(circumstance_columns),
                        [&](const auto& of) { return of.table == table && of.column == column; });
+}
+
+/// Hashes of frames are compared where both files know them: earlier programs did not, nor does a session
+/// that drew nothing.
+inline bool may_be_unknown(std::string_view table, std::string_view column) {
+    return table == "stimulus" && column == "frames_sha256";
 }
 
 /// A table that both files have.

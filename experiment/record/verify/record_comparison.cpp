@@ -137,6 +137,8 @@ class TableComparison {
     }
 
     std::int64_t rows() const { return rows_; }
+    /// Values that one of the files does not know.
+    std::int64_t unknown() const { return unknown_; }
 
   private:
     std::optional<std::int64_t> value(const RowCursor& row, std::string_view column) const {
@@ -185,7 +187,7 @@ class TableComparison {
         return 0;
     }
 
-    std::optional<Ranked> compare_values() const {
+    std::optional<Ranked> compare_values() {
         if (is_left_out(recorded_))
             return std::nullopt;
         const bool is_begun_only = is_in_cut_attempt(recorded_);
@@ -195,6 +197,11 @@ class TableComparison {
                 continue;
             if (recorded_.is_same(column, replayed_))
                 continue;
+            if (may_be_unknown(table_.name, name) &&
+                (recorded_.text(column).empty() || replayed_.text(column).empty())) {
+                ++unknown_;
+                continue;
+            }
             Ranked ranked = missing(recorded_, recorded_.text(column), replayed_.text(column));
             const DifferingLine line = differing_line(ranked.difference.recorded, ranked.difference.replayed);
             ranked.difference.column =
@@ -259,7 +266,7 @@ class TableComparison {
     const Attempts& attempts_;
     const std::optional<RecordCut>& cut_;
     std::vector<int> keys_, compared_;
-    std::int64_t rows_ = 0;
+    std::int64_t rows_ = 0, unknown_ = 0;
 };
 
 /// What stands fixed before the first trial comes first, the session itself before the rest.
@@ -279,6 +286,7 @@ RecordComparison compare(const SQLite::Database& recorded, const SQLite::Databas
         if (std::optional<Ranked> difference = walk.run())
             found.push_back(*std::move(difference));
         comparison.rows += walk.rows();
+        comparison.unknown_frames += walk.unknown();
         if (table.name == "flip")
             comparison.flips = walk.rows();
         if (table.name == "sample")

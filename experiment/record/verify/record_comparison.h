@@ -38,6 +38,7 @@ struct RecordComparison {
     std::int64_t rows = 0; ///< that were compared
     std::int64_t flips = 0, samples = 0;
     int attempts = 0;
+    std::int64_t unknown_frames = 0; ///< stimuli of whose frames one of the files does not know the pixels
     bool is_same() const { return differences.empty(); }
 };
 

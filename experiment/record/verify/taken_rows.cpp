@@ -65,6 +65,12 @@ void take_all(SQLite::Database& database, const SQLite::Database& recorded,
                 database.exec(
                     fmt::format("UPDATE main.{0} SET {1} = (SELECT {1} FROM recorded.{0} AS r WHERE {2})",
                                 table.name, of.column, same_row));
+        // What one file does not know of frames is not told of in the exports of the other.
+        if (const int hash = table.column_called("frames_sha256"); table.name == "stimulus" && hash >= 0) {
+            Query known(recorded, "SELECT count(*) FROM stimulus WHERE frames_sha256 <> ''");
+            if (known.step() && known.integer() == 0)
+                database.exec("UPDATE main.stimulus SET frames_sha256 = '', drawn_by = ''");
+        }
         if (cut && table.name == "sitting")
             database.exec("UPDATE main.sitting SET closed = (SELECT closed FROM recorded.sitting AS r "
                           "WHERE r.sitting = sitting.sitting)");
