@@ -187,8 +187,20 @@ limit_s = 0.3
 id = "b"
 tasks = "t"
 )"));
-    // The limit is the answer's; its step goes on, and a blank one follows.
-    sitting.panel.does = pressing({{350, "f"}, {360, "f", ObserverInput::Kind::key_up}, {600, "j"}});
+    // After the window's end a step follows, in which the observer presses both keys.
+    sitting.panel.does = [opened = std::optional<SessionTime>(), done = std::size_t{0}, trial = -2](
+                             ScriptedPanel& panel, SessionTime now) mutable -> std::optional<ObserverInput> {
+        constexpr TimedKey keys[] = {{350, "f"}, {360, "f", ObserverInput::Kind::key_up}, {600, "j"}};
+        if (std::exchange(trial, panel.trial) != panel.trial)
+            opened.reset(), done = 0;
+        if (panel.opened)
+            opened = panel.opened;
+        if (!opened || done >= std::size(keys) || now < *opened + from_seconds(1e-3 * keys[done].ms))
+            return std::nullopt;
+        ObserverInput input{.kind = keys[done].kind, .at = now, .device = ShortName("keyboard")};
+        input.key = ShortName(keys[done++].key);
+        return input;
+    };
     CHECK(sitting.run().completed_trials == 2);
     for (const TrialOutcome& outcome : sitting.log.outcomes) {
         REQUIRE(outcome.given.size() == 1);
@@ -236,7 +248,7 @@ when = "end"
     for (const Screen& screen : sitting.presenter.screens) {
         std::string what = screen.text;
         if (screen.kind == Screen::Kind::form && !screen.rows.empty())
-            what = screen.rows.front().label;
+            what = screen.rows.front().label.substr(0, screen.rows.front().label.find(" ("));
         if (what != "100 %" && what != "2 of 2" && !what.starts_with("Effort") && what != "Remarks?")
             continue;
         if (order.empty() || order.back() != what)
