@@ -360,46 +360,47 @@ TEST_CASE("a session through a box wants to know that its bytes arrive, and has 
     const std::vector<std::string> verify{"display", "verify", "--hardware", "--port", rig.box->port()};
     const std::string asked = with(text_of(rig.experiment->protocol()), "video_check_days = 0\n", "");
     std::ofstream(rig.experiment->protocol()) << asked;
-    const auto screen_events = [&] {
+    const auto screen_events = [&](int session) {
         std::string all;
-        const SessionRecord record(rig.experiment->session());
+        const SessionRecord record(rig.experiment->session(session));
         for (const RecordedEvent& event : record.events())
             all += event.detail + "\n";
         return all;
     };
+    const auto refused = [&] {
+        const ProgramRun run = rig.overt(rig.session(1));
+        INFO(run.out);
+        CHECK(run.exit_code == 2);
+        return run.err;
+    };
+    const auto runs = [&] {
+        const ProgramRun run = rig.overt(rig.session(1));
+        INFO(run.out << run.err);
+        REQUIRE(run.exit_code == 0);
+    };
 
-    const ProgramRun before = rig.overt(rig.session(1));
-    INFO(before.out << before.err);
-    CHECK(before.exit_code == 2);
-    CHECK_THAT(before.err, Contains("never checked with the box DPP-0042") &&
-                               Contains("overt display verify --hardware") &&
-                               Contains("video_check_days = 0"));
+    CHECK_THAT(refused(), Contains("never checked with the box DPP-0042") &&
+                              Contains("overt display verify --hardware") &&
+                              Contains("video_check_days = 0"));
     CHECK_FALSE(std::filesystem::exists(rig.experiment->sessions()));
     CHECK(rig.box->mode() == "BitsPlusPlus");
 
-    SECTION("once it was seen, the session runs") {
-        REQUIRE(rig.overt(verify).exit_code == 0);
-        const ProgramRun run = rig.overt(rig.session(1));
-        INFO(run.out << run.err);
-        REQUIRE(run.exit_code == 0);
-        CHECK_THAT(screen_events(), Contains("bytes at the box: as drawn: checked on"));
-    }
-    SECTION("a check that failed takes the place of one that passed") {
-        REQUIRE(rig.overt(verify).exit_code == 0);
-        rig.box->distort([](const SeenScreen& seen, int x, int y) {
-            return x == 0 ? RgbBytes{} : RgbBytes(seen.at(x - 1, y));
-        });
-        REQUIRE(rig.overt(verify).exit_code == 1);
-        const ProgramRun run = rig.overt(rig.session(1));
-        CHECK(run.exit_code == 2);
-        CHECK_THAT(run.err, Contains("failed") && Contains("moved 1 px to the right"));
-    }
-    SECTION("without the wish for one, the record says that there was none") {
-        std::ofstream(rig.experiment->protocol())
-            << with(asked, "linearised_by", "video_check_days = 0\nlinearised_by");
-        const ProgramRun run = rig.overt(rig.session(1));
-        INFO(run.out << run.err);
-        REQUIRE(run.exit_code == 0);
-        CHECK_THAT(screen_events(), Contains("bytes at the box: not checked, as the protocol says"));
-    }
+    // Without the wish for one, the record says that there was none.
+    std::ofstream(rig.experiment->protocol())
+        << with(asked, "linearised_by", "video_check_days = 0\nlinearised_by");
+    runs();
+    CHECK_THAT(screen_events(1), Contains("bytes at the box: not checked, as the protocol says"));
+    std::ofstream(rig.experiment->protocol()) << asked;
+
+    // Once it was seen, the session runs.
+    REQUIRE(rig.overt(verify).exit_code == 0);
+    runs();
+    CHECK_THAT(screen_events(2), Contains("bytes at the box: as drawn: checked on"));
+
+    // A check that failed takes the place of one that passed.
+    rig.box->distort([](const SeenScreen& seen, int x, int y) {
+        return x == 0 ? RgbBytes{} : RgbBytes(seen.at(x - 1, y));
+    });
+    REQUIRE(rig.overt(verify).exit_code == 1);
+    CHECK_THAT(refused(), Contains("failed") && Contains("moved 1 px to the right"));
 }
