@@ -58,11 +58,6 @@ class MatchAnswering final : public Answering {
         return form_.levels.axes.empty() ? std::nullopt
                                          : std::optional(form_.levels.level_of(axes_[0].at, axes_[1].at));
     }
-    bool is_at_limit() const noexcept override {
-        return std::ranges::any_of(axes_, [](const Axis& axis) {
-            return axis.count > 1 && (axis.at == 0 || axis.at == axis.count - 1);
-        });
-    }
     void draw(AnswerItem& item) const override { item.kind = AnswerItem::Kind::keys; }
 
     void offer(AnswerOffer& offer) const override {
