@@ -6,54 +6,29 @@
 #include <fmt/format.h>
 
 #include "experiment/base/error.h"
+#include "experiment/motion_phase.h"
 
 namespace overt {
 
-namespace {
-
-/// sin(pi h / n) for a whole h, with the symmetries of the sine applied to the whole numbers first: equal
-/// values come out bit-identical, and there is no negative zero.
-double sine_of_half_turns(int h, int n) {
-    h %= 2 * n;
-    if (h < 0)
-        h += 2 * n;
-    const bool negative = h > n;
-    if (negative)
-        h -= n;
-    h = std::min(h, n - h);
-    if (h == 0)
-        return 0.0;
-    const double sine = std::sin(std::numbers::pi * h / n);
-    return negative ? -sine : sine;
-}
-
-/// Where a motion is in a frame, -1 … 1.
-double sine_of(const Animation& motion, AnimationFrameIndex frame) {
-    OVERT_EXPECTS(frame.value >= 0 && frame.value < motion.frame_count);
-    const int intervals = std::max(motion.frame_count - 1, 1);
-    switch (motion.playback) {
-    case Playback::cycle:
-        return sine_of_half_turns(2 * frame.value, intervals);
-    case Playback::ping_pong:
-        // -cos(pi k / n) = sin(pi (2k - n) / 2n)
-        return sine_of_half_turns(2 * frame.value - intervals, 2 * intervals);
-    }
-    return 0.0;
-}
-
-} // namespace
-
-Degrees Animation::angle_of(AnimationFrameIndex frame) const {
-    if (kind == MotionKind::observer)
-        return by_observer.angle_of(frame.value);
-    const double turn = kind == MotionKind::turn ? amplitude.value * sine_of(*this, frame) : 0.0;
-    return {angle.value + turn};
-}
-
 Pose Animation::pose_of(AnimationFrameIndex frame) const {
-    if (kind == MotionKind::observer)
-        return {angle_of(frame), {0.0}};
-    return {angle_of(frame), {light_amplitude.value * sine_of(*this, frame)}};
+    OVERT_EXPECTS(frame.value >= 0 && frame.value < frame_count);
+    if (!given.empty())
+        return given.at(static_cast<std::size_t>(frame.value));
+    Pose pose = law_of(kind).pose_of(*this, frame);
+    if (light_amplitude.value != 0.0)
+        pose.light.value += light_amplitude.value * sine_of(*this, frame);
+    if (light_turns != 0)
+        pose.light.value = within_half_turn(pose.light.value + full_turns_of(*this, frame, light_turns));
+    return pose;
+}
+
+bool Animation::moves() const {
+    return law_of(kind).moves || light_amplitude.value != 0.0 || light_turns != 0;
+}
+
+const MotionLaw& law_of(MotionKind kind) {
+    static const auto laws = for_each_kind<MotionKind>([]<MotionKind of>() { return &motion_law<of>(); });
+    return *laws.at(static_cast<std::size_t>(kind));
 }
 
 std::vector<Pose> Animation::pictures() const {
@@ -71,8 +46,33 @@ Degrees Animation::largest_turn() const {
         const double most = std::max(std::abs(by_observer.from.value), std::abs(by_observer.to.value));
         return {by_observer.is_whole() ? 180.0 : std::min(most, 180.0)};
     }
-    const double from_front = std::abs(std::remainder(angle.value, 360.0));
-    return {std::min(from_front + (kind == MotionKind::turn ? std::abs(amplitude.value) : 0.0), 180.0)};
+    const auto from_front = [](Degrees turn) { return std::abs(std::remainder(turn.value, 360.0)); };
+    if (kind == MotionKind::turn || kind == MotionKind::still) {
+        const bool turns_about_vertical =
+            kind == MotionKind::turn && (!axis || (axis->x == 0.0 && axis->y == 0.0));
+        const double turn = turns_about_vertical ? std::abs(amplitude.value) : 0.0;
+        return {std::min(from_front(angle) + turn, 180.0)};
+    }
+    double largest = 0.0;
+    for (int frame = 0; frame < frame_count; ++frame)
+        largest = std::max(largest, from_front(angle_of({frame})));
+    return {largest};
+}
+
+bool Animation::turns_light() const {
+    for (int frame = 0; frame < frame_count; ++frame) {
+        if (pose_of({frame}).light.value != 0.0)
+            return true;
+    }
+    return false;
+}
+
+bool Animation::only_turns() const {
+    for (int frame = 0; frame < frame_count; ++frame) {
+        if (!object_in({frame}).is_turn())
+            return false;
+    }
+    return true;
 }
 
 int Animation::shown_frame_count() const { return static_cast<int>(std::lround(duration_s * frame_rate_hz)); }
@@ -99,16 +99,18 @@ AnimationFrameIndex Animation::frame_at_step(int step) const {
 void PoseTable::add(const Animation& motion) {
     std::vector<PoseIndex>& poses = of_motion.emplace_back();
     for (int frame = 0; frame < motion.frame_count; ++frame) {
-        const Degrees turned = motion.angle_of({frame});
-        auto known = std::ranges::find_if(angles, [&](Degrees one) { return is_same_turn(one, turned); });
+        const ObjectPose object = motion.object_in({frame});
+        auto known = std::ranges::find_if(
+            angles, [&](const ObjectPose& one) { return is_same_object_pose(one, object); });
         if (known == angles.end())
-            known = angles.insert(known, turned);
+            known = angles.insert(known, object);
         poses.push_back({static_cast<int>(known - angles.begin())});
     }
 }
 
-PoseIndex PoseTable::index_of(Degrees turn) const {
-    const auto found = std::ranges::find_if(angles, [&](Degrees one) { return is_same_turn(one, turn); });
+PoseIndex PoseTable::index_of(const ObjectPose& object) const {
+    const auto found =
+        std::ranges::find_if(angles, [&](const ObjectPose& one) { return is_same_object_pose(one, object); });
     OVERT_EXPECTS(found != angles.end());
     return {static_cast<int>(found - angles.begin())};
 }

@@ -1,12 +1,16 @@
 /// How an object, and its light, turn while they are shown, and the table by which the frames are shown.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "experiment/base/enum_names.h"
+#include "experiment/motion_kinds.h"
+#include "experiment/object_pose.h"
 #include "experiment/observer_turn.h"
 #include "experiment/units.h"
 
@@ -18,7 +22,7 @@ struct AnimationFrameIndex {
     friend constexpr auto operator<=>(const AnimationFrameIndex&, const AnimationFrameIndex&) = default;
 };
 
-/// Which of the distinct turns that objects are seen in over all motions: frames with the same angle share
+/// Which of the distinct ways in which objects stand over all motions: frames in which they stand alike share
 /// one, whatever motion they are of and wherever the light stands.
 struct PoseIndex {
     int value = 0;
@@ -36,27 +40,26 @@ template <> inline constexpr auto names_of<Playback> = enum_names<Playback>("cyc
 enum class WhenLate { drop, stretch };
 template <> inline constexpr auto names_of<WhenLate> = enum_names<WhenLate>("drop", "stretch");
 
-/// What the object does. `turn`: it goes to and fro about the vertical, as a sine. `still`: it keeps its
-/// angle. `observer`: it stands as the observer turns it.
-enum class MotionKind : std::uint8_t { turn, still, observer };
-template <> inline constexpr auto names_of<MotionKind> = enum_names<MotionKind>("turn", "still", "observer");
+/// How a motion at one speed begins and ends a way. `minimum_jerk`: 10 s^3 - 15 s^4 + 6 s^5 of the way at the
+/// share s of its time (Flash and Hogan 1985, J. Neurosci. 5:1688).
+enum class MotionEase : std::uint8_t { none, minimum_jerk };
+template <> inline constexpr auto names_of<MotionEase> = enum_names<MotionEase>("none", "minimum-jerk");
 
-/// How object and light stand in a frame, about the vertical and counter-clockwise seen from above. With the
-/// camera of a view it is all that a picture of an object in a material and a light depends on.
+/// What is between two rows of a table of places. `step`: the former; `linear`: on a straight line, turned at
+/// one speed.
+enum class BetweenKeys : std::uint8_t { step, linear };
+template <> inline constexpr auto names_of<BetweenKeys> = enum_names<BetweenKeys>("step", "linear");
+
+/// How object and light stand in a frame. With the camera of a view it is all that a picture of an object in
+/// a material and a light depends on.
 struct Pose {
-    Degrees object; ///< turned from its front
-    Degrees light;  ///< turned from where the protocol has it
-    friend constexpr bool operator==(const Pose&, const Pose&) = default;
+    ObjectPose object;
+    Degrees light; ///< turned about the vertical from where the protocol has it, counter-clockwise from above
+    friend bool operator==(const Pose&, const Pose&) = default;
 };
 
-/// Whether two turns are one: motions come to the same angle by different sums, and 25 sin(30 deg) is
-/// not 12.5 to the last bit.
-constexpr bool is_same_turn(Degrees a, Degrees b) {
-    constexpr double rounding_deg = 1e-9;
-    return a.value - b.value <= rounding_deg && b.value - a.value <= rounding_deg;
-}
-constexpr bool is_same_pose(const Pose& a, const Pose& b) {
-    return is_same_turn(a.object, b.object) && is_same_turn(a.light, b.light);
+inline bool is_same_pose(const Pose& a, const Pose& b) {
+    return is_same_object_pose(a.object, b.object) && is_same_turn(a.light, b.light);
 }
 
 /// A motion. Source of the defaults: Sidorov, Harvey, Smithson and Hardeberg 2019, section 4.1.
@@ -69,26 +72,49 @@ struct Animation {
     WhenLate when_late = WhenLate::drop;
     MotionKind kind = MotionKind::turn;
     Degrees angle{0.0}; ///< from the front view: the middle of a turn, or where a still object stands
-    Degrees light_amplitude{0.0}; ///< the light's turn to each side, in step with the object's
-    ObserverTurn by_observer;     ///< of `observer`, whose frames are its poses
+    Degrees light_amplitude{0.0}; ///< the light's turn to each side, as a sine in step with `turn`
+    int light_turns =
+        0; ///< full turns of the light while the frames go by once, at one speed; < 0: clockwise
+    ObserverTurn by_observer; ///< of `observer`, whose frames are its poses
+    // What is about `axis` through `pivot` comes after `angle`.
+    std::optional<glm::dvec3> axis;     ///< of the object's turn, not 0; left out: the vertical
+    std::optional<glm::dvec3> pivot;    ///< from the centre of the object's box, in the unit of its mesh
+    int turns = 1;                      ///< of `turntable` and `orbit`: while the frames go by once
+    double rest_share = 0.25;           ///< of `trapezoid`: of its time, at both ends together
+    MotionEase ease = MotionEase::none; ///< of `triangle` and `trapezoid`
+    std::vector<double> angles_deg;     ///< of `steps`
+    std::vector<std::array<double, 3>> waves;  ///< amplitude / deg, periods in all frames, phase / deg
+    double approach = 0.0;                     ///< of `approach`: towards -y, in the unit of the mesh
+    std::filesystem::path keyframes;           ///< of `keyframes`: a table
+    BetweenKeys between = BetweenKeys::linear; ///< its rows
+    /// How object and light stand in each frame, where it does not follow from the above: by a table, or as
+    /// it was recorded. Else empty.
+    std::vector<Pose> given;
 
-    /// The angle of the object in a frame, counter-clockwise seen from above: of `observer` that of its pose,
-    /// else `angle`, and of `turn` with
-    /// cycle a sin(2 pi k / (n-1)), with ping_pong -a cos(pi k / (n-1)) on top of it. Frames that share a
-    /// pose get bit-identical angles.
-    Degrees angle_of(AnimationFrameIndex frame) const;
+    /// The turn of the object about the vertical in a frame, counter-clockwise seen from above: all of how it
+    /// stands, where it is_turn().
+    Degrees angle_of(AnimationFrameIndex frame) const { return object_in(frame).angle; }
 
-    /// Object and light. The light's turn has the light's amplitude in place of a, and no angle on top.
+    /// How the object stands in a frame. Frames that share a pose get bit-identical numbers.
+    ObjectPose object_in(AnimationFrameIndex frame) const { return pose_of(frame).object; }
+
+    /// Object and light.
     Pose pose_of(AnimationFrameIndex frame) const;
 
     /// Whether anything does.
-    bool moves() const { return kind != MotionKind::still || light_amplitude.value != 0.0; }
+    bool moves() const;
 
     /// The poses that differ, in order of first appearance: what a frame store has to hold of it.
     std::vector<Pose> pictures() const;
 
-    /// The largest turn of the object from its front to either side, 0 … 180 degrees.
+    /// The largest turn of the object about the vertical from its front to either side, 0 … 180 degrees.
     Degrees largest_turn() const;
+
+    /// Whether the light is turned in any frame.
+    bool turns_light() const;
+
+    /// Whether the object is turned about the vertical in some frames, and nothing else in all of them.
+    bool only_turns() const;
 
     /// How many frames one presentation shows: duration times rate, to the nearest whole frame.
     int shown_frame_count() const;
@@ -100,10 +126,10 @@ struct Animation {
     int steps_per_period() const;
 };
 
-/// The distinct turns of the object over all motions of a protocol, in order of first appearance. Motions
-/// that share angles share poses, and with them maps.
+/// The distinct ways in which the object stands over all motions of a protocol, in order of first appearance.
+/// Motions that share them share poses, and with them maps.
 struct PoseTable {
-    std::vector<Degrees> angles; ///< by PoseIndex
+    std::vector<ObjectPose> angles; ///< by PoseIndex
     /// By motion, and then by AnimationFrameIndex.
     std::vector<std::vector<PoseIndex>> of_motion;
 
@@ -113,10 +139,10 @@ struct PoseTable {
     std::span<const PoseIndex> frames_of(int motion) const {
         return of_motion[static_cast<std::size_t>(motion)];
     }
-    Degrees angle_of(PoseIndex pose) const { return angles[static_cast<std::size_t>(pose.value)]; }
+    const ObjectPose& object_of(PoseIndex pose) const { return angles[static_cast<std::size_t>(pose.value)]; }
     int count() const { return static_cast<int>(angles.size()); }
-    /// Of a turn that is among the angles.
-    PoseIndex index_of(Degrees turn) const;
+    /// Of one that is among them.
+    PoseIndex index_of(const ObjectPose& object) const;
 
     /// Adds a motion, which gets the next number.
     void add(const Animation& motion);

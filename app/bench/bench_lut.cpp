@@ -42,7 +42,7 @@ DrawnMaps draw_all(const GlContext& context, const Object& object, const PoseTab
     const MeshBuffers buffers(context, object.mesh);
     pass.draw(buffers, object.scene(), poses.angles.front()); // the first also sets things up
     DrawnMaps drawn;
-    for (const Degrees angle : poses.angles) {
+    for (const ObjectPose& angle : poses.angles) {
         const SteadyTime begin = std::chrono::steady_clock::now();
         drawn.maps.push_back({size, pass.draw(buffers, object.scene(), angle)});
         drawn.times_ms.push_back(milliseconds_since(begin));
@@ -67,7 +67,7 @@ double maps_per_second(const GlContext& context, const Object& object, const Pos
         PixelReadback& read = reads[static_cast<std::size_t>(i % 2)];
         if (read.under_way())
             read.finish(bytes, true);
-        const Degrees angle = poses.angles[static_cast<std::size_t>(i) % poses.angles.size()];
+        const ObjectPose& angle = poses.angles[static_cast<std::size_t>(i) % poses.angles.size()];
         pass.render(buffers, clip_from_centred_object(object.scene(), angle));
         read.start(pass.target());
     }

@@ -29,7 +29,7 @@ std::vector<TriangleMap> draw_maps(const GlContext& context, const Object& objec
     const MeshBuffers buffers(context, object.mesh);
     std::vector<TriangleMap> maps;
     ProgressBar bar;
-    for (const Degrees angle : poses.angles) {
+    for (const ObjectPose& angle : poses.angles) {
         maps.push_back({object.scene().view.image_px, pass.draw(buffers, object.scene(), angle)});
         bar.update("maps of " + object.id, static_cast<int>(maps.size()),
                    static_cast<int>(poses.angles.size()));

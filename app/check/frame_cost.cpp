@@ -106,8 +106,8 @@ FrameCost measure_frame_cost(const GlContext& context, const Protocol& protocol,
         const SceneView& scene = object.scene();
         CoordinatePass pass(context, scene.view.image_px);
         const MeshBuffers buffers(context, object.mesh);
-        pass.draw(buffers, scene, Degrees{0.0});
-        const double map_ms = milliseconds_of([&] { pass.draw(buffers, scene, Degrees{0.0}); });
+        pass.draw(buffers, scene, {{0.0}});
+        const double map_ms = milliseconds_of([&] { pass.draw(buffers, scene, {{0.0}}); });
         cost.worst_map_ms = std::max(cost.worst_map_ms.value_or(0.0), map_ms);
     }
     return cost;

@@ -66,7 +66,7 @@ void examine_cameras(const Protocol& protocol, const Object& object, Diagnostics
         // A camera that overt places itself has the object in its picture.
         if (!protocol.views[view].camera_position)
             continue;
-        const auto outside = std::ranges::find_if(poses.angles, [&](Degrees angle) {
+        const auto outside = std::ranges::find_if(poses.angles, [&](const ObjectPose& angle) {
             return !is_in_picture(object, static_cast<int>(view), angle);
         });
         if (outside == poses.angles.end())
@@ -74,7 +74,7 @@ void examine_cameras(const Protocol& protocol, const Object& object, Diagnostics
         diagnostics.error(protocol.file.string(),
                           protocol.places.of(fmt::format("view[{}].camera_position", view)),
                           fmt::format("object \"{}\" is nowhere in the picture at {:.3g} degrees", object.id,
-                                      outside->value),
+                                      outside->angle.value),
                           "the camera looks at view.camera_target; lengths are in the unit of the mesh");
     }
 }

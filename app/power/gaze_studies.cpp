@@ -246,7 +246,7 @@ void GazeStudies::add_presentation(const Trial& trial, int place, std::uint64_t 
 }
 
 StudyFixation GazeStudies::fixation_at(const ObservedPresentation& on, std::size_t object, ScreenPoint gaze,
-                                       Degrees angle) const {
+                                       const ObjectPose& angle) const {
     StudyFixation found;
     found.place = gaze;
     const std::optional<SurfacePoint> point =
@@ -269,7 +269,7 @@ StudyFixation GazeStudies::fixation_at(const ObservedPresentation& on, std::size
 /// is the root of pi / 2 times their standard deviation.
 std::optional<SurfacePoint> GazeStudies::surface_near(const GazeTargets& targets,
                                                       const ScreenGeometry& screen, glm::dvec2 image,
-                                                      Degrees angle) const {
+                                                      const ObjectPose& angle) const {
     const auto at = [&](glm::dvec2 place) {
         return screen.is_inside_image(place) ? targets.surface_at(place, angle) : std::nullopt;
     };

@@ -78,9 +78,9 @@ class GazeStudies {
     void add_presentation(const Trial& trial, int place, std::uint64_t seed,
                           const std::vector<LookedAt>& shows, StudyResults& results) const;
     StudyFixation fixation_at(const ObservedPresentation& on, std::size_t object, ScreenPoint gaze,
-                              Degrees angle) const;
+                              const ObjectPose& angle) const;
     std::optional<SurfacePoint> surface_near(const GazeTargets& targets, const ScreenGeometry& screen,
-                                             glm::dvec2 image, Degrees angle) const;
+                                             glm::dvec2 image, const ObjectPose& angle) const;
 
     const Experiment& experiment_;
     Factors factors_;

@@ -13,7 +13,7 @@ class CastArea final : public AreaView {
     CastArea(const Mesh& mesh, const SceneView& scene, const ScreenGeometry& screen, const PoseTable& poses,
              std::vector<bool> is_in_area)
         : mesh_(mesh), screen_(screen), caster_(mesh), is_in_area_(std::move(is_in_area)) {
-        for (const Degrees angle : poses.angles)
+        for (const ObjectPose& angle : poses.angles)
             lines_.emplace_back(scene, angle);
     }
 

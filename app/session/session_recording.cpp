@@ -247,7 +247,7 @@ std::vector<RecordedMap> record_live_maps(std::vector<LiveMap> maps, const std::
         const std::string name = map_name(object.id, map.viewed, object.cameras.size(), map.pose);
         const std::filesystem::path file = folder / name;
         std::filesystem::create_directories(file.parent_path());
-        const double angle_deg = header.poses.angles[static_cast<std::size_t>(map.pose.value)].value;
+        const double angle_deg = header.poses.angles[static_cast<std::size_t>(map.pose.value)].angle.value;
         write_triangle_map(
             file, map.map,
             {{"mesh_sha256", object.mesh_sha256}, {"angle_deg", fmt::format("{}", angle_deg)}});

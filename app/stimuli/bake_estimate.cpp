@@ -38,7 +38,7 @@ double seconds_per_path(const BakeScene& scene, const SpectralLight& light, cons
     BakeSettings settings;
     settings.samples = probe_samples;
     const auto begin = std::chrono::steady_clock::now();
-    const SpectralFrame frame = bake_frame(scene, light, view, Degrees{0.0}, covered, settings);
+    const SpectralFrame frame = bake_frame(scene, light, view, {{0.0}}, covered, settings);
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
     double paths = 1.0;
     for (const std::uint16_t samples : frame.samples)
@@ -64,7 +64,7 @@ PathProbe::PathProbe(const Protocol& protocol, std::span<const Object> objects)
                 break;
             const BakeScene scene(object.mesh, protocol.materials[material]);
             if (covered.empty()) {
-                covered = covered_pixels(scene, view, Degrees{0.0});
+                covered = covered_pixels(scene, view, {{0.0}});
                 traced_share_[i] = share_of(covered);
             }
             if (!measured)

@@ -90,7 +90,7 @@ void play_until_closed(OpenDisplay& opened, LiveView& view, const Protocol& prot
         }
         wishes.has_changed = false;
         view.choose(wishes.stimulus);
-        Orbit orbit = wishes.orbit;
+        const Orbit orbit = wishes.orbit;
         Pose pose;
         if (wishes.is_turning) {
             const Animation& motion = protocol.motion_of(wishes.stimulus);
@@ -98,8 +98,7 @@ void play_until_closed(OpenDisplay& opened, LiveView& view, const Protocol& prot
                 static_cast<int>(to_seconds(opened.clock().now() - begin) * motion.frame_rate_hz);
             pose = motion.pose_of(motion.frame_at_step(step));
         }
-        orbit.turn_deg += pose.object.value;
-        picture.show(view.draw(orbit, pose.light), keys_text);
+        picture.show(view.draw(orbit, pose), keys_text);
     }
 }
 
@@ -126,10 +125,8 @@ int play_live(const Protocol& protocol, std::span<const Object> objects, const S
     const ViewSettings& settings = protocol.view_of(stimulus);
     LiveView view(*context, protocol, objects, {settings.width_px, settings.height_px});
     view.choose(stimulus);
-    Orbit orbit;
     const Pose pose = protocol.motion_of(stimulus).pose_of({options.frame.value_or(0)});
-    orbit.turn_deg = pose.object.value;
-    write_srgb_png(options.picture, view.draw(orbit, pose.light));
+    write_srgb_png(options.picture, view.draw({}, pose));
     fmt::print("{}\n", options.picture.string());
     return 0;
 }

@@ -107,7 +107,7 @@ MapDescription description_of(const Object& object, int view, std::string_view u
 /// The exact maps of some poses, drawn anew.
 CoordinateMaps draw_maps(StimulusLibrary& library, const Object& object, const ViewedObject& viewed,
                          const std::map<PoseIndex, std::vector<int>>& frames, ProgressBar& bar) {
-    std::vector<Degrees> angles;
+    std::vector<ObjectPose> angles;
     std::vector<TriangleMap> maps;
     for (const auto& [pose, numbers] : frames) {
         bar.update("mapping " + object.id, static_cast<int>(maps.size()), static_cast<int>(frames.size()));
@@ -117,7 +117,7 @@ CoordinateMaps draw_maps(StimulusLibrary& library, const Object& object, const V
             throw InputError(fmt::format(
                 "object \"{}\" is nowhere in the picture at {:.3g} degrees: correct the camera "
                 "under {}",
-                object.id, angles.back().value, section_of_view(library.cache().protocol(), viewed.view)));
+                object.id, angles.back().angle.value, section_of_view(library.cache().protocol(), viewed.view)));
         }
     }
     return {object.mesh, object.scene(viewed.view), angles, std::move(maps)};
@@ -175,7 +175,7 @@ int run_lut(const LutOptions& options) {
     for (const auto& [pose, numbers] : frames) {
         bar.update(fmt::format("{} {}", writes ? "writing maps of" : "checking", object.id), drawn,
                    static_cast<int>(frames.size()));
-        description.angle = library.cache().poses().angles[static_cast<std::size_t>(pose.value)];
+        description.angle = library.cache().poses().object_of(pose).angle;
         CoordinateImage image = coordinate_image(maps, {drawn++}, scene.view.image_px);
         if (rays) {
             const MapCheck one = check_map(image, *rays, scene, *description.angle, options.scale);

@@ -106,12 +106,12 @@ class HeadView {
     }
     Ray ray_at(glm::dvec2 image_px, const Orbit& orbit) const {
         return to_object(seen_from(scene_, orbit).view.ray_through(image_px),
-                         scene_.pose_at(Degrees{orbit.turn_deg}));
+                         scene_.pose_at({{orbit.turn_deg}}));
     }
     /// In squares of two pixels, which is fine enough to judge and quick enough to follow the hand.
     void tint_head(LinearImage& picture, const Orbit& orbit) const {
         const View view = seen_from(scene_, orbit).view;
-        const TurntablePose pose = scene_.pose_at(Degrees{orbit.turn_deg});
+        const TurntablePose pose = scene_.pose_at({{orbit.turn_deg}});
         const glm::ivec2 squares = picture.size_px / 2;
         std::vector<Ray> rays;
         rays.reserve(static_cast<std::size_t>(squares.x) * static_cast<std::size_t>(squares.y));
@@ -133,7 +133,7 @@ class HeadView {
         }
     }
     void mark(LinearImage& picture, const Orbit& orbit, glm::dvec3 point) const {
-        const glm::dmat4 world_from_object = scene_.pose_at(Degrees{orbit.turn_deg}).world_from_object();
+        const glm::dmat4 world_from_object = scene_.pose_at({{orbit.turn_deg}}).world_from_object();
         const View view = seen_from(scene_, orbit).view;
         const glm::ivec2 middle(view.project(glm::dvec3(world_from_object * glm::dvec4(point, 1.0))));
         for (int y = -4; y <= 4; ++y) {

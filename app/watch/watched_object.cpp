@@ -16,7 +16,7 @@ namespace {
 struct Recorded {
     RecordedObject object;
     ScreenGeometry screen;
-    std::vector<Degrees> angles;
+    std::vector<ObjectPose> angles;
     Mesh mesh;
 };
 
@@ -60,7 +60,7 @@ const std::string& WatchedObject::part_of(const RayHit& hit) const {
 
 double WatchedObject::degree_on_surface() const {
     const double depth = scene_.view.depth_of(scene_.bounds.centre());
-    return screen_.px_per_deg_at_centre() * SightLines(scene_, Degrees{0.0}).pixel_width_at(depth);
+    return screen_.px_per_deg_at_centre() * SightLines(scene_, {{0.0}}).pixel_width_at(depth);
 }
 
 } // namespace overt

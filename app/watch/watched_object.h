@@ -45,7 +45,7 @@ class WatchedObject {
     Mesh mesh_;
     ScreenGeometry screen_;
     SceneView scene_;
-    std::vector<Degrees> angles_; ///< by pose
+    std::vector<ObjectPose> angles_; ///< by pose
     RayCaster rays_;
 };
 

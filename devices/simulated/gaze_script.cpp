@@ -189,7 +189,7 @@ PursuedTurn::PursuedTurn(const ObservedScene& scene, int motion)
     OVERT_EXPECTS(steps_ > 0);
     const Animation& animation = scene.animation_of(motion);
     for (int step = 0; step < animation.steps_per_period(); ++step)
-        angles_.push_back(animation.angle_of(animation.frame_at_step(step)));
+        angles_.push_back(animation.object_in(animation.frame_at_step(step)));
 }
 
 std::vector<PursuedTurn> turns_of(const ObservedScene& scene) {
@@ -199,13 +199,12 @@ std::vector<PursuedTurn> turns_of(const ObservedScene& scene) {
     return turns;
 }
 
-Degrees PursuedTurn::angle_at(SessionDuration since_lit) const noexcept {
+ObjectPose PursuedTurn::angle_at(SessionDuration since_lit) const noexcept {
     const double steps = to_seconds(since_lit) / to_seconds(frame_period_) - 0.5;
     const double place = std::clamp(steps, 0.0, steps_ - 1.0);
     const int before = static_cast<int>(place);
     const double share = place - before;
-    const double from = angle_of_step(before).value, to = angle_of_step(before + 1).value;
-    return {share == 0.0 ? from : from + share * (to - from)};
+    return between(angle_of_step(before), angle_of_step(before + 1), share);
 }
 
 int PursuedTurn::step_at(SessionDuration since_lit) const noexcept {
@@ -251,7 +250,7 @@ ScreenPoint place_of(const ScriptedFixation& fixation, SessionDuration since_ons
     if (!fixation.target)
         return fixation.place;
     const ObservedPresentation& on = shown[fixation.shown];
-    const Degrees angle = on.turn->angle_at(since_onset - fixation.light_delay);
+    const ObjectPose angle = on.turn->angle_at(since_onset - fixation.light_delay);
     return on.screen.screen_from_image(
         on.targets->project(fixation.target->position, on.targets->world_from_object(angle)));
 }

@@ -38,16 +38,16 @@ class PursuedTurn {
     int motion() const noexcept { return motion_; }
 
     /// `since_lit` counts from the instant at which the first frame's light reached the place looked at.
-    Degrees angle_at(SessionDuration since_lit) const noexcept;
+    ObjectPose angle_at(SessionDuration since_lit) const noexcept;
 
     /// The step lit then, 0 … steps-1; the first and the last stay.
     int step_at(SessionDuration since_lit) const noexcept;
-    Degrees angle_of_step(int step) const noexcept {
+    const ObjectPose& angle_of_step(int step) const noexcept {
         return angles_[static_cast<std::size_t>(step) % angles_.size()];
     }
 
   private:
-    std::vector<Degrees> angles_; ///< of one period
+    std::vector<ObjectPose> angles_; ///< of one period
     SessionDuration frame_period_;
     int steps_ = 0; ///< shown in one presentation
     int motion_ = 0;

@@ -53,7 +53,7 @@ GazeTargets::GazeTargets(const ObservedObject& object, const ObservedScene& scen
         std::vector<glm::dvec3>& eyes = eyes_.emplace_back();
         for (int step = 0; step < motion.steps_per_period(); ++step)
             eyes.push_back(turned_back(scene_.view.camera.position,
-                                       scene_.pose_at(motion.angle_of(motion.frame_at_step(step)))));
+                                       scene_.pose_at(motion.object_in(motion.frame_at_step(step)))));
     }
     for (std::size_t effect = 0; effect < scene.effects.size(); ++effect) {
         RandomStream random(effect, "spot of an effect");
@@ -180,7 +180,7 @@ bool GazeTargets::is_visible(const SurfacePoint& point, int motion, int step) co
     return facing >= least_facing && !caster_.is_hidden(point.position, eye);
 }
 
-std::optional<SurfacePoint> GazeTargets::surface_at(glm::dvec2 image_point_px, Degrees angle) const noexcept {
+std::optional<SurfacePoint> GazeTargets::surface_at(glm::dvec2 image_point_px, const ObjectPose& angle) const noexcept {
     const Ray ray = scene_.view.ray_through(image_point_px);
     const TurntablePose pose = scene_.pose_at(angle);
     const Ray object_ray = to_object(ray, pose);
@@ -199,7 +199,7 @@ std::optional<SurfacePoint> GazeTargets::surface_at(glm::dvec2 image_point_px, D
     return point;
 }
 
-glm::dmat4 GazeTargets::world_from_object(Degrees angle) const noexcept {
+glm::dmat4 GazeTargets::world_from_object(const ObjectPose& angle) const noexcept {
     return scene_.pose_at(angle).world_from_object();
 }
 

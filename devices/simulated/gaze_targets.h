@@ -41,11 +41,11 @@ class GazeTargets {
     bool is_visible(const SurfacePoint& point, int motion, int step) const noexcept;
 
     /// What is seen at a place of the image.
-    std::optional<SurfacePoint> surface_at(glm::dvec2 image_point_px, Degrees angle) const noexcept;
+    std::optional<SurfacePoint> surface_at(glm::dvec2 image_point_px, const ObjectPose& angle) const noexcept;
 
     /// Image place of a point of the object, whose turn is `world_from_object`.
     glm::dvec2 project(glm::dvec3 object_point, const glm::dmat4& world_from_object) const noexcept;
-    glm::dmat4 world_from_object(Degrees angle) const noexcept;
+    glm::dmat4 world_from_object(const ObjectPose& angle) const noexcept;
 
   private:
     struct WeightedTriangles {

@@ -46,7 +46,7 @@ SimulatedObserver::SimulatedObserver(ObservedScene scene, std::uint64_t seed,
     for (std::size_t i = 0; i < scene_.animations.size(); ++i) {
         Motion& motion = motions_.emplace_back(Motion{PursuedTurn(scene_, static_cast<int>(i)), {}});
         for (int frame = 0; frame < scene_.animations[i].frame_count; ++frame)
-            motion.angle_of_frame.push_back(scene_.animations[i].angle_of({frame}));
+            motion.angle_of_frame.push_back(scene_.animations[i].object_in({frame}));
     }
     for (const ObservedObject& object : scene_.objects) {
         const bool has_surface = object.mesh && !object.mesh->triangles.empty();
@@ -218,7 +218,7 @@ GazeTruth SimulatedObserver::truth_at(SessionTime time) const noexcept {
         truth.shown = i;
         truth.slot = of.slot;
         truth.frame = lit->frame_of(i, flip);
-        const std::vector<Degrees>& angles =
+        const std::vector<ObjectPose>& angles =
             motions_[static_cast<std::size_t>(of.turn->motion())].angle_of_frame;
         if (of.targets && *truth.frame != no_frame)
             truth.surface =

@@ -141,7 +141,7 @@ class SimulatedObserver final : public PresentationListener {
     /// A motion as it is seen.
     struct Motion {
         PursuedTurn turn;
-        std::vector<Degrees> angle_of_frame;
+        std::vector<ObjectPose> angle_of_frame;
     };
     std::vector<Motion> motions_;
     FixationalMotion wandering_;

@@ -32,7 +32,7 @@ void check_map(const Mesh& mesh, glm::ivec2 image_px, const TriangleMap& map) {
 
 } // namespace
 
-CoordinateMaps::CoordinateMaps(const Mesh& mesh, const SceneView& scene, const std::vector<Degrees>& angles,
+CoordinateMaps::CoordinateMaps(const Mesh& mesh, const SceneView& scene, const std::vector<ObjectPose>& angles,
                                std::vector<TriangleMap> maps, Use use)
     : CoordinateMaps(
           mesh, scene, angles,
@@ -42,12 +42,12 @@ CoordinateMaps::CoordinateMaps(const Mesh& mesh, const SceneView& scene, const s
           },
           use) {}
 
-CoordinateMaps::CoordinateMaps(const Mesh& mesh, const SceneView& scene, const std::vector<Degrees>& angles,
+CoordinateMaps::CoordinateMaps(const Mesh& mesh, const SceneView& scene, const std::vector<ObjectPose>& angles,
                                const std::function<TriangleMap(PoseIndex)>& map_of, Use use)
     : mesh_(&mesh), image_px_(scene.view.image_px), walk_(mesh), caster_(mesh) {
     if (mesh.triangles.size() > PixelCell::most_triangles)
         throw InputError(fmt::format("a mesh of {} triangles is too large for a map", mesh.triangles.size()));
-    for (const Degrees angle : angles)
+    for (const ObjectPose& angle : angles)
         sight_lines_.emplace_back(scene, angle);
     std::optional<Contours> contours;
     if (use == Use::many_lookups)

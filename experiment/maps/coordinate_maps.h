@@ -32,12 +32,12 @@ class CoordinateMaps final : public SurfaceLookup {
 
     /// `mesh` must outlive this; `angles` and `maps` by PoseIndex, equally long. Throws InputError if a map
     /// has another size than the view or names a triangle that the mesh does not have.
-    CoordinateMaps(const Mesh& mesh, const SceneView& scene, const std::vector<Degrees>& angles,
+    CoordinateMaps(const Mesh& mesh, const SceneView& scene, const std::vector<ObjectPose>& angles,
                    std::vector<TriangleMap> maps, Use use = Use::many_lookups);
 
     /// The same from maps that are made one by one, so that never all of them are in memory: `map_of` is
     /// asked once for each pose, from several threads at once.
-    CoordinateMaps(const Mesh& mesh, const SceneView& scene, const std::vector<Degrees>& angles,
+    CoordinateMaps(const Mesh& mesh, const SceneView& scene, const std::vector<ObjectPose>& angles,
                    const std::function<TriangleMap(PoseIndex)>& map_of, Use use = Use::many_lookups);
 
     std::optional<SurfacePoint> surface_at(PoseIndex pose, glm::dvec2 point_px) const override;

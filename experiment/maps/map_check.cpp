@@ -18,7 +18,7 @@ constexpr double deepest_step = 0.01;
 
 using Hits = std::vector<std::optional<RayHit>>;
 
-Hits hits_of_centres(const RayCaster& rays, const SceneView& scene, Degrees angle) {
+Hits hits_of_centres(const RayCaster& rays, const SceneView& scene, const ObjectPose& angle) {
     const glm::ivec2 size = scene.view.image_px;
     std::vector<Ray> lines(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y));
     parallel_for(size.y, [&](int y) {
@@ -113,7 +113,7 @@ struct Findings {
 
 } // namespace
 
-MapCheck check_map(const CoordinateImage& map, const RayCaster& rays, const SceneView& scene, Degrees angle,
+MapCheck check_map(const CoordinateImage& map, const RayCaster& rays, const SceneView& scene, const ObjectPose& angle,
                    int scale) {
     const glm::ivec2 size = scene.view.image_px;
     if (map.size_px != size) {

@@ -11,7 +11,7 @@ namespace overt {
 /// along the viewing direction.
 class SightLines {
   public:
-    SightLines(const SceneView& scene, Degrees angle);
+    SightLines(const SceneView& scene, const ObjectPose& object);
 
     glm::dvec3 origin() const { return origin_; }
 

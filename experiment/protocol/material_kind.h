@@ -9,7 +9,14 @@
 namespace overt {
 
 /// The number of a kind is in the keys of all its frames in the cache: new ones come last.
-enum class MaterialKind : std::uint8_t { smooth_conductor, rough_conductor, coated_conductor, diffuse };
+enum class MaterialKind : std::uint8_t {
+    smooth_conductor,
+    rough_conductor,
+    coated_conductor,
+    diffuse,
+    plastic,
+    metallic_roughness,
+};
 
 struct MaterialKindRow {
     MaterialKind kind;
@@ -25,12 +32,23 @@ struct MaterialKindRow {
 /// All kinds, in the order of MaterialKind.
 inline constexpr auto material_kinds = std::to_array<MaterialKindRow>({
     {MaterialKind::smooth_conductor, "smooth-conductor", "polished metal", {"metal"}},
-    {MaterialKind::rough_conductor, "rough-conductor", "brushed metal", {"metal", "roughness"}},
+    {MaterialKind::rough_conductor,
+     "rough-conductor",
+     "brushed metal",
+     {"metal", "roughness", "multiple_scattering"}},
     {MaterialKind::coated_conductor,
      "coated-conductor",
      "polished metal under a bumpy coloured coat",
      {"metal", "coat_ior", "coat_absorbance", "coat_thickness", "coat_bump", "coat_bump_width", "coat_seed"}},
     {MaterialKind::diffuse, "diffuse", "a matt surface", {"reflectance"}},
+    {MaterialKind::plastic,
+     "plastic",
+     "a matt body under a clear surface, polished or rough",
+     {"reflectance", "roughness", "roughness_as", "ior", "body"}},
+    {MaterialKind::metallic_roughness,
+     "metallic-roughness",
+     "what other programs call metallic-roughness, with a clear coat or without",
+     {"reflectance", "roughness", "ior", "metallic", "clear_coat", "clear_coat_roughness"}},
 });
 
 constexpr const MaterialKindRow& row_of(MaterialKind kind) {

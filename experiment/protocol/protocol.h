@@ -275,12 +275,21 @@ struct ObjectSettings : ListEntry {
     std::vector<AreaSettings> areas;            ///< beside those that the mesh file and `labels` name
 };
 
+/// What the reflectance of a plastic is of: `light`, of the light that leaves its body, as a colour measured
+/// on it is; `pigment`, of the body itself, which throws much of it back inside at its own surface.
+enum class PlasticBody : std::uint8_t { light, pigment };
+template <> inline constexpr auto names_of<PlasticBody> = enum_names<PlasticBody>("light", "pigment");
+
+/// What `roughness` is: the GGX alpha itself, or its square root, as programs that call it perceived have it.
+enum class RoughnessAs : std::uint8_t { alpha, root };
+template <> inline constexpr auto names_of<RoughnessAs> = enum_names<RoughnessAs>("alpha", "root");
+
 /// [[material]]
 struct MaterialSettings : ListEntry {
     MaterialKind kind = MaterialKind::smooth_conductor;
     std::string metal =
         "Au"; ///< "Au", "Ag", or a file (metal_table.h), resolved against the protocol's folder
-    double roughness = 0.13; ///< GGX alpha of rough_conductor
+    double roughness = 0.13; ///< see alpha()
     double coat_ior = 1.4;
     std::array<double, 3> coat_absorbance{0.0, 0.10,
                                           0.75}; ///< red, green, blue, for one pass of the nominal thickness
@@ -289,7 +298,22 @@ struct MaterialSettings : ListEntry {
     double coat_bump = 0.015;                         ///< height of its bumps
     double coat_bump_width = 0.05;                    ///< from one bump to the next
     int coat_seed = 0;                                ///< of the bumps
-    std::array<double, 3> reflectance{0.5, 0.5, 0.5}; ///< of diffuse
+    std::array<double, 3> reflectance{0.5, 0.5, 0.5}; ///< of diffuse, plastic, metallic_roughness
+    RoughnessAs roughness_as = RoughnessAs::alpha;    ///< of plastic; of metallic_roughness it is the root
+    bool multiple_scattering = false; ///< of rough_conductor: light of several micro-mirrors, too
+    double ior = 1.5;                 ///< of plastic and metallic_roughness
+    PlasticBody body = PlasticBody::light; ///< of plastic
+    // Of metallic_roughness.
+    double metallic = 0.0;             ///< share of metal
+    double clear_coat = 0.0;           ///< share that a clear coat covers
+    double clear_coat_roughness = 0.0; ///< root of its alpha
+
+    /// GGX alpha of what the kind has of rough surface, below a clear coat.
+    double alpha() const {
+        const bool is_root =
+            kind == MaterialKind::metallic_roughness || roughness_as == RoughnessAs::root;
+        return is_root && kind != MaterialKind::rough_conductor ? roughness * roughness : roughness;
+    }
 };
 
 /// How carefully frames are rendered, in rising order. `live`: drawn by OpenGL, an approximation; the others

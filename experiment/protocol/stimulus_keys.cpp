@@ -119,21 +119,52 @@ std::vector<Key> motion() {
     return entry_keys<M>(
         {
             {"kind", member_of<M>(&A::kind),
-             "The object turns to and fro as a sine, or it stands still; the light may turn with either. Or "
-             "the observer turns it, about the vertical from pose to pose; the light stands."},
+             explanation_of_kinds<MotionKind>("What the object does, while the light may turn with any.")},
             {"frame_count", member_of<M>(&A::frame_count), range(1, 10000),
              "Frames of the animation; with `cycle` the last closes the loop, being the first again."},
             {"frame_rate_hz", member_of<M>(&A::frame_rate_hz), range(0.1, 1000, "Hz"),
              "Frames per second, if the refresh rate is a whole multiple of it; see `display.refresh_hz`."},
             {"amplitude_deg", member_of<M>(&A::amplitude), range(0, 180, "deg"),
-             "Largest turn to each side of `angle_deg`; with `still` it has no effect."},
+             "Largest turn to each side of `angle_deg`, where the object turns to and fro."},
             {"angle_deg", member_of<M>(&A::angle), range(-360, 360, "deg"),
-             "Where a still object stands, or the middle of its turn: counter-clockwise from the front view, "
-             "seen "
-             "from above."},
+             "Where a still object stands, or from where it turns: counter-clockwise from the front view, "
+             "seen from above."},
             {"light_amplitude_deg", member_of<M>(&A::light_amplitude), range(0, 180, "deg"),
-             "Largest turn of the surroundings to each side of where `[light]` has them, in step with the "
-             "object's."},
+             "Largest turn of the surroundings to each side of where `[light]` has them, as a sine in step "
+             "with that of `turn`."},
+            {"light_turns", member_of<M>(&A::light_turns), range(-100, 100),
+             "Full turns of the surroundings while the frames go by once, at one speed; negative: "
+             "clockwise."},
+            {"turns", member_of<M>(&A::turns), range(-100, 100),
+             "Of `turntable` and `orbit`: full turns while the frames go by once; negative: clockwise."},
+            {"axis", member_of<M>(&A::axis), left_out("the vertical"),
+             "About which the object turns, [x, y, z]: x to the right of the front view, y away from it, z "
+             "up. "
+             "The turn by `angle_deg` comes before."},
+            {"pivot", member_of<M>(&A::pivot), left_out("the centre of the object's box"),
+             "A point of the axis, from the centre of the object's box, in the unit of the mesh."},
+            {"rest_share", member_of<M>(&A::rest_share), range(0, 0.99),
+             "Of `trapezoid`: share of the time that the object rests at its two ends, together."},
+            {"ease", member_of<M>(&A::ease),
+             "Of `triangle` and `trapezoid`: at one speed from end to end, or slowly out of one and into the "
+             "other, with the least jerk."},
+            {"angles_deg", member_of<M>(&A::angles_deg), range(-360, 360, "deg").left_out("none"),
+             "Of `steps`: where the object stands, one after the other, for as many frames each, from "
+             "`angle_deg`."},
+            {"waves", member_of<M>(&A::waves), range(-360, 360).left_out("none"),
+             "Of `waves`: each sine's amplitude in degrees, its whole periods while the frames go by once, "
+             "and "
+             "its phase in degrees: `[[20, 1, 0], [5, 3, 90]]`."},
+            {"approach_mm", member_of<M>(&A::approach), range(-1e6, 1e6),
+             "Of `approach`: how far the object comes nearer, towards the front, in the unit of the mesh."},
+            {"keyframes", member_of<M>(&A::keyframes), left_out("none"),
+             "Of `keyframes`: a table of places by the time, a CSV file by its path from the protocol's "
+             "folder. "
+             "Its columns: t_s; x, y, z in the unit of the mesh and qw, qx, qy, qz of a rotation from the "
+             "front "
+             "view, or angle_deg; light_deg. Only t_s is needed."},
+            {"between", member_of<M>(&A::between),
+             "What is between two of its rows: the former, or a straight way at one speed."},
             {"playback", member_of<M>(&A::playback),
              "The frames hold a whole period of the sine, or one sweep from end to end that is played forth "
              "and "
@@ -243,7 +274,24 @@ std::vector<Key> material() {
         {"metal", &M::metal,
          "\"Au\" for gold, \"Ag\" for silver, or a table of another conductor: a CSV file with the columns "
          "wavelength_nm, n and k, by its path from the protocol's folder."},
-        {"roughness", &M::roughness, range(0.001, 1), "GGX alpha of a rough conductor."},
+        {"roughness", &M::roughness, range(0.001, 1),
+         "GGX alpha of a rough metal or plastic; of `metallic-roughness` its square root, as other programs "
+         "have it."},
+        {"roughness_as", &M::roughness_as,
+         "Whether the `roughness` of a plastic is the GGX alpha, or its root."},
+        {"multiple_scattering", &M::multiple_scattering, left_out("false, as frames always were"),
+         "Of a rough metal: whether the light counts that leaves by several micro-mirrors, too. Without it "
+         "rough metals are too dark: by 4 % at a roughness of 0.13, by a third at 0.6."},
+        {"ior", &M::ior, range(1.01, 3), "Index of refraction of the clear surface of a plastic."},
+        {"body", &M::body,
+         "What `reflectance` is of: of the light that comes out of a plastic, as a colour measured on it is, "
+         "or "
+         "of the pigment inside, from which less comes out, and deeper coloured."},
+        {"metallic", &M::metallic, range(0, 1),
+         "Share of a metal of the colour `reflectance`; the rest is plastic."},
+        {"clear_coat", &M::clear_coat, range(0, 1), "Share of the surface under a clear coat, of index 1.5."},
+        {"clear_coat_roughness", &M::clear_coat_roughness, range(0, 1),
+         "Root of the GGX alpha of that coat."},
         {"coat_ior", &M::coat_ior, range(1, 4), "Index of refraction of the coat."},
         {"coat_absorbance", &M::coat_absorbance, range(0, 100),
          "Optical depth of the coat in red, green and blue, for one pass of its nominal thickness."},
@@ -256,7 +304,9 @@ std::vector<Key> material() {
          "From one bump to the next, as share of half the object's height."},
         {"coat_seed", &M::coat_seed, range(0, 2147483647), "Another number, other bumps."},
         {"reflectance", &M::reflectance, range(0, 1),
-         "Share of red, green and blue light that a matt surface returns."},
+         "Share of red, green and blue light that a matt surface returns, or the body of a plastic; the "
+         "colour of "
+         "`metallic-roughness`."},
     });
 }
 

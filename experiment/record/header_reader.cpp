@@ -109,6 +109,33 @@ void read_dataset(const SQLite::Database& database, SessionHeader& header) {
         header.dataset.push_back({row.text(), row.text()});
 }
 
+/// In those of earlier programs objects only turn about the vertical.
+void read_poses(const SQLite::Database& database, SessionHeader& header) {
+    if (!has_column(database, "pose", "tilt_w")) {
+        for (Query row(database, "SELECT angle_deg FROM pose ORDER BY pose"); row.step();)
+            header.poses.angles.push_back({{row.real()}});
+        return;
+    }
+    for (Query row(database, "SELECT angle_deg, tilt_w, tilt_x, tilt_y, tilt_z, shift_x, shift_y, shift_z "
+                             "FROM pose ORDER BY pose");
+         row.step();) {
+        auto& [angle, tilt, shift] = header.poses.angles.emplace_back();
+        row.read(angle.value, tilt.w, tilt.x, tilt.y, tilt.z, shift.x, shift.y, shift.z);
+    }
+}
+
+/// How each frame of each motion is, as it was recorded: what a program makes of a kind of motion may change.
+void read_given_poses(const SQLite::Database& database, SessionHeader& header) {
+    for (Query row(database, "SELECT motion, pose, light_deg FROM animation_frame ORDER BY motion, frame");
+         row.step();) {
+        const auto motion = static_cast<std::size_t>(row.small()),
+                   pose = static_cast<std::size_t>(row.small());
+        if (pose >= header.poses.angles.size())
+            throw RecordError(fmt::format("table animation_frame: there is no pose {}", pose));
+        header.animations[motion].given.push_back({header.poses.angles[pose], {row.real()}});
+    }
+}
+
 /// Sessions of earlier formats have one motion, which the session's own row tells, and one view.
 void read_motions(const SQLite::Database& database, SessionHeader& header) {
     if (has_table(database, "animation"))
@@ -124,6 +151,8 @@ void read_motions(const SQLite::Database& database, SessionHeader& header) {
             throw RecordError(fmt::format("table animation_frame: there is no motion {}", motion));
         header.poses.of_motion[motion].push_back({row.small()});
     }
+    if (has_column(database, "animation_frame", "light_deg"))
+        read_given_poses(database, header);
 }
 
 void read_cameras(const SQLite::Database& database, SessionHeader& header) {
@@ -160,8 +189,7 @@ void read_design(const SQLite::Database& database, SessionHeader& header) {
     read_dataset(database, header);
     for (Query row(database, "SELECT id, question FROM task ORDER BY task"); row.step();)
         header.tasks.push_back({row.text(), row.text()});
-    for (Query row(database, "SELECT angle_deg FROM pose ORDER BY pose"); row.step();)
-        header.poses.angles.push_back({row.real()});
+    read_poses(database, header);
     read_motions(database, header);
 }
 

@@ -6,7 +6,6 @@ template <> inline constexpr std::array<const char*, 2> stored_words<ClockKind>{
 template <> inline constexpr std::array<const char*, 2> stored_words<Eye>{"left", "right"};
 template <> inline constexpr std::array<const char*, 2> stored_words<Playback>{"cycle", "ping-pong"};
 template <> inline constexpr std::array<const char*, 2> stored_words<WhenLate>{"drop", "stretch"};
-template <> inline constexpr std::array<const char*, 3> stored_words<MotionKind>{"turn", "still", "observer"};
 
 namespace {
 
@@ -114,10 +113,11 @@ constexpr RowColumn<RecordedCharacterisation> light_columns[] = {
 
 /// A motion.
 constexpr RowColumn<Animation> animation_columns[] = {
-    column<&Animation::kind>("kind", "`turn`, `still`, or `observer`"),
+    column<&Animation::kind>("kind", "by the protocol's word"),
     column<&Animation::frame_count>("frame_count", "its frames"),
     column<&Animation::frame_rate_hz>("frame_rate_hz", "frames to a second, by the protocol"),
-    column<&Animation::amplitude>("amplitude_deg", "turn of the object to each side of `angle_deg`"),
+    column<&Animation::amplitude>(
+        "amplitude_deg", "turn of the object to each side of `angle_deg`, where it turns to and fro"),
     column<&Animation::angle>("angle_deg", "from the front view"),
     column<&Animation::light_amplitude>("light_amplitude_deg", "turn of the light to each side"),
     column<&Animation::playback>("playback", "`cycle` or `ping-pong`"),
@@ -128,6 +128,8 @@ constexpr RowColumn<Animation> animation_columns[] = {
     column<&Animation::by_observer, &ObserverTurn::from>("from_deg", "likewise, the angle of the first", "0"),
     column<&Animation::by_observer, &ObserverTurn::to>(
         "to_deg", "likewise, how far it can be turned; 360 after the first: all round", "360"),
+    column<&Animation::light_turns>("light_turns", "full turns of the light while the frames go by once",
+                                    "0"),
 };
 
 /// An object, its camera in the first view, and the box by which its maps are coded.

@@ -51,14 +51,17 @@ void insert_design(SQLite::Database& database, const SessionHeader& header) {
     for (const RecordedTask& task : header.tasks)
         insert_values(database, "INTO task", index++, task.id, task.question);
     index = 0;
-    for (const Degrees angle : header.poses.angles)
-        insert_values(database, "INTO pose", index++, angle.value);
+    for (const auto& [angle, tilt, shift] : header.poses.angles)
+        insert_values(database, "INTO pose", index++, angle.value, tilt.w, tilt.x, tilt.y, tilt.z, shift.x,
+                      shift.y, shift.z);
     int motion = 0;
     for (const Animation& animation : header.animations) {
         insert_row(database, animation_table(), motion, animation);
         index = 0;
-        for (const PoseIndex pose : header.poses.frames_of(motion))
-            insert_values(database, "INTO animation_frame", motion, index++, pose.value);
+        for (const PoseIndex pose : header.poses.frames_of(motion)) {
+            const Degrees light = animation.pose_of({index}).light;
+            insert_values(database, "INTO animation_frame", motion, index++, pose.value, light.value);
+        }
         ++motion;
     }
 }

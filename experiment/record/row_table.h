@@ -3,6 +3,7 @@
 /// those lines.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <span>
@@ -13,6 +14,7 @@
 #include <fmt/ranges.h>
 
 #include "experiment/base/error.h"
+#include "experiment/base/kind_table.h"
 #include "experiment/record/sql.h"
 
 namespace overt {
@@ -30,8 +32,10 @@ inline double stored(Degrees value) { return value.value; }
 inline std::int64_t stored(SessionDuration value) { return value.count(); }
 /// A seed, in decimal text: SQLite's integers are signed.
 inline std::string stored(std::uint64_t value) { return std::to_string(value); }
+/// A kind of a table stands there by its name, so that tables may grow.
+template <TableKind Kind> std::string stored(Kind kind) { return std::string(name_of(kind)); }
 template <class Enum>
-requires std::is_enum_v<Enum>
+requires(std::is_enum_v<Enum> && !TableKind<Enum>)
 const char* stored(Enum value) { return stored_words<Enum>[static_cast<std::size_t>(value)]; }
 
 inline void read_into(std::uint64_t& value, Query& row) {
@@ -40,8 +44,15 @@ inline void read_into(std::uint64_t& value, Query& row) {
     if (error != std::errc() || end != text.data() + text.size())
         throw RecordError(fmt::format("table session: the seed is no number: {}", text));
 }
+template <TableKind Kind> void read_into(Kind& kind, Query& row) {
+    const std::string name = row.text();
+    const auto found = std::ranges::find(names_of<Kind>, name);
+    if (found == names_of<Kind>.end())
+        throw RecordError(fmt::format("there is no kind \"{}\": the session is of a later program", name));
+    kind = static_cast<Kind>(found - names_of<Kind>.begin());
+}
 template <class Enum>
-requires std::is_enum_v<Enum>
+requires(std::is_enum_v<Enum> && !TableKind<Enum>)
 void read_into(Enum& value, Query& row) {
     const std::string text = row.text();
     std::size_t index = 0;
@@ -81,7 +92,7 @@ constexpr auto column(std::string_view name, std::string_view meaning, std::stri
         using Value = std::remove_reference_t<decltype(member_at<first, steps...>(std::declval<Row&>()))>;
         return {words...,
                 [](std::string_view column_name) -> std::string {
-                    if constexpr (std::is_enum_v<Value>)
+                    if constexpr (std::is_enum_v<Value> && !TableKind<Value>)
                         return fmt::format("TEXT NOT NULL CHECK ({} IN ('{}'))", column_name,
                                            fmt::join(stored_words<Value>, "', '"));
                     using Stored = decltype(stored(Value{}));

@@ -28,9 +28,12 @@ CREATE TABLE entry_column (list TEXT NOT NULL, entry INTEGER NOT NULL, n INTEGER
 CREATE TABLE stimulus (@stimulus, source TEXT NOT NULL, frames_sha256 TEXT NOT NULL,
                        made_from_sha256 TEXT NOT NULL DEFAULT '', drawn_by TEXT NOT NULL DEFAULT '',
                        PRIMARY KEY (@indices)) STRICT, WITHOUT ROWID;
-CREATE TABLE pose (pose INTEGER PRIMARY KEY, angle_deg REAL NOT NULL) STRICT;
+CREATE TABLE pose (pose INTEGER PRIMARY KEY, angle_deg REAL NOT NULL, tilt_w REAL NOT NULL DEFAULT 1,
+                   tilt_x REAL NOT NULL DEFAULT 0, tilt_y REAL NOT NULL DEFAULT 0, tilt_z REAL NOT NULL DEFAULT 0,
+                   shift_x REAL NOT NULL DEFAULT 0, shift_y REAL NOT NULL DEFAULT 0,
+                   shift_z REAL NOT NULL DEFAULT 0) STRICT;
 CREATE TABLE animation_frame (motion INTEGER NOT NULL DEFAULT 0, frame INTEGER NOT NULL, pose INTEGER NOT NULL,
-                              PRIMARY KEY (motion, frame)) STRICT, WITHOUT ROWID;
+                              light_deg REAL NOT NULL DEFAULT 0, PRIMARY KEY (motion, frame)) STRICT, WITHOUT ROWID;
 CREATE TABLE camera (object INTEGER NOT NULL, view INTEGER NOT NULL, x REAL NOT NULL, y REAL NOT NULL,
                      z REAL NOT NULL, target_x REAL NOT NULL, target_y REAL NOT NULL, target_z REAL NOT NULL,
                      vertical_fov_deg REAL NOT NULL, PRIMARY KEY (object, view)) STRICT, WITHOUT ROWID;

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/quaternion.hpp>
 
 #include "experiment/base/error.h"
 
@@ -32,9 +33,13 @@ double half_height_at_unit_distance(const Camera& camera) {
 } // namespace
 
 glm::dmat4 TurntablePose::world_from_object() const {
-    const double angle_rad = to_radians(angle).value;
-    return glm::translate(glm::dmat4(1.0), axis_point) * glm::rotate(glm::dmat4(1.0), angle_rad, up) *
-           glm::translate(glm::dmat4(1.0), -axis_point);
+    const double angle_rad = to_radians(object.angle).value;
+    const glm::dmat4 turn = glm::rotate(glm::dmat4(1.0), angle_rad, up);
+    const glm::dmat4 from_axis = glm::translate(glm::dmat4(1.0), -axis_point);
+    if (object.is_turn())
+        return glm::translate(glm::dmat4(1.0), axis_point) * turn * from_axis;
+    return glm::translate(glm::dmat4(1.0), axis_point + object.shift) * glm::mat4_cast(object.tilt) * turn *
+           from_axis;
 }
 
 glm::dmat4 View::view_from_world() const { return glm::lookAt(camera.position, camera.target, up); }
@@ -65,9 +70,10 @@ double View::depth_of(glm::dvec3 world_point) const {
 }
 
 Ray to_object(const Ray& world_ray, const TurntablePose& pose) {
-    TurntablePose back = pose;
-    back.angle.value = -pose.angle.value;
-    const glm::dmat4 object_from_world = back.world_from_object();
+    const glm::dmat4 object_from_world =
+        pose.object.is_turn()
+            ? TurntablePose{pose.axis_point, {{-pose.object.angle.value}}}.world_from_object()
+            : glm::inverse(pose.world_from_object());
     return {glm::dvec3(object_from_world * glm::dvec4(world_ray.origin, 1.0)),
             glm::dvec3(object_from_world * glm::dvec4(world_ray.direction, 0.0))};
 }
@@ -107,16 +113,18 @@ Camera fit_camera(const Mesh& mesh, Degrees vertical_fov, glm::ivec2 image_px, D
     return {centre - glm::dvec3(0.0, distance, 0.0), centre, vertical_fov};
 }
 
-DepthRange depth_range(const Bounds& bounds, const View& view) {
+DepthRange depth_range(const Bounds& bounds, const View& view, const ObjectPose& object) {
     // The turning object stays inside a cylinder about its axis; its points lie within this distance of the
     // centre.
     const glm::dvec3 half = 0.5 * bounds.extent();
     const double radius = glm::length(half);
-    const double depth = view.depth_of(bounds.centre());
+    const glm::dvec3 centre = bounds.centre() + object.shift;
+    const double depth = view.depth_of(centre);
     const double near = depth - radius, far = depth + radius;
-    const glm::dvec3 from_axis = view.camera.position - bounds.centre();
-    const bool inside_sweep =
+    const glm::dvec3 from_axis = view.camera.position - centre;
+    const bool inside_cylinder =
         std::hypot(from_axis.x, from_axis.y) <= std::hypot(half.x, half.y) && std::abs(from_axis.z) <= half.z;
+    const bool inside_sweep = object.is_turn() ? inside_cylinder : glm::length(from_axis) <= radius;
     if (inside_sweep) {
         throw InputError(fmt::format("the camera at ({:.6g}, {:.6g}, {:.6g}) stands inside the space that "
                                      "the turning object sweeps: move "

@@ -2,11 +2,12 @@
 /// double: the graphics card gets these matrices, the gaze is projected with them, and both must agree.
 ///
 /// World: right-handed, +z up, in the mesh's unit. The object turns about the vertical through the centre of
-/// its bounding box. Image: continuous pixels, origin top left, y down, pixel centres at +0.5.
+/// its bounding box, and may be tilted and moved after that. Image: continuous pixels, origin top left, y down, pixel centres at +0.5.
 #pragma once
 
 #include <glm/glm.hpp>
 
+#include "experiment/object_pose.h"
 #include "experiment/scene/mesh.h"
 #include "experiment/units.h"
 
@@ -19,10 +20,10 @@ struct Camera {
     Degrees vertical_fov{12.0}; ///< full angle over the image's height
 };
 
-/// Turn of the object about the vertical through `axis_point`, counter-clockwise seen from above.
+/// How an object stands, turned and tilted about `axis_point`.
 struct TurntablePose {
     glm::dvec3 axis_point{0.0};
-    Degrees angle;
+    ObjectPose object;
 
     glm::dmat4 world_from_object() const;
 };
@@ -59,10 +60,10 @@ struct SceneView {
     View view;
     Bounds bounds; ///< of the mesh; the turn is about the vertical through its centre
 
-    TurntablePose pose_at(Degrees angle) const { return {bounds.centre(), angle}; }
+    TurntablePose pose_at(const ObjectPose& object) const { return {bounds.centre(), object}; }
 };
 
-/// The same ray seen from the object: its coordinates before the turn.
+/// The same ray seen from the object: its coordinates before it was turned.
 Ray to_object(const Ray& world_ray, const TurntablePose& pose);
 
 /// A camera in front of the object (on its -y side), level with its centre, as near as the object allows when
@@ -71,13 +72,13 @@ Ray to_object(const Ray& world_ray, const TurntablePose& pose);
 Camera fit_camera(const Mesh& mesh, Degrees vertical_fov, glm::ivec2 image_px, Degrees amplitude,
                   double margin);
 
-/// Nearest and farthest distance along the viewing direction that any turn of the mesh can reach, slightly
-/// widened.
+/// Nearest and farthest distance along the viewing direction that the mesh can reach, however it is turned
+/// after it was tilted and moved as `object` is, slightly widened.
 struct DepthRange {
     double near = 0.0;
     double far = 0.0;
 };
 /// Throws InputError if the camera stands inside the volume that the mesh sweeps.
-DepthRange depth_range(const Bounds& bounds, const View& view);
+DepthRange depth_range(const Bounds& bounds, const View& view, const ObjectPose& object = {});
 
 } // namespace overt

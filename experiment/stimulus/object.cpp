@@ -226,7 +226,7 @@ Object load_object(const ObjectSettings& settings, const Protocol& protocol,
     return place_object(settings, protocol, &made);
 }
 
-bool is_in_picture(const Object& object, int of_view, Degrees angle) {
+bool is_in_picture(const Object& object, int of_view, const ObjectPose& angle) {
     const SceneView& scene = object.scene(of_view);
     const View& view = scene.view;
     const TurntablePose pose = scene.pose_at(angle);

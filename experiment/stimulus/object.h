@@ -64,9 +64,9 @@ Object load_object(const ObjectSettings& settings, const Protocol& protocol,
 /// the list is of another. Throws InputError.
 void add_points(Object& object, const Protocol& protocol, const PointListSettings& list, std::size_t index);
 
-/// Whether any of the object can be in a view's picture when it is turned by `angle`. Only for one with a
+/// Whether any of the object can be in a view's picture when it stands like `pose`. Only for one with a
 /// mesh.
-bool is_in_picture(const Object& object, int view, Degrees angle);
+bool is_in_picture(const Object& object, int view, const ObjectPose& pose);
 
 /// All objects of the protocol, in its order, with their points. A mesh that several of them are of, to the
 /// last triangle and part, is read and kept once.

@@ -8,6 +8,7 @@
 #include "experiment/scene/mesh_topology.h"
 #include "experiment/spectra/metal_table.h"
 #include "render/bake/coat_surface.h"
+#include "render/bake/layered_surface.h"
 #include "render/bake/light_colour.h"
 #include "render/bake/material_model.h"
 
@@ -47,7 +48,7 @@ CoatShape coat_shape(const MaterialSettings& material, double half_height) {
 } // namespace
 
 BakeScene::BakeScene(const Mesh& mesh, const MaterialSettings& material)
-    : material_(material), model_(&model_of(material.kind)), centre_(mesh.bounds().centre()) {
+    : material_(material), model_(&model_of(material)), centre_(mesh.bounds().centre()) {
     if (mesh.triangles.empty())
         throw InputError("a mesh without triangles cannot be baked");
     const double half_height = 0.5 * mesh.bounds().extent().z;
@@ -78,6 +79,8 @@ BakeScene::BakeScene(const Mesh& mesh, const MaterialSettings& material)
         surfaces.push_back(coat_surface_.get());
     }
     tree_ = std::make_unique<SurfaceTree>(std::move(surfaces));
+    if (model_->layers)
+        layers_ = std::make_unique<LayeredSurface>(model_->layers(material_, reflectance_, metal_));
 }
 
 BakeScene::~BakeScene() = default;

@@ -11,6 +11,7 @@
 
 namespace overt {
 
+class LayeredSurface;
 struct MaterialModel;
 
 /// Built once for a stimulus and used for all its poses, from any number of threads.
@@ -39,7 +40,8 @@ class BakeScene {
     const SurfaceTree& tree() const { return *tree_; }                                 ///< all surfaces
     const SurfaceTree& body_tree() const { return coat_body_ ? *coat_body_ : *tree_; } ///< the mesh itself
     const ConductorTable& metal() const { return metal_; }
-    const Bins& reflectance() const { return reflectance_; }         ///< of a diffuse body
+    const Bins& reflectance() const { return reflectance_; }         ///< of a body with a colour
+    const LayeredSurface& layers() const { return *layers_; }        ///< only of a layered material
     const Bins& coat_absorbance() const { return coat_absorbance_; } ///< per unit of length
 
   private:
@@ -52,6 +54,7 @@ class BakeScene {
     Bins reflectance_, coat_absorbance_;
     std::unique_ptr<TracedSurface> body_surface_, coat_surface_; // the trees hold their addresses
     std::unique_ptr<SurfaceTree> tree_, coat_body_;
+    std::unique_ptr<LayeredSurface> layers_;
 };
 
 } // namespace overt

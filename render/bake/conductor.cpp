@@ -26,6 +26,11 @@ float dielectric_fresnel(float ior, float cosine) {
     return 0.5f * (across * across + along * along);
 }
 
+ConductorTable::ConductorTable(const std::function<Bins(double)>& reflectance) {
+    for (int row = 0; row < rows; ++row)
+        reflectance_.push_back(reflectance(static_cast<double>(row) / (rows - 1)));
+}
+
 ConductorTable::ConductorTable(const ComplexIndex& metal, double outside)
     : reflectance_(static_cast<std::size_t>(rows)) {
     for (std::size_t row = 0; row < reflectance_.size(); ++row) {

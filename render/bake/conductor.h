@@ -1,6 +1,7 @@
 /// What a metal reflects, from its complex refractive index.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "render/bake/spectral_bins.h"
@@ -23,6 +24,8 @@ class ConductorTable {
     ConductorTable() = default;
     /// `outside`: index of the medium over the metal.
     ConductorTable(const ComplexIndex& metal, double outside);
+    /// Of any other surface, by what it reflects at a cosine.
+    explicit ConductorTable(const std::function<Bins(double cosine)>& reflectance);
 
     /// bins times the reflectance at that cosine, 0 … 1.
     void multiply_into(Bins& bins, float cosine) const {

@@ -5,7 +5,8 @@
 
 namespace overt {
 
-EyeRays::EyeRays(const SceneView& scene, Degrees angle, glm::dvec3 centre, double radius) : radius_(radius) {
+EyeRays::EyeRays(const SceneView& scene, const ObjectPose& angle, glm::dvec3 centre, double radius)
+    : radius_(radius) {
     const View& view = scene.view;
     // The rows of the rotation are the camera's axes.
     const glm::dmat3 world_from_view = glm::transpose(glm::dmat3(view.view_from_world()));

@@ -13,7 +13,7 @@ class EyeRays {
   public:
     /// Rays about `centre`, from the edge of a sphere of `radius` around it on: a float is too coarse for the
     /// camera's distance.
-    EyeRays(const SceneView& scene, Degrees angle, glm::dvec3 centre, double radius);
+    EyeRays(const SceneView& scene, const ObjectPose& angle, glm::dvec3 centre, double radius);
 
     /// Through a continuous image point.
     PathRay through(glm::dvec2 image_point_px) const;

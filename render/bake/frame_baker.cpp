@@ -4,6 +4,7 @@
 #include <atomic>
 #include <mutex>
 #include <numeric>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -62,6 +63,7 @@ struct FrameWork {
     PixelSampling sampling;
     BakeSettings settings;
     float turn;
+    std::optional<glm::mat3> world_from_object; ///< see PathTracer
 
     /// Samples first … last - 1 of one pixel.
     void sample(PathTracer& tracer, Film& film, std::size_t index, std::uint32_t first,
@@ -97,18 +99,20 @@ std::vector<std::uint32_t> rounds_of(const BakeSettings& settings) {
 } // namespace
 
 SpectralFrame bake_frame(const BakeScene& scene, const SpectralLight& light, const SceneView& view,
-                         Degrees angle, std::span<const std::uint8_t> covered, const BakeSettings& settings,
-                         const BakeProgress& progress) {
+                         const ObjectPose& object, std::span<const std::uint8_t> covered,
+                         const BakeSettings& settings, const BakeProgress& progress) {
     check(settings);
     const glm::ivec2 size = view.view.image_px;
     OVERT_EXPECTS(covered.size() == static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y));
     Film film(size, settings.pixel_step, covered);
-    const FrameWork work{scene,
-                         light,
-                         EyeRays(view, angle, scene.centre(), 1.01 * static_cast<double>(scene.radius())),
-                         PixelSampling(settings.filter, settings.filter_width_px),
-                         settings,
-                         light.share_of_turn(angle)};
+    const FrameWork work{
+        scene,
+        light,
+        EyeRays(view, object, scene.centre(), 1.01 * static_cast<double>(scene.radius())),
+        PixelSampling(settings.filter, settings.filter_width_px),
+        settings,
+        light.share_of_turn(object.is_turn() ? object.angle : Degrees{0.0}),
+        object.is_turn() ? std::nullopt : std::optional(glm::mat3(view.pose_at(object).world_from_object()))};
     ProgressReport report(progress, static_cast<double>(film.count()) * settings.samples);
     std::atomic<std::uint64_t> rays{0};
     std::vector<std::uint32_t> active(film.count());
@@ -123,7 +127,8 @@ SpectralFrame bake_frame(const BakeScene& scene, const SpectralLight& light, con
             [&](int number) {
                 if (report.is_stopped())
                     return;
-                PathTracer tracer(scene, light, work.turn);
+                PathTracer tracer(scene, light, work.turn,
+                                  work.world_from_object ? &*work.world_from_object : nullptr);
                 const std::size_t begin = static_cast<std::size_t>(number) * batch;
                 const std::size_t end = std::min(begin + batch, active.size());
                 for (std::size_t i = begin; i < end; ++i)
@@ -144,9 +149,10 @@ SpectralFrame bake_frame(const BakeScene& scene, const SpectralLight& light, con
     return frame;
 }
 
-std::vector<std::uint8_t> covered_pixels(const BakeScene& scene, const SceneView& view, Degrees angle) {
+std::vector<std::uint8_t> covered_pixels(const BakeScene& scene, const SceneView& view,
+                                         const ObjectPose& object) {
     const glm::ivec2 size = view.view.image_px;
-    const EyeRays eye(view, angle, scene.centre(), 1.01 * static_cast<double>(scene.radius()));
+    const EyeRays eye(view, object, scene.centre(), 1.01 * static_cast<double>(scene.radius()));
     std::vector<std::uint8_t> covered(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y));
     parallel_for(size.y, [&](int row) {
         for (int column = 0; column < size.x; ++column) {

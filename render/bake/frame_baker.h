@@ -25,14 +25,15 @@ using BakeProgress = std::function<bool(double share_done)>;
 
 /// Bakes one frame on all processors. `covered`: 1 where the map of triangles has one at the pixel's middle,
 /// row by row; a pixel is traced if it or one of its eight neighbours is covered. The light is that of the
-/// mesh turned by `angle` in `view`, whose size is that of `covered`. The result depends on nothing but the
+/// mesh as `object` stands in `view`, whose size is that of `covered`. The result depends on nothing but the
 /// arguments: not on threads, their number or their order. Throws InputError for impossible settings.
 SpectralFrame bake_frame(const BakeScene& scene, const SpectralLight& light, const SceneView& view,
-                         Degrees angle, std::span<const std::uint8_t> covered, const BakeSettings& settings,
-                         const BakeProgress& progress = {});
+                         const ObjectPose& object, std::span<const std::uint8_t> covered,
+                         const BakeSettings& settings, const BakeProgress& progress = {});
 
 /// What `covered` would be if nobody else drew it: whether the ray through each pixel's middle meets the
 /// mesh.
-std::vector<std::uint8_t> covered_pixels(const BakeScene& scene, const SceneView& view, Degrees angle);
+std::vector<std::uint8_t> covered_pixels(const BakeScene& scene, const SceneView& view,
+                                         const ObjectPose& object);
 
 } // namespace overt

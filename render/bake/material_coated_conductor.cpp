@@ -16,6 +16,7 @@ template <> const MaterialModel& material_model<MaterialKind::coated_conductor>(
     static constexpr MaterialModel model{.scatter = nullptr,
                                          .density = nullptr,
                                          .take = nullptr,
+                                         .layers = nullptr,
                                          .scatters = false,
                                          .path_cost = 7.8,
                                          .live = {LiveApproximation::Shading::coated_metal, mirrored,

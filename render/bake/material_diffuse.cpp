@@ -35,6 +35,7 @@ template <> const MaterialModel& material_model<MaterialKind::diffuse>() {
         .scatter = scatter,
         .density = density,
         .take = take,
+        .layers = nullptr,
         .scatters = true,
         .path_cost = 1.6,
         .live = {LiveApproximation::Shading::matt, mirrored, [](const MaterialSettings&) { return 1.0f; }}};

@@ -2,6 +2,9 @@
 
 #include <utility>
 
+#include "render/bake/bake_scene.h"
+#include "render/bake/layered_surface.h"
+
 namespace overt {
 
 const MaterialModel& model_of(MaterialKind kind) {
@@ -11,6 +14,27 @@ const MaterialModel& model_of(MaterialKind kind) {
     }
     (std::make_index_sequence<material_kinds.size()>());
     return models[static_cast<std::size_t>(kind)]();
+}
+
+const MaterialModel& rough_metal_with_all_light(); // material_rough_conductor.cpp
+
+const MaterialModel& model_of(const MaterialSettings& material) {
+    return material.kind == MaterialKind::rough_conductor && material.multiple_scattering
+               ? rough_metal_with_all_light()
+               : model_of(material.kind);
+}
+
+MaterialModel layered_model() {
+    return {.scatter = [](const BakeScene& scene, const SurfaceEvent& event, SampleSequence& sequence,
+                          Bins& carried) { return scene.layers().scatter(event, sequence, carried); },
+            .density = [](const BakeScene& scene, const SurfaceEvent& event,
+                          glm::vec3 onward) { return scene.layers().density(event, onward); },
+            .take = [](const BakeScene& scene, const SurfaceEvent& event, glm::vec3 onward,
+                       Bins& carried) { scene.layers().take(event, onward, carried); },
+            .layers = nullptr,
+            .scatters = true,
+            .path_cost = 2.0,
+            .live = {}};
 }
 
 } // namespace overt

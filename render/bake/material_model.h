@@ -10,6 +10,8 @@
 namespace overt {
 
 class BakeScene;
+class ConductorTable;
+class LayeredSurface;
 
 /// Where a path from the eye meets a surface, seen from its front.
 struct SurfaceEvent {
@@ -19,7 +21,7 @@ struct SurfaceEvent {
 
 /// What the shader of live frames is told (stimulus.frag).
 struct LiveApproximation {
-    enum class Shading : std::uint8_t { metal, coated_metal, matt } shading;
+    enum class Shading : std::uint8_t { metal, coated_metal, matt, plastic } shading;
     /// The probe as this material mirrors it.
     LightProbe (*mirrored)(const LightProbe& probe, const MaterialSettings& material);
     /// Half-angle in radians over which it gathers light.
@@ -38,6 +40,11 @@ struct MaterialModel {
     float (*density)(const BakeScene& scene, const SurfaceEvent& event, glm::vec3 onward);
     void (*take)(const BakeScene& scene, const SurfaceEvent& event, glm::vec3 onward, Bins& carried);
 
+    /// Makes what a layered surface is of, once for a stimulus; null: it is none. `reflectance` and `metal`:
+    /// of BakeScene.
+    LayeredSurface (*layers)(const MaterialSettings& material, const Bins& reflectance,
+                             const ConductorTable& metal);
+
     bool scatters;    ///< no two samples go the same way: a picture needs more of them
     double path_cost; ///< time of a path, that of a smooth metal being 1
     LiveApproximation live;
@@ -49,5 +56,11 @@ struct MaterialModel {
 template <MaterialKind kind> const MaterialModel& material_model();
 
 const MaterialModel& model_of(MaterialKind kind);
+
+/// The same, and of a rough metal with all light between its mirrors the one that has it.
+const MaterialModel& model_of(const MaterialSettings& material);
+
+/// What a layered kind's model consists of, but for its cost and its live approximation.
+MaterialModel layered_model();
 
 } // namespace overt

@@ -1,5 +1,6 @@
 /// Brushed metal: a crowd of small mirrors.
 #include "render/bake/bake_scene.h"
+#include "render/bake/layered_surface.h"
 #include "render/bake/material_model.h"
 #include "render/bake/microfacets.h"
 
@@ -54,9 +55,23 @@ template <> const MaterialModel& material_model<MaterialKind::rough_conductor>()
     static constexpr MaterialModel model{.scatter = scatter,
                                          .density = density,
                                          .take = take,
+                                         .layers = nullptr,
                                          .scatters = true,
                                          .path_cost = 1.5,
                                          .live = {LiveApproximation::Shading::metal, mirrored, lobe_radius}};
+    return model;
+}
+
+const MaterialModel& rough_metal_with_all_light() {
+    static const MaterialModel model = [] {
+        MaterialModel layered = layered_model();
+        layered.layers = [](const MaterialSettings& material, const Bins&, const ConductorTable& metal) {
+            return rough_metal_surface(material, metal);
+        };
+        layered.path_cost = 2.0;
+        layered.live = material_model<MaterialKind::rough_conductor>().live;
+        return layered;
+    }();
     return model;
 }
 

@@ -21,6 +21,7 @@ template <> const MaterialModel& material_model<MaterialKind::smooth_conductor>(
         .scatter = scatter,
         .density = nullptr,
         .take = nullptr,
+        .layers = nullptr,
         .scatters = false,
         .path_cost = 1.0,
         .live = {LiveApproximation::Shading::metal, mirrored, [](const MaterialSettings&) { return 0.0f; }}};

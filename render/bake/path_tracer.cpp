@@ -105,9 +105,9 @@ void PathTracer::follow(SurfaceHit hit, PathRay ray, SampleSequence& sequence, B
         ++rays_;
         hit = scene_->tree().first_hit(ray, no_limit, false);
         if (hit.surface < 0) {
-            glm::vec3 light = light_->towards(ray.direction, turn_);
+            glm::vec3 light = light_towards(ray.direction);
             if (density > 0.0f)
-                light *= density / (density + light_->aim()->density(ray.direction, turn_));
+                light *= density / (density + light_->aim()->density(in_light(ray.direction), turn_));
             add_lit(sum, carried, light_->basis(), light);
             return;
         }
@@ -116,15 +116,17 @@ void PathTracer::follow(SurfaceHit hit, PathRay ray, SampleSequence& sequence, B
 
 void PathTracer::add_aimed(const SurfaceEvent& event, const SurfaceHit& hit, glm::vec3 surface_normal,
                            const Bins& carried, SampleSequence& sequence, Bins& sum) {
-    const glm::vec3 direction = light_->aim()->direction(sequence.next_two(), turn_);
+    glm::vec3 direction = light_->aim()->direction(sequence.next_two(), turn_);
+    if (world_from_object_)
+        direction = direction * *world_from_object_; // by its transpose, which is its inverse
     if (!is_above(direction, surface_normal))
         return;
     // Its share of the sum of both densities, times what the surface passes on by its own.
     const float own = scene_->model().density(*scene_, event, direction);
     if (own <= 0.0f)
         return;
-    const float share = own / (own + light_->aim()->density(direction, turn_));
-    const glm::vec3 light = light_->towards(direction, turn_);
+    const float share = own / (own + light_->aim()->density(in_light(direction), turn_));
+    const glm::vec3 light = light_towards(direction);
     ++rays_;
     if (scene_->tree().first_distance({hit.position + scene_->step_off() * surface_normal, direction},
                                       false) >= 0.0f)
@@ -139,7 +141,7 @@ void PathTracer::follow_coated(CoatedPath& path, SampleSequence sequence, Bins& 
         ++rays_;
         const SurfaceHit hit = scene_->tree().first_hit(path.ray, no_limit, event == 0 && !path.has_split);
         if (hit.surface < 0) {
-            add_lit(sum, path.carried, light_->basis(), light_->towards(path.ray.direction, turn_));
+            add_lit(sum, path.carried, light_->basis(), light_towards(path.ray.direction));
             return;
         }
         if (path.layers > 0)

@@ -18,9 +18,11 @@ struct SurfaceEvent;
 /// aimed at.
 class PathTracer {
   public:
-    /// Both must outlive the tracer. `turn`: see SpectralLight::share_of_turn.
-    PathTracer(const BakeScene& scene, const SpectralLight& light, float turn)
-        : scene_(&scene), light_(&light), turn_(turn) {}
+    /// All must outlive the tracer. `turn`: see SpectralLight::share_of_turn. `world_from_object`: of an
+    /// object that is not only turned about the vertical, which `turn` then knows nothing of; else null.
+    PathTracer(const BakeScene& scene, const SpectralLight& light, float turn,
+               const glm::mat3* world_from_object = nullptr)
+        : scene_(&scene), light_(&light), turn_(turn), world_from_object_(world_from_object) {}
 
     /// Adds to `sum` the light that reaches the eye along a ray that meets the figure; gives false, adding
     /// nothing, if it misses the mesh itself. `sequence` has given its first two numbers for the place in the
@@ -47,9 +49,16 @@ class PathTracer {
     void follow_coated(CoatedPath& path, SampleSequence sequence, Bins& sum);
     bool meet_coat(CoatedPath& path, const SurfaceHit& hit, SampleSequence& sequence, Bins& sum);
 
+    /// A direction of the object's as the light has it.
+    glm::vec3 in_light(glm::vec3 direction) const {
+        return world_from_object_ ? *world_from_object_ * direction : direction;
+    }
+    glm::vec3 light_towards(glm::vec3 direction) const { return light_->towards(in_light(direction), turn_); }
+
     const BakeScene* scene_;
     const SpectralLight* light_;
     float turn_;
+    const glm::mat3* world_from_object_;
     std::uint64_t rays_ = 0;
 };
 

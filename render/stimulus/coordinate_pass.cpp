@@ -25,7 +25,7 @@ void CoordinatePass::render(const MeshBuffers& mesh, const glm::mat4& clip_from_
 }
 
 std::vector<std::uint32_t> CoordinatePass::draw(const MeshBuffers& mesh, const SceneView& scene,
-                                                Degrees angle) {
+                                                const ObjectPose& angle) {
     OVERT_EXPECTS(scene.view.image_px == target_.size_px());
     render(mesh, clip_from_centred_object(scene, angle));
     std::vector<std::uint32_t> codes(static_cast<std::size_t>(target_.size_px().x) *

@@ -16,7 +16,7 @@ class CoordinatePass {
 
     /// Triangle index + 1 for each pixel, top row first; 0 where there is no surface. Both sides of a
     /// triangle count.
-    std::vector<std::uint32_t> draw(const MeshBuffers& mesh, const SceneView& scene, Degrees angle);
+    std::vector<std::uint32_t> draw(const MeshBuffers& mesh, const SceneView& scene, const ObjectPose& angle);
 
     /// Draws into the target and leaves it there, for an asynchronous read. Allocates and throws nothing.
     void render(const MeshBuffers& mesh, const glm::mat4& clip_from_object) noexcept;

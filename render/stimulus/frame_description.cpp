@@ -52,7 +52,7 @@ ImageAttributes describe_stimulus(const Protocol& protocol, std::span<const Obje
             {"overt:mesh_sha256", object.mesh_hash},
             {"overt:material", material.id},
             {"overt:material_settings", text_of(material)},
-            {"overt:angle_deg", fmt::format("{}", pose.object.value)},
+            {"overt:angle_deg", fmt::format("{}", pose.object.angle.value)},
             {"overt:camera_position", text_of(camera.position)},
             {"overt:camera_target", text_of(camera.target)},
             {"overt:camera_vertical_fov_deg", fmt::format("{}", camera.vertical_fov.value)},

@@ -2,6 +2,7 @@
 
 #include "experiment/spectra/metal_table.h"
 #include "render/bake/frame_baker.h"
+#include "render/bake/layered_surface.h"
 #include "render/image/gallery_probe.h"
 #include "render/stimulus/stimulus_renderer.h"
 
@@ -33,7 +34,7 @@ void add_to(ContentHasher& hasher, const SceneView& scene) {
 }
 
 void add_to(ContentHasher& hasher, const MaterialSettings& material) {
-    static_assert(value_count<MaterialSettings>() == 11, "what was added counts here, or is of no light");
+    static_assert(value_count<MaterialSettings>() == 18, "what was added counts here, or is of no light");
     const MaterialSettings& m = material;
     hasher.add(static_cast<int>(m.kind))
         .add(std::string_view(is_metal_file(m.metal) ? hash_of_file(m.metal) : m.metal));
@@ -44,6 +45,15 @@ void add_to(ContentHasher& hasher, const MaterialSettings& material) {
     hasher.add(m.coat_seed);
     for (const double number : m.reflectance)
         hasher.add(number);
+    // Frames that were there before these keys keep their names.
+    if (m.multiple_scattering)
+        hasher.add(std::string_view("multiple scattering")).add(layered_surface_version);
+    if (row_of(m.kind).has_key("ior")) {
+        hasher.add(layered_surface_version).add(static_cast<int>(m.roughness_as));
+        hasher.add(static_cast<int>(m.body));
+        for (const double number : {m.ior, m.metallic, m.clear_coat, m.clear_coat_roughness})
+            hasher.add(number);
+    }
 }
 
 void add_to(ContentHasher& hasher, const BakeSettings& settings) {

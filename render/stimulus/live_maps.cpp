@@ -27,7 +27,7 @@ LiveMaps::LiveMaps(const GlContext& context, const Protocol& protocol, std::span
             figure.image_px = object.scenes[view].view.image_px;
             figure.pass = &pass_of(context, figure.image_px);
             figure.buffers = buffers_.back().get();
-            for (const Degrees angle : poses.angles)
+            for (const ObjectPose& angle : poses.angles)
                 figure.clip_from_object.push_back(clip_from_centred_object(object.scenes[view], angle));
             figure.states.assign(poses.angles.size(), State::missing);
             figure.maps.resize(poses.angles.size());

@@ -55,12 +55,14 @@ void LiveView::choose(const Stimulus& stimulus) {
     label_ = draw_text("Live preview, approximate: " + stimulus_name(*protocol_, stimulus), style);
 }
 
-LinearImage LiveView::draw(const Orbit& orbit, Degrees light_turn) {
+LinearImage LiveView::draw(const Orbit& orbit, const Pose& pose) {
     OVERT_EXPECTS(buffers_.has_value());
     SceneView scene = objects_[static_cast<std::size_t>(stimulus_.object)].scene(stimulus_.view);
     scene.view.image_px = image_px_;
+    Pose turned = pose;
+    turned.object.angle.value += orbit.turn_deg;
     LinearImage picture =
-        renderer_->draw(*buffers_, seen_from(scene, orbit), {Degrees{orbit.turn_deg}, light_turn});
+        renderer_->draw(*buffers_, seen_from(scene, orbit), turned);
     const glm::mat3 to_display = protocol_->display.characterisation
                                      ? glm::mat3(display_from_rec709(*protocol_->display.characterisation))
                                      : glm::mat3(1.0f);

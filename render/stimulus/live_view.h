@@ -23,7 +23,7 @@ class LiveView {
 
     /// Display light over the protocol's background, opaque, with a line of text that says what it is. The
     /// light is turned by `light_turn` from where its settings have it.
-    LinearImage draw(const Orbit& orbit, Degrees light_turn = {});
+    LinearImage draw(const Orbit& orbit, const Pose& pose = {});
 
   private:
     const GlContext* context_;

@@ -56,7 +56,7 @@ bool MapMaker::draw_missing_map(const ViewedObject& viewed, PoseIndex pose) {
     if (cache_->has_map(viewed, pose))
         return false;
     const Object& figure = cache_->objects()[static_cast<std::size_t>(viewed.object)];
-    const Degrees angle = cache_->poses().angle_of(pose);
+    const ObjectPose& angle = cache_->poses().object_of(pose);
     std::filesystem::create_directories(file.parent_path());
     const TriangleMap map = draw_map(viewed, pose);
     if (map.covered_pixels() == 0) {
@@ -81,7 +81,7 @@ TriangleMap MapMaker::draw_map(const ViewedObject& viewed, PoseIndex pose) {
     if (!coordinate_pass_ || coordinate_pass_->target().size_px() != scene.view.image_px)
         coordinate_pass_.emplace(*context_, scene.view.image_px);
     return {scene.view.image_px,
-            coordinate_pass_->draw(buffers_of(viewed.object, false), scene, cache_->poses().angle_of(pose))};
+            coordinate_pass_->draw(buffers_of(viewed.object, false), scene, cache_->poses().object_of(pose))};
 }
 
 const MeshBuffers& MapMaker::buffers_of(int object, bool for_light) {

@@ -237,11 +237,11 @@ bool StimulusCache::has_given_maps(int object) const {
 }
 
 std::filesystem::path StimulusCache::map_file(const ViewedObject& viewed, PoseIndex pose) const {
-    const Degrees turn = poses_.angle_of(pose);
+    const ObjectPose& object = poses_.object_of(pose);
     if (has_given_maps(viewed.object))
         return file_of("given_maps",
-                       hash_of_given_map(*protocol_, viewed.object, first_frame_of(poses_, pose)), turn);
-    return file_of("maps", map_key(objects_[static_cast<std::size_t>(viewed.object)], viewed.view), turn);
+                       hash_of_given_map(*protocol_, viewed.object, first_frame_of(poses_, pose)), object);
+    return file_of("maps", map_key(objects_[static_cast<std::size_t>(viewed.object)], viewed.view), object);
 }
 
 SceneView StimulusCache::scene_of_given_maps(const ViewedObject& viewed) const {
@@ -297,8 +297,16 @@ CoordinateMaps StimulusCache::maps_of(const ViewedObject& viewed) const {
 }
 
 std::filesystem::path StimulusCache::file_of(std::string_view kind, const ContentHash& hash,
-                                             Degrees turn) const {
-    return folder_ / kind / hash.substr(0, 24) / fmt::format("{:+010.5f}deg.exr", turn.value);
+                                             const ObjectPose& object) const {
+    std::string name = fmt::format("{:+010.5f}deg", object.angle.value);
+    if (!object.is_turn()) {
+        ContentHasher hasher;
+        for (const double number : {object.tilt.w, object.tilt.x, object.tilt.y, object.tilt.z,
+                                    object.shift.x, object.shift.y, object.shift.z})
+            hasher.add(number);
+        name += "-" + hasher.finish().substr(0, 16);
+    }
+    return folder_ / kind / hash.substr(0, 24) / (name + ".exr");
 }
 
 } // namespace overt

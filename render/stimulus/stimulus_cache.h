@@ -159,7 +159,7 @@ class StimulusCache {
     bool is_frame(const std::filesystem::path& file, const FrameIdentity& identity,
                   const FrameQuality& quality) const;
     static Pictures pictures_of_motion(const Animation& motion);
-    std::filesystem::path file_of(std::string_view kind, const ContentHash& hash, Degrees turn) const;
+    std::filesystem::path file_of(std::string_view kind, const ContentHash& hash, const ObjectPose& object) const;
 
     const Protocol* protocol_;
     std::span<const Object> objects_;

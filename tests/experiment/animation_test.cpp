@@ -100,7 +100,7 @@ TEST_CASE("a still object has one pose, and a light that turns makes pictures an
     still.kind = MotionKind::still;
     still.angle = {40.0};
     CHECK_FALSE(still.moves());
-    CHECK(distinct_poses(still).angles == std::vector<Degrees>{{40.0}});
+    CHECK(distinct_poses(still).angles == std::vector<ObjectPose>{{40.0}});
     CHECK(still.pictures() == std::vector<Pose>{{{40.0}, {0.0}}});
     CHECK(still.largest_turn().value == 40.0);
 

@@ -15,10 +15,10 @@ namespace overt::test {
 struct CastScene {
     Mesh mesh;
     SceneView scene;
-    std::vector<Degrees> angles;
+    std::vector<ObjectPose> angles;
     std::unique_ptr<RayCaster> rays;
 
-    CastScene(Mesh of, std::vector<Degrees> turned, glm::ivec2 image_px = {160, 160}, double margin = 0.05)
+    CastScene(Mesh of, std::vector<ObjectPose> turned, glm::ivec2 image_px = {160, 160}, double margin = 0.05)
         : mesh(std::move(of)), angles(std::move(turned)) {
         scene.view.image_px = image_px;
         scene.bounds = mesh.bounds();

@@ -63,7 +63,7 @@ GLuint SaliencyPicture::draw(const WatchedObject& object, const std::shared_ptr<
     SceneView scene = object.scene();
     scene.view.image_px = size_px;
     seen_ = seen_from(scene, orbit);
-    const TurntablePose pose = seen_.pose_at(Degrees{orbit.turn_deg});
+    const TurntablePose pose = seen_.pose_at({{orbit.turn_deg}});
     const DepthRange range = depth_range(seen_.bounds, seen_.view);
     const Ray ahead = to_object(
         {seen_.view.camera.position, glm::normalize(seen_.view.camera.position - seen_.view.camera.target)},
@@ -92,7 +92,7 @@ std::optional<SaliencyPicture::Place> SaliencyPicture::place_of(const WatchedObj
                                                                 const glm::dvec3& position) const {
     if (!map_)
         return std::nullopt;
-    const SightLines lines(seen_, Degrees{orbit_.turn_deg});
+    const SightLines lines(seen_, {{orbit_.turn_deg}});
     const glm::dvec3 projected = lines.project(position);
     if (projected.z <= 0.0)
         return std::nullopt;

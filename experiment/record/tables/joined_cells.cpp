@@ -33,8 +33,8 @@ auto image_place(int axis) {
 } // namespace
 
 std::optional<Fixed> angle_of(const SessionHeader& header, PoseIndex pose) {
-    return of_maybe(item_of(header.poses.angles, pose.value), [](Degrees angle) {
-        return Fixed{angle.value, angle_decimals};
+    return of_maybe(item_of(header.poses.angles, pose.value), [](const ObjectPose& object) {
+        return Fixed{object.angle.value, angle_decimals};
     });
 }
 

@@ -76,7 +76,7 @@ struct PosePicture {
 /// What may have been looked at, whichever area is asked for.
 class LookedAt {
   public:
-    LookedAt(const Mesh& mesh, const SceneView& scene, std::span<const Degrees> poses,
+    LookedAt(const Mesh& mesh, const SceneView& scene, std::span<const ObjectPose> poses,
              std::span<const MeasuredPlace> fixations)
         : cells_(cells_of(mesh)), fixations_(fixations), pictures_(poses.size()),
           candidates_(fixations.size()) {
@@ -246,7 +246,7 @@ class Deconvolution {
 } // namespace
 
 std::vector<std::vector<AreaEvidence>> area_evidence(const Mesh& mesh, const Areas& areas,
-                                                     const SceneView& scene, std::span<const Degrees> poses,
+                                                     const SceneView& scene, std::span<const ObjectPose> poses,
                                                      std::span<const MeasuredPlace> fixations) {
     std::vector<std::vector<AreaEvidence>> found(fixations.size());
     if (mesh.triangles.empty() || areas.empty() || fixations.size() < least_fixations)

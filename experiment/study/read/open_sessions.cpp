@@ -130,10 +130,7 @@ bool is_same_object(const SessionHeader& a, const ViewedObject& in_a, const Sess
     };
     const ScreenGeometry screen = a.screen_of_view(in_a.view), other_screen = b.screen_of_view(in_b.view);
     // Maps are looked up by the number of the pose.
-    const auto same_angle = [](Degrees one_angle, Degrees other_angle) {
-        return one_angle.value == other_angle.value;
-    };
-    return std::ranges::equal(a.poses.angles, b.poses.angles, same_angle) && one.id == other.id &&
+    return a.poses.angles == b.poses.angles && one.id == other.id &&
            one.mesh_file.empty() == other.mesh_file.empty() && one.mesh_sha256 == other.mesh_sha256 &&
            camera.position == other_camera.position && camera.target == other_camera.target &&
            camera.vertical_fov == other_camera.vertical_fov && screen.image_px == other_screen.image_px &&

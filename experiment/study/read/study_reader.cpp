@@ -189,15 +189,17 @@ class StudyReader {
         });
     }
 
-    /// Of an object's stimuli by the hashes of their frames, and the angles of their pictures, which are not
-    /// in what they are made from.
-    using LightKey = std::pair<ContentHash, std::vector<Degrees>>;
+    /// Of an object's stimuli by the hashes of their frames, and how the object stands in their pictures,
+    /// which is not in what they are made from.
+    using LightKey = std::pair<ContentHash, std::vector<std::array<double, 8>>>;
     using LightOfStimuli = std::map<LightKey, LightScores>;
 
     static LightKey light_key(const SessionHeader& header, const RecordedStimulus& stimulus) {
         LightKey key{stimulus.made_from_sha256 + stimulus.frames_sha256, {}};
-        for (const Pose& pose : header.animation_of(stimulus.stimulus).pictures())
-            key.second.push_back(pose.object);
+        for (const Pose& picture : header.animation_of(stimulus.stimulus).pictures()) {
+            const auto& [angle, tilt, shift] = picture.object;
+            key.second.push_back({angle.value, tilt.w, tilt.x, tilt.y, tilt.z, shift.x, shift.y, shift.z});
+        }
         return key;
     }
 

@@ -12,13 +12,13 @@ namespace overt {
 namespace {
 
 std::vector<StudyTurn> turns_of(const TrialLedger& ledger, SessionTime onset,
-                                const std::vector<Degrees>& angles) {
+                                const std::vector<ObjectPose>& angles) {
     std::vector<StudyTurn> turns;
     for (const FlipRecord& flip : ledger.fit.flips()) {
         if (flip.shown == no_frame || (!turns.empty() && turns.back().frame == flip.shown.value))
             continue;
         turns.push_back({to_seconds(flip.report.vertical_blank - onset),
-                         angles[static_cast<std::size_t>(flip.pose.value)].value, flip.shown.value});
+                         angles[static_cast<std::size_t>(flip.pose.value)].angle.value, flip.shown.value});
     }
     return turns;
 }

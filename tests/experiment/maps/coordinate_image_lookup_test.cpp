@@ -16,7 +16,7 @@ using namespace overt;
 namespace {
 
 constexpr glm::ivec2 image_px{160, 160};
-constexpr Degrees angle{12.0};
+const ObjectPose angle{12.0};
 
 /// A ball in front of another, as rays through the pixel centres see them.
 struct TwoBalls {

@@ -16,7 +16,7 @@ using test::CastScene;
 
 namespace {
 
-const std::vector<Degrees> three_angles{{0.0}, {25.0}, {-25.0}};
+const std::vector<ObjectPose> three_angles{{0.0}, {25.0}, {-25.0}};
 
 double area_of(const Reconstruction& made) {
     double area = 0.0;
@@ -98,7 +98,7 @@ TEST_CASE("the area never seen is that of the triangles that face away from all 
             c(ball.mesh.positions[t.z]);
         const glm::dvec3 normal = glm::cross(b - a, c - a);
         bool faces = false;
-        for (const Degrees angle : three_angles) {
+        for (const ObjectPose& angle : three_angles) {
             const glm::dvec3 eye =
                 to_object({ball.scene.view.camera.position, {0.0, 1.0, 0.0}}, ball.scene.pose_at(angle))
                     .origin;

@@ -46,7 +46,7 @@ inline SessionHeader example_header() {
                           .amplitude = Degrees{12.5},
                           .playback = Playback::ping_pong,
                           .duration_s = 2.52}};
-    header.poses = {{Degrees{-12.5}, Degrees{0.1}, Degrees{12.5}},
+    header.poses = {{{{-12.5}}, {{0.1}}, {{12.5}}},
                     {{PoseIndex{0}, PoseIndex{1}, PoseIndex{2}}}};
     header.tasks = {{"free", "Look around"}, {"age", "How old?\tSay it."}};
     RecordedObject bust{"bust",

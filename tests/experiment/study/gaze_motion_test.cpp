@@ -23,8 +23,8 @@ struct TurningBall {
         : scene(ball({0.0, 0.0, 0.0}, 60.0), angles()), maps(scene.maps()),
           point(*maps.surface_at(PoseIndex{6}, {80.0, 80.0})) {}
 
-    static std::vector<Degrees> angles() {
-        std::vector<Degrees> all;
+    static std::vector<ObjectPose> angles() {
+        std::vector<ObjectPose> all;
         for (int pose = 0; pose < 13; ++pose)
             all.push_back(Degrees{pose - 6.0});
         return all;

@@ -25,8 +25,8 @@ struct LitBall {
         : scene(ball({0.0, 0.0, 0.0}, 60.0), angles()), maps(scene.maps()), scores(light(is_bright)) {}
 
     static constexpr int poses = 9;
-    static std::vector<Degrees> angles() {
-        std::vector<Degrees> all;
+    static std::vector<ObjectPose> angles() {
+        std::vector<ObjectPose> all;
         for (int pose = 0; pose < poses; ++pose)
             all.push_back(Degrees{10.0 * (pose - static_cast<int>(poses / 2))});
         return all;

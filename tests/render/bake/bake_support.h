@@ -49,7 +49,7 @@ inline MaterialSettings material_of(MaterialKind kind, const std::string& metal 
 }
 
 inline SpectralFrame baked(const BakeScene& scene, const SpectralLight& light, const SceneView& view,
-                           const BakeSettings& settings, Degrees angle = {0.0}) {
+                           const BakeSettings& settings, const ObjectPose& angle = {}) {
     return bake_frame(scene, light, view, angle, covered_pixels(scene, view, angle), settings);
 }
 

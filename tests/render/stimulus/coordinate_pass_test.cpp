@@ -18,7 +18,7 @@ using namespace overt;
 namespace {
 
 constexpr glm::ivec2 image_px{160, 160};
-const std::vector<Degrees> angles{{0.0}, {25.0}, {-13.7}};
+const std::vector<ObjectPose> angles{{0.0}, {25.0}, {-13.7}};
 
 struct Figure {
     Mesh mesh;
@@ -42,7 +42,7 @@ std::vector<TriangleMap> draw_maps(const Figure& figure, ContextKind kind) {
     CoordinatePass pass(*context, image_px);
     const MeshBuffers buffers(*context, figure.mesh);
     std::vector<TriangleMap> maps;
-    for (const Degrees angle : angles)
+    for (const ObjectPose& angle : angles)
         maps.push_back({image_px, pass.draw(buffers, figure.scene, angle)});
     return maps;
 }

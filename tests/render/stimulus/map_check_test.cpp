@@ -18,7 +18,7 @@ using namespace overt;
 namespace {
 
 constexpr glm::ivec2 map_px{200, 160};
-const std::vector<Degrees> map_angles{{0.0}, {25.0}, {-17.3}};
+const std::vector<ObjectPose> map_angles{{0.0}, {25.0}, {-17.3}};
 
 struct MappedFigure {
     Mesh mesh;
@@ -46,7 +46,7 @@ std::vector<TriangleMap> draw_maps(const MappedFigure& figure) {
     CoordinatePass pass(*context, figure.scene.view.image_px);
     const MeshBuffers buffers(*context, figure.mesh);
     std::vector<TriangleMap> maps;
-    for (const Degrees angle : map_angles)
+    for (const ObjectPose& angle : map_angles)
         maps.push_back({figure.scene.view.image_px, pass.draw(buffers, figure.scene, angle)});
     return maps;
 }

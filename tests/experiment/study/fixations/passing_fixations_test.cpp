@@ -63,7 +63,7 @@ std::vector<GazeEvent> many_events(RandomStream& random) {
 TEST_CASE("fixations that are found while samples pass by are those of all samples together", "[unit]") {
     const StudyOptions options;
     const std::optional<ClockMap> clock_map = clocks_of_passing();
-    const std::vector<Degrees> angles{{-10.0}, {0.0}, {10.0}};
+    const std::vector<ObjectPose> angles{{-10.0}, {0.0}, {10.0}};
     const std::optional<ObjectScale> scale = ObjectScale{0.5, 1000.0, 30.0};
     int with_place = 0, without = 0;
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {

@@ -56,7 +56,7 @@ struct PlacedTrial {
     std::vector<PlacedSample> samples;
     StudyOptions options;
     std::optional<ClockMap> clock_map = clocks();
-    std::vector<Degrees> angles{{-10.0}, {0.0}, {10.0}};
+    std::vector<ObjectPose> angles{{-10.0}, {0.0}, {10.0}};
     /// A unit of the mesh is half a millimetre, and 30 mm a degree in the axis' depth.
     std::optional<ObjectScale> scale = ObjectScale{0.5, 1000.0, 30.0};
 };

@@ -1,0 +1,14 @@
+/// As the observer turns it: the frames are the poses, and a step shows one after the other until it is known
+/// which.
+#include "experiment/animation.h"
+
+namespace overt {
+
+template <> const MotionLaw& motion_law<MotionKind::observer>() {
+    static constexpr MotionLaw law{.pose_of = [](const Animation& motion, AnimationFrameIndex frame) -> Pose {
+        return {{motion.by_observer.angle_of(frame.value)}, {}};
+    }};
+    return law;
+}
+
+} // namespace overt

@@ -1,0 +1,200 @@
+#include "render/bake/layered_surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "render/bake/microfacets.h"
+
+namespace overt {
+
+namespace {
+
+constexpr float pi_of_lobe = std::numbers::pi_v<float>;
+
+/// Where a direction at a cosine lies among rows that are even in its root.
+struct RowPlace {
+    int row;
+    float share;
+};
+RowPlace row_place(float cosine, int rows) {
+    const float place = std::sqrt(std::clamp(cosine, 0.0f, 1.0f)) * static_cast<float>(rows - 1);
+    const int row = std::min(static_cast<int>(place), rows - 2);
+    return {row, place - static_cast<float>(row)};
+}
+
+/// Density with which visible normals lead on in `out`: G1(v) D(h) / (4 cos_v) (Walter et al. 2007, eq. 14;
+/// Heitz 2018).
+float mirror_density(glm::vec3 to_eye, glm::vec3 out, float alpha) {
+    return ggx_visible_share(to_eye, alpha) * ggx_density(glm::normalize(to_eye + out), alpha) /
+           (4.0f * to_eye.z);
+}
+
+} // namespace
+
+LobeAlbedo::LobeAlbedo(double alpha, const std::function<double(double)>& reflectance)
+    : share_(static_cast<std::size_t>(rows)) {
+    // The mean over visible normals, which a mirror's reflectance and the shadowing of what it mirrors weigh:
+    // even steps over the square in which they are drawn.
+    constexpr int steps = 48;
+    const auto rough = static_cast<float>(alpha);
+    for (int row = 0; row < rows; ++row) {
+        const float root = static_cast<float>(row) / static_cast<float>(rows - 1);
+        const float cosine = std::max(root * root, 1e-5f);
+        const glm::vec3 eye(std::sqrt(std::max(0.0f, 1.0f - cosine * cosine)), 0.0f, cosine);
+        double sum = 0.0;
+        for (int y = 0; y < steps; ++y) {
+            for (int x = 0; x < steps; ++x) {
+                const glm::vec2 place((static_cast<float>(x) + 0.5f) / steps,
+                                      (static_cast<float>(y) + 0.5f) / steps);
+                const glm::vec3 micro = ggx_visible_normal(eye, rough, place);
+                const float towards = std::min(1.0f, glm::dot(eye, micro));
+                const glm::vec3 out = 2.0f * towards * micro - eye;
+                if (out.z > 0.0f)
+                    sum += reflectance(static_cast<double>(towards)) *
+                           static_cast<double>(ggx_visible_share(out, rough));
+            }
+        }
+        share_[static_cast<std::size_t>(row)] =
+            static_cast<float>(std::clamp(sum / (steps * steps), 0.0, 1.0));
+    }
+    // 2 times the integral of E cos over the cosine, which is s^2: 4 times that of E s^3 over s, exact for
+    // what at() gives, so that nothing is lost between the two.
+    double mean = 0.0;
+    for (int row = 0; row + 1 < rows; ++row) {
+        const double from = static_cast<double>(row) / (rows - 1),
+                     to = static_cast<double>(row + 1) / (rows - 1);
+        const double at_from = static_cast<double>(share_[static_cast<std::size_t>(row)]);
+        const double slope =
+            (static_cast<double>(share_[static_cast<std::size_t>(row + 1)]) - at_from) / (to - from);
+        mean += (at_from - slope * from) * (std::pow(to, 4) - std::pow(from, 4)) +
+                0.8 * slope * (std::pow(to, 5) - std::pow(from, 5));
+    }
+    mean_ = static_cast<float>(mean);
+}
+
+float LobeAlbedo::at(float cosine) const {
+    const auto [row, share] = row_place(cosine, rows);
+    const float* from = &share_[static_cast<std::size_t>(row)];
+    return from[0] + share * (from[1] - from[0]);
+}
+
+/// How often each part is chosen, and what the coat leaves of the light towards the eye.
+struct LayeredSurface::Chances {
+    float coat = 0.0f, even = 1.0f;
+    std::array<float, 2> mirrors{}; ///< of the body, in their order
+    float below_coat = 1.0f;
+};
+
+LayeredSurface::Chances LayeredSurface::chances(float cosine) const {
+    Chances chances;
+    if (!coat.empty()) {
+        chances.coat = coat.front().albedo.at(cosine);
+        chances.below_coat = 1.0f - chances.coat;
+    }
+    float sum = chances.coat;
+    for (std::size_t i = 0; i < mirrors.size(); ++i)
+        sum += chances.mirrors[i] = chances.below_coat * mirrors[i].albedo.at(cosine);
+    float even = 0.0f;
+    for (const Even& part : evens)
+        even += part.colour.largest() * (1.0f - part.taken.at(cosine));
+    sum += even *= chances.below_coat;
+    // Never so seldom that one of its paths would outshine a whole picture.
+    constexpr float least = 0.05f;
+    chances.even = evens.empty() ? 0.0f : std::max(least, sum > 0.0f ? even / sum : 1.0f);
+    const float others = sum - even;
+    if (others <= 0.0f) {
+        chances.even = 1.0f;
+        return chances;
+    }
+    const float factor = (1.0f - chances.even) / others;
+    chances.coat *= factor;
+    for (float& chance : chances.mirrors)
+        chance *= factor;
+    return chances;
+}
+
+glm::vec3 LayeredSurface::scatter(const SurfaceEvent& event, SampleSequence& sequence, Bins& carried) const {
+    const NormalFrame frame(event.normal);
+    const glm::vec3 to_eye = frame.to_local(event.to_eye);
+    const Chances chance = chances(to_eye.z);
+    float choice = sequence.next();
+    const glm::vec2 place = sequence.next_two();
+    glm::vec3 onward;
+    if (choice < chance.even) {
+        onward = frame.to_world(cosine_direction(place));
+    } else {
+        choice -= chance.even;
+        float alpha = coat.empty() ? mirrors.back().alpha : coat.front().alpha;
+        for (std::size_t i = 0; i < mirrors.size(); ++i) {
+            if (choice < chance.mirrors[i]) {
+                alpha = mirrors[i].alpha;
+                break;
+            }
+            choice -= chance.mirrors[i];
+        }
+        const glm::vec3 micro = frame.to_world(ggx_visible_normal(to_eye, alpha, place));
+        onward = glm::normalize(2.0f * glm::dot(event.to_eye, micro) * micro - event.to_eye);
+    }
+    if (frame.to_local(onward).z <= 0.0f)
+        return glm::vec3(0.0f); // met another of the small mirrors: what those send on is in what is even
+    take(event, onward, carried);
+    return onward;
+}
+
+float LayeredSurface::density(const SurfaceEvent& event, glm::vec3 onward) const {
+    const NormalFrame frame(event.normal);
+    const glm::vec3 to_eye = frame.to_local(event.to_eye), out = frame.to_local(onward);
+    if (to_eye.z <= 0.0f || out.z <= 0.0f)
+        return 0.0f;
+    const Chances chance = chances(to_eye.z);
+    float density = chance.even * out.z / pi_of_lobe;
+    for (std::size_t i = 0; i < mirrors.size(); ++i)
+        density += chance.mirrors[i] * mirror_density(to_eye, out, mirrors[i].alpha);
+    if (!coat.empty())
+        density += chance.coat * mirror_density(to_eye, out, coat.front().alpha);
+    return density;
+}
+
+Bins LayeredSurface::value(const SurfaceEvent& event, glm::vec3 onward) const {
+    Bins value{};
+    const NormalFrame frame(event.normal);
+    const glm::vec3 to_eye = frame.to_local(event.to_eye), out = frame.to_local(onward);
+    if (to_eye.z <= 0.0f || out.z <= 0.0f)
+        return value;
+    const float towards = std::min(1.0f, glm::dot(to_eye, glm::normalize(to_eye + out)));
+    const auto add_mirrors = [&](const Mirrors& of, float share) {
+        Bins mirrored = Bins::filled(share * mirror_density(to_eye, out, of.alpha) *
+                                     ggx_visible_share(out, of.alpha) / out.z);
+        of.reflectance.multiply_into(mirrored, towards);
+        add(value, mirrored);
+    };
+    float below_coat = 1.0f;
+    if (!coat.empty()) {
+        const LobeAlbedo& taken = coat.front().albedo;
+        below_coat = (1.0f - taken.at(to_eye.z)) * (1.0f - taken.at(out.z));
+        add_mirrors(coat.front(), 1.0f);
+    }
+    for (const Mirrors& of : mirrors)
+        add_mirrors(of, below_coat);
+    for (const Even& even : evens) {
+        Bins given = even.colour;
+        scale(given, below_coat * (1.0f - even.taken.at(to_eye.z)) * (1.0f - even.taken.at(out.z)) /
+                         (pi_of_lobe * (1.0f - even.taken.mean())));
+        add(value, given);
+    }
+    return value;
+}
+
+void LayeredSurface::take(const SurfaceEvent& event, glm::vec3 onward, Bins& carried) const {
+    const float cosine = glm::dot(event.normal, onward);
+    const float per_steradian = density(event, onward);
+    if (per_steradian <= 0.0f || cosine <= 0.0f) {
+        carried = Bins{};
+        return;
+    }
+    multiply(carried, value(event, onward));
+    scale(carried, cosine / per_steradian);
+}
+
+} // namespace overt
