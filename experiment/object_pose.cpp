@@ -59,7 +59,9 @@ ObjectPose object_pose_of(glm::dquat rotation, glm::dvec3 shift) {
     rotation = settled(rotation);
     if (rotation.x != 0.0 || rotation.y != 0.0)
         return {.angle = {}, .tilt = rotation, .shift = shift};
-    return {.angle = to_degrees({2.0 * std::atan2(rotation.z, rotation.w)}), .tilt = ObjectPose{}.tilt, .shift = shift};
+    return {.angle = to_degrees({2.0 * std::atan2(rotation.z, rotation.w)}),
+            .tilt = ObjectPose{}.tilt,
+            .shift = shift};
 }
 
 } // namespace overt

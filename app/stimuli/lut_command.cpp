@@ -114,10 +114,11 @@ CoordinateMaps draw_maps(StimulusLibrary& library, const Object& object, const V
         angles.push_back(library.cache().poses().angles[static_cast<std::size_t>(pose.value)]);
         maps.push_back(library.maps().draw_map(viewed, pose));
         if (maps.back().covered_pixels() == 0) {
-            throw InputError(fmt::format(
-                "object \"{}\" is nowhere in the picture at {:.3g} degrees: correct the camera "
-                "under {}",
-                object.id, angles.back().angle.value, section_of_view(library.cache().protocol(), viewed.view)));
+            throw InputError(
+                fmt::format("object \"{}\" is nowhere in the picture at {:.3g} degrees: correct the camera "
+                            "under {}",
+                            object.id, angles.back().angle.value,
+                            section_of_view(library.cache().protocol(), viewed.view)));
         }
     }
     return {object.mesh, object.scene(viewed.view), angles, std::move(maps)};
@@ -175,10 +176,12 @@ int run_lut(const LutOptions& options) {
     for (const auto& [pose, numbers] : frames) {
         bar.update(fmt::format("{} {}", writes ? "writing maps of" : "checking", object.id), drawn,
                    static_cast<int>(frames.size()));
-        description.angle = library.cache().poses().object_of(pose).angle;
+        // A file knows of turns about the vertical alone.
+        const ObjectPose& placed = library.cache().poses().object_of(pose);
+        description.angle = placed.is_turn() ? std::optional(placed.angle) : std::nullopt;
         CoordinateImage image = coordinate_image(maps, {drawn++}, scene.view.image_px);
         if (rays) {
-            const MapCheck one = check_map(image, *rays, scene, *description.angle, options.scale);
+            const MapCheck one = check_map(image, *rays, scene, placed, options.scale);
             check = check ? worst_of(*check, one) : one;
         }
         if (!writes)

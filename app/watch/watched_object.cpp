@@ -24,8 +24,7 @@ Recorded read_object(const std::filesystem::path& session, const std::string& id
     const SessionRecord record(session);
     const SessionHeader& header = record.header();
     const auto found = std::ranges::find(header.objects, id, &RecordedObject::id);
-    if (found == header.objects.end() || found->mesh_file.empty() ||
-        view >= found->cameras.size() ||
+    if (found == header.objects.end() || found->mesh_file.empty() || view >= found->cameras.size() ||
         found->cameras[view].vertical_fov.value <= 0.0)
         throw InputError(fmt::format("{}: has no mesh in {}", id, session.string()));
     MeshCleaningReport unused;

@@ -17,8 +17,9 @@ namespace overt {
 /// May be read from any thread once it is made.
 class WatchedObject {
   public:
-    /// As it is seen in a view, by its index. From the session's folder, also while the session runs. Throws InputError for an object without a
-    /// mesh or of an unknown camera, and RecordError for what cannot be read.
+    /// As it is seen in a view, by its index. From the session's folder, also while the session runs. Throws
+    /// InputError for an object without a mesh or of an unknown camera, and RecordError for what cannot be
+    /// read.
     WatchedObject(const std::filesystem::path& session, const std::string& id, int view = 0);
 
     const std::string& id() const { return id_; }

@@ -180,7 +180,8 @@ bool GazeTargets::is_visible(const SurfacePoint& point, int motion, int step) co
     return facing >= least_facing && !caster_.is_hidden(point.position, eye);
 }
 
-std::optional<SurfacePoint> GazeTargets::surface_at(glm::dvec2 image_point_px, const ObjectPose& angle) const noexcept {
+std::optional<SurfacePoint> GazeTargets::surface_at(glm::dvec2 image_point_px,
+                                                    const ObjectPose& angle) const noexcept {
     const Ray ray = scene_.view.ray_through(image_point_px);
     const TurntablePose pose = scene_.pose_at(angle);
     const Ray object_ray = to_object(ray, pose);

@@ -16,7 +16,8 @@ namespace {
 constexpr std::string_view turning_keys[] = {
     "step_deg", "from_deg",           "to_deg",           "start", "with", "keys", "speed_deg_s",
     "drag_deg", "simulated_turn_deg", "simulated_pause_s"};
-constexpr std::string_view idle_keys[] = {"frame_count", "amplitude_deg", "light_amplitude_deg", "playback"};
+constexpr std::string_view idle_keys[] = {"frame_count", "amplitude_deg", "light_amplitude_deg",
+                                          "light_turns", "playback"};
 
 class TurningChecks {
   public:

@@ -78,7 +78,7 @@ CoordinateImageLookup::Patches CoordinateImageLookup::patches_of(const Coordinat
     const MapDescription& description = map.description;
     if (description.camera && description.bounds && description.angle)
         patches.sight.emplace(SceneView{{*description.camera, image_px}, *description.bounds},
-                              *description.angle);
+                              ObjectPose{*description.angle});
     return patches;
 }
 

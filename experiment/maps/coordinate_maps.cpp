@@ -32,8 +32,8 @@ void check_map(const Mesh& mesh, glm::ivec2 image_px, const TriangleMap& map) {
 
 } // namespace
 
-CoordinateMaps::CoordinateMaps(const Mesh& mesh, const SceneView& scene, const std::vector<ObjectPose>& angles,
-                               std::vector<TriangleMap> maps, Use use)
+CoordinateMaps::CoordinateMaps(const Mesh& mesh, const SceneView& scene,
+                               const std::vector<ObjectPose>& angles, std::vector<TriangleMap> maps, Use use)
     : CoordinateMaps(
           mesh, scene, angles,
           [&](PoseIndex pose) {
@@ -42,7 +42,8 @@ CoordinateMaps::CoordinateMaps(const Mesh& mesh, const SceneView& scene, const s
           },
           use) {}
 
-CoordinateMaps::CoordinateMaps(const Mesh& mesh, const SceneView& scene, const std::vector<ObjectPose>& angles,
+CoordinateMaps::CoordinateMaps(const Mesh& mesh, const SceneView& scene,
+                               const std::vector<ObjectPose>& angles,
                                const std::function<TriangleMap(PoseIndex)>& map_of, Use use)
     : mesh_(&mesh), image_px_(scene.view.image_px), walk_(mesh), caster_(mesh) {
     if (mesh.triangles.size() > PixelCell::most_triangles)

@@ -113,8 +113,8 @@ struct Findings {
 
 } // namespace
 
-MapCheck check_map(const CoordinateImage& map, const RayCaster& rays, const SceneView& scene, const ObjectPose& angle,
-                   int scale) {
+MapCheck check_map(const CoordinateImage& map, const RayCaster& rays, const SceneView& scene,
+                   const ObjectPose& angle, int scale) {
     const glm::ivec2 size = scene.view.image_px;
     if (map.size_px != size) {
         throw InputError(fmt::format("a map of {} x {} pixels cannot be checked against a picture of {} x {}",

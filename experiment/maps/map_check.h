@@ -45,8 +45,8 @@ struct MapCheck {
 
 /// Checks a map of a mesh in a pose. `rays` are those of the mesh. Works on all processors. Throws InputError
 /// if the map has another size than the view.
-MapCheck check_map(const CoordinateImage& map, const RayCaster& rays, const SceneView& scene, const ObjectPose& angle,
-                   int scale = CoordinateCodec::usual_scale);
+MapCheck check_map(const CoordinateImage& map, const RayCaster& rays, const SceneView& scene,
+                   const ObjectPose& angle, int scale = CoordinateCodec::usual_scale);
 
 /// The worse of each figure of two maps; the pixels counted are summed.
 MapCheck worst_of(const MapCheck& one, const MapCheck& other);

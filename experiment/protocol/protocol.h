@@ -300,8 +300,8 @@ struct MaterialSettings : ListEntry {
     int coat_seed = 0;                                ///< of the bumps
     std::array<double, 3> reflectance{0.5, 0.5, 0.5}; ///< of diffuse, plastic, metallic_roughness
     RoughnessAs roughness_as = RoughnessAs::alpha;    ///< of plastic; of metallic_roughness it is the root
-    bool multiple_scattering = false; ///< of rough_conductor: light of several micro-mirrors, too
-    double ior = 1.5;                 ///< of plastic and metallic_roughness
+    bool multiple_scattering = false;      ///< of rough_conductor: light of several micro-mirrors, too
+    double ior = 1.5;                      ///< of plastic and metallic_roughness
     PlasticBody body = PlasticBody::light; ///< of plastic
     // Of metallic_roughness.
     double metallic = 0.0;             ///< share of metal
@@ -310,8 +310,7 @@ struct MaterialSettings : ListEntry {
 
     /// GGX alpha of what the kind has of rough surface, below a clear coat.
     double alpha() const {
-        const bool is_root =
-            kind == MaterialKind::metallic_roughness || roughness_as == RoughnessAs::root;
+        const bool is_root = kind == MaterialKind::metallic_roughness || roughness_as == RoughnessAs::root;
         return is_root && kind != MaterialKind::rough_conductor ? roughness * roughness : roughness;
     }
 };

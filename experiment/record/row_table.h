@@ -35,8 +35,9 @@ inline std::string stored(std::uint64_t value) { return std::to_string(value); }
 /// A kind of a table stands there by its name, so that tables may grow.
 template <TableKind Kind> std::string stored(Kind kind) { return std::string(name_of(kind)); }
 template <class Enum>
-requires(std::is_enum_v<Enum> && !TableKind<Enum>)
-const char* stored(Enum value) { return stored_words<Enum>[static_cast<std::size_t>(value)]; }
+requires(std::is_enum_v<Enum> && !TableKind<Enum>) const char* stored(Enum value) {
+    return stored_words<Enum>[static_cast<std::size_t>(value)];
+}
 
 inline void read_into(std::uint64_t& value, Query& row) {
     const std::string text = row.text();
@@ -52,8 +53,7 @@ template <TableKind Kind> void read_into(Kind& kind, Query& row) {
     kind = static_cast<Kind>(found - names_of<Kind>.begin());
 }
 template <class Enum>
-requires(std::is_enum_v<Enum> && !TableKind<Enum>)
-void read_into(Enum& value, Query& row) {
+requires(std::is_enum_v<Enum> && !TableKind<Enum>) void read_into(Enum& value, Query& row) {
     const std::string text = row.text();
     std::size_t index = 0;
     while (index + 1 < stored_words<Enum>.size() && text != stored_words<Enum>[index])

@@ -2,7 +2,8 @@
 /// double: the graphics card gets these matrices, the gaze is projected with them, and both must agree.
 ///
 /// World: right-handed, +z up, in the mesh's unit. The object turns about the vertical through the centre of
-/// its bounding box, and may be tilted and moved after that. Image: continuous pixels, origin top left, y down, pixel centres at +0.5.
+/// its bounding box, and may be tilted and moved after that. Image: continuous pixels, origin top left, y
+/// down, pixel centres at +0.5.
 #pragma once
 
 #include <glm/glm.hpp>

@@ -61,8 +61,7 @@ LinearImage LiveView::draw(const Orbit& orbit, const Pose& pose) {
     scene.view.image_px = image_px_;
     Pose turned = pose;
     turned.object.angle.value += orbit.turn_deg;
-    LinearImage picture =
-        renderer_->draw(*buffers_, seen_from(scene, orbit), turned);
+    LinearImage picture = renderer_->draw(*buffers_, seen_from(scene, orbit), turned);
     const glm::mat3 to_display = protocol_->display.characterisation
                                      ? glm::mat3(display_from_rec709(*protocol_->display.characterisation))
                                      : glm::mat3(1.0f);

@@ -159,7 +159,8 @@ class StimulusCache {
     bool is_frame(const std::filesystem::path& file, const FrameIdentity& identity,
                   const FrameQuality& quality) const;
     static Pictures pictures_of_motion(const Animation& motion);
-    std::filesystem::path file_of(std::string_view kind, const ContentHash& hash, const ObjectPose& object) const;
+    std::filesystem::path file_of(std::string_view kind, const ContentHash& hash,
+                                  const ObjectPose& object) const;
 
     const Protocol* protocol_;
     std::span<const Object> objects_;

@@ -62,8 +62,7 @@ TEST_CASE("every frame has the angle of its pose, whatever the number of frames"
             const PoseTable poses = distinct_poses(animation);
             for (int k = 0; k < frames; ++k) {
                 const PoseIndex pose = poses.pose_of(0, {k});
-                REQUIRE(bits(poses.angles[static_cast<std::size_t>(pose.value)]) ==
-                        bits(animation.angle_of({k})));
+                REQUIRE(bits(poses.object_of(pose).angle) == bits(animation.angle_of({k})));
             }
         }
     }

@@ -80,8 +80,7 @@ RowLayout<LedgerRow> ledger_layout(const SharedColumns& shared, const SessionHea
             {std::string(name_of(MissCause::shown_late)),
              "it was drawn in time, but the display took it later"}}},
           [](auto& row) { return of_maybe(row.cause, [](MissCause cause) { return name_of(cause); }); }}});
-    if (std::ranges::any_of(header.animations,
-                            [](const Animation& motion) { return motion.turns_light(); }))
+    if (std::ranges::any_of(header.animations, [](const Animation& motion) { return motion.turns_light(); }))
         layout.add<LedgerRow>(
             {{{"light_angle_deg",
                "Turn of the light from where the protocol has it, counter-clockwise seen from above", "deg"},

@@ -265,7 +265,8 @@ std::optional<StudyFixation> surface_fixation(const GazeEvent& event, const Fixa
         fixation.last_frame = lit.back()->frame;
         fixation.mid_pose = lit[lit.size() / 2]->pose;
         fixation.mid_gaze = lit[lit.size() / 2]->gaze;
-        fixation.mid_angle_deg = context.angles[static_cast<std::size_t>(fixation.mid_pose.value)].angle.value;
+        fixation.mid_angle_deg =
+            context.angles[static_cast<std::size_t>(fixation.mid_pose.value)].angle.value;
     }
     if (!placed.empty()) {
         find_point(fixation, placed, context);

@@ -30,7 +30,7 @@ struct FixationContext {
     const std::optional<ClockMap>& clock_map;
     SessionTime onset;
     double presentation_s = 0.0;
-    std::span<const ObjectPose> angles;       ///< by PoseIndex
+    std::span<const ObjectPose> angles;      ///< by PoseIndex
     const std::optional<ObjectScale>& scale; ///< nothing without a known camera
     bool has_surface = false;
     /// Of a session that knows of no stimulus: its fixations are told with their places on the screen alone,

@@ -246,7 +246,8 @@ class Deconvolution {
 } // namespace
 
 std::vector<std::vector<AreaEvidence>> area_evidence(const Mesh& mesh, const Areas& areas,
-                                                     const SceneView& scene, std::span<const ObjectPose> poses,
+                                                     const SceneView& scene,
+                                                     std::span<const ObjectPose> poses,
                                                      std::span<const MeasuredPlace> fixations) {
     std::vector<std::vector<AreaEvidence>> found(fixations.size());
     if (mesh.triangles.empty() || areas.empty() || fixations.size() < least_fixations)

@@ -36,7 +36,8 @@ inline constexpr double farthest_sigmas = 3.035;
 /// and all if they are a few only; of an area that has no triangle, or all of them, nothing tells. `poses` by
 /// PoseIndex. The same on any number of processors. Throws GraphicsError if the mesh's rays cannot be cast.
 std::vector<std::vector<AreaEvidence>> area_evidence(const Mesh& mesh, const Areas& areas,
-                                                     const SceneView& scene, std::span<const ObjectPose> poses,
+                                                     const SceneView& scene,
+                                                     std::span<const ObjectPose> poses,
                                                      std::span<const MeasuredPlace> fixations);
 
 /// The share of fixations on an area under which what was measured is most probable, 0 … 1; nothing without

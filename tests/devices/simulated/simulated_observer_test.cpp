@@ -24,7 +24,7 @@ double distance_px(ScreenPoint a, ScreenPoint b) { return std::hypot(a.x_px - b.
 ScreenPoint shown_at(const Sitting& sitting, const SurfacePoint& point, AnimationFrameIndex frame) {
     const ObservedScene& scene = sitting.observer.scene();
     const SceneView& view = scene.objects[0].scene;
-    const glm::dmat4 turn = view.pose_at(scene.animations[0].angle_of(frame)).world_from_object();
+    const glm::dmat4 turn = view.pose_at(scene.animations[0].object_in(frame)).world_from_object();
     return scene.screen.screen_from_image(
         view.view.project(glm::dvec3(turn * glm::dvec4(point.position, 1.0))));
 }
@@ -35,7 +35,7 @@ std::optional<RayHit> cast(const Sitting& sitting, const RayCaster& caster, Scre
     const ObservedScene& scene = sitting.observer.scene();
     const SceneView& view = scene.objects[0].scene;
     return caster.first_hit(to_object(view.view.ray_through(scene.screen.image_from_screen(place)),
-                                      view.pose_at(scene.animations[0].angle_of(frame))));
+                                      view.pose_at(scene.animations[0].object_in(frame))));
 }
 
 template <class Visit> void for_each_sample(const Sitting& sitting, const Visit& visit) {
@@ -164,7 +164,7 @@ TEST_CASE("what a fixation is meant for is visible in every frame lit meanwhile"
         for (SessionDuration time = fixation.begin; time < fixation.end; time += 5ms) {
             const AnimationFrameIndex frame = *sitting.observer.truth_at(sitting.onset() + time).frame;
             const glm::dvec3 eye = to_object({view.view.camera.position, {0.0, 1.0, 0.0}},
-                                             view.pose_at(scene.animations[0].angle_of(frame)))
+                                             view.pose_at(scene.animations[0].object_in(frame)))
                                        .origin;
             REQUIRE_FALSE(caster.is_hidden(fixation.target->position, eye));
             ++checked;

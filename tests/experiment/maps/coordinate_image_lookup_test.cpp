@@ -25,7 +25,7 @@ struct TwoBalls {
         test::add_part(mesh, test::ball({20.0, -75.0, 20.0}, 25.0, 48, 96), "head");
         scene.view.image_px = image_px;
         scene.bounds = mesh.bounds();
-        scene.view.camera = fit_camera(mesh, {12.0}, image_px, angle, 0.05);
+        scene.view.camera = fit_camera(mesh, {12.0}, image_px, angle.angle, 0.05);
     }
     std::optional<RayHit> hit(glm::dvec2 place) const {
         return rays().first_hit(to_object(scene.view.ray_through(place), scene.pose_at(angle)));
@@ -49,7 +49,7 @@ struct TwoBalls {
             }
         }
         file.description.bounds = scene.bounds;
-        file.description.angle = angle;
+        file.description.angle = angle.angle;
         if (with_camera)
             file.description.camera = scene.view.camera;
         return file;

@@ -46,8 +46,7 @@ inline SessionHeader example_header() {
                           .amplitude = Degrees{12.5},
                           .playback = Playback::ping_pong,
                           .duration_s = 2.52}};
-    header.poses = {{{{-12.5}}, {{0.1}}, {{12.5}}},
-                    {{PoseIndex{0}, PoseIndex{1}, PoseIndex{2}}}};
+    header.poses = {{{{-12.5}}, {{0.1}}, {{12.5}}}, {{PoseIndex{0}, PoseIndex{1}, PoseIndex{2}}}};
     header.tasks = {{"free", "Look around"}, {"age", "How old?\tSay it."}};
     RecordedObject bust{"bust",
                         "A bust",

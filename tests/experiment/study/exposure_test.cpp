@@ -22,7 +22,7 @@ struct ShownBall {
     PoseTable poses;
 
     ShownBall(Mesh mesh, glm::ivec2 image_px, double turn_deg = 25.0)
-        : scene(std::move(mesh), {Degrees{-turn_deg}, Degrees{0.0}, Degrees{turn_deg}}, image_px),
+        : scene(std::move(mesh), {{{-turn_deg}}, {{0.0}}, {{turn_deg}}}, image_px),
           maps(scene.mesh, scene.scene, scene.angles,
                {scene.map(PoseIndex{0}), scene.map(PoseIndex{1}), scene.map(PoseIndex{2})}) {
         // Three frames, each with a pose of its own.

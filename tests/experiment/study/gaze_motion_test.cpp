@@ -26,7 +26,7 @@ struct TurningBall {
     static std::vector<ObjectPose> angles() {
         std::vector<ObjectPose> all;
         for (int pose = 0; pose < 13; ++pose)
-            all.push_back(Degrees{pose - 6.0});
+            all.push_back({{pose - 6.0}});
         return all;
     }
 

@@ -28,7 +28,7 @@ struct LitBall {
     static std::vector<ObjectPose> angles() {
         std::vector<ObjectPose> all;
         for (int pose = 0; pose < poses; ++pose)
-            all.push_back(Degrees{10.0 * (pose - static_cast<int>(poses / 2))});
+            all.push_back({{10.0 * (pose - static_cast<int>(poses / 2))}});
         return all;
     }
 

@@ -29,7 +29,7 @@ struct GivenBust {
         scene.view.camera = fit_camera(mesh, {12.0}, scene.view.image_px, {25.0}, 0.05);
         const RayCaster rays(mesh);
         for (int frame = 0; frame < 5; ++frame) {
-            const Degrees angle = protocol.motions.front().angle_of({frame});
+            const ObjectPose angle = protocol.motions.front().object_in({frame});
             CoordinateImage image(scene.view.image_px);
             for (int y = 0; y < 80; ++y) {
                 for (int x = 0; x < 60; ++x) {
@@ -43,7 +43,7 @@ struct GivenBust {
             description.bounds = scene.bounds;
             description.scale = 65535;
             description.camera = scene.view.camera;
-            description.angle = angle;
+            description.angle = angle.angle;
             write_coordinate_png(lut_file(protocol.objects[0], {frame}), image, description);
         }
     }
