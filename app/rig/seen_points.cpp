@@ -55,7 +55,7 @@ std::shared_ptr<const ProbeView> SeenPoints::point_of(const PlacedStimulus& plac
     for (const PoseIndex pose : frames) {
         const auto index = static_cast<std::size_t>(pose.value);
         if (!is_known[index])
-            by_pose[index] = seen_point(object.mesh, *caster, scene, poses_->angle_of(pose), *found);
+            by_pose[index] = seen_point(object.mesh, *caster, scene, poses_->object_of(pose), *found);
         is_known[index] = true;
     }
     auto view = std::make_shared<PlacedPoint>(std::move(by_pose),

@@ -108,8 +108,8 @@ class PointPlacing {
 
 } // namespace
 
-SeenProbe seen_point(const Mesh& mesh, const RayCaster& caster, const SceneView& scene, Degrees angle,
-                     const ObjectPoint& point) {
+SeenProbe seen_point(const Mesh& mesh, const RayCaster& caster, const SceneView& scene,
+                     const ObjectPose& angle, const ObjectPoint& point) {
     const glm::dmat4 world_from_object = scene.pose_at(angle).world_from_object();
     const glm::dmat4 view_from_object = scene.view.view_from_world() * world_from_object;
     SeenProbe seen;

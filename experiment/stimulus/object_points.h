@@ -24,8 +24,8 @@ struct ObjectPoint {
 };
 
 /// How a place is seen in a view, the object being turned by `angle`. `caster`: of the mesh.
-SeenProbe seen_point(const Mesh& mesh, const RayCaster& caster, const SceneView& scene, Degrees angle,
-                     const ObjectPoint& point);
+SeenProbe seen_point(const Mesh& mesh, const RayCaster& caster, const SceneView& scene,
+                     const ObjectPose& angle, const ObjectPoint& point);
 
 /// Whether a list has places on an object of the protocol.
 bool is_on_object(const Protocol& protocol, const PointListSettings& list, std::size_t object);

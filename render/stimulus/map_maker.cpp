@@ -62,13 +62,13 @@ bool MapMaker::draw_missing_map(const ViewedObject& viewed, PoseIndex pose) {
     if (map.covered_pixels() == 0) {
         throw InputError(fmt::format(
             "object \"{}\" is nowhere in the picture at {:.3g} degrees: correct the camera under {}",
-            figure.id, angle.value, section_of_view(cache_->protocol(), viewed.view)));
+            figure.id, angle.angle.value, section_of_view(cache_->protocol(), viewed.view)));
     }
     const Camera& camera = figure.scene(viewed.view).view.camera;
     write_triangle_map(
         file, map,
         {{"mesh_sha256", figure.mesh_hash},
-         {"angle_deg", fmt::format("{}", angle.value)},
+         {"angle_deg", fmt::format("{}", angle.angle.value)},
          {"camera_position",
           fmt::format("{} {} {}", camera.position.x, camera.position.y, camera.position.z)},
          {"camera_target", fmt::format("{} {} {}", camera.target.x, camera.target.y, camera.target.z)},
