@@ -16,7 +16,7 @@
 #include "app/inputs/session_folders.h"
 #include "experiment/base/counted.h"
 #include "experiment/base/error.h"
-#include "experiment/protocol/old_words.h"
+#include "experiment/protocol/files/old_words.h"
 #include "experiment/study/tables/study_tables.h"
 
 namespace overt {

@@ -7,8 +7,8 @@
 
 #include "app/check/check_commands.h"
 #include "experiment/base/error.h"
-#include "experiment/protocol/protocol_schema.h"
-#include "experiment/protocol/protocol_starter.h"
+#include "experiment/protocol/keys/protocol_schema.h"
+#include "experiment/protocol/keys/protocol_starter.h"
 
 namespace overt {
 

@@ -5,7 +5,7 @@
 
 #include "app/rig/display_box_session.h"
 #include "experiment/base/error.h"
-#include "experiment/protocol/protocol_keys.h"
+#include "experiment/protocol/keys/protocol_keys.h"
 #include "render/window/monitor_choice.h"
 #include "render/window/screen_check.h"
 #include "render/window/window_system.h"

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "experiment/base/error.h"
-#include "experiment/protocol/protocol_keys.h"
+#include "experiment/protocol/keys/protocol_keys.h"
 #include "experiment/session/observer_form.h"
 #include "experiment/session/session_screens.h"
 #include "render/presenter/screen_text.h"

@@ -18,7 +18,7 @@
 #include "experiment/base/number_table.h"
 #include "experiment/colour/characterisation_text.h"
 #include "experiment/colour/patch_plan.h"
-#include "experiment/protocol/protocol_keys.h"
+#include "experiment/protocol/keys/protocol_keys.h"
 #include "render/window/window_system.h"
 
 namespace overt {

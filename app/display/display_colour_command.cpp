@@ -9,7 +9,7 @@
 #include "experiment/base/error.h"
 #include "experiment/base/number_table.h"
 #include "experiment/colour/display_colour.h"
-#include "experiment/protocol/characterisation_file.h"
+#include "experiment/protocol/files/characterisation_file.h"
 #include "render/signal/level_table.h"
 
 namespace overt {

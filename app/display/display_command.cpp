@@ -14,7 +14,7 @@
 #include "experiment/base/error.h"
 #include "experiment/base/random.h"
 #include "experiment/protocol/all_stimuli.h"
-#include "experiment/protocol/protocol_keys.h"
+#include "experiment/protocol/keys/protocol_keys.h"
 #include "render/stimulus/stimulus_library.h"
 #include "render/window/window_system.h"
 

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "experiment/base/error.h"
-#include "experiment/protocol/protocol_keys.h"
+#include "experiment/protocol/keys/protocol_keys.h"
 #include "render/signal/signal_decoder.h"
 
 namespace overt {

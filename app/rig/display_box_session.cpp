@@ -10,7 +10,7 @@
 #include "devices/link/serial_port.h"
 #include "experiment/base/error.h"
 #include "experiment/ports/event_kinds.h"
-#include "experiment/protocol/protocol_keys.h"
+#include "experiment/protocol/keys/protocol_keys.h"
 #include "render/signal/t_lock.h"
 
 namespace overt {

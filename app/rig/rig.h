@@ -14,7 +14,7 @@
 #include "experiment/ports/eye_tracker.h"
 #include "experiment/ports/presentation_listener.h"
 #include "experiment/ports/response_panel.h"
-#include "experiment/protocol/fault_file.h"
+#include "experiment/protocol/files/fault_file.h"
 #include "experiment/record/session_header.h"
 #include "render/presenter/page_presenter.h"
 #include "render/stimulus/live_maps.h"

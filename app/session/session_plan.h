@@ -6,7 +6,7 @@
 #include "app/session/observer_questions.h"
 #include "app/session/resumed_session.h"
 #include "app/session/session_commands.h"
-#include "experiment/protocol/fault_file.h"
+#include "experiment/protocol/files/fault_file.h"
 
 namespace overt {
 

@@ -17,7 +17,7 @@
 #include "experiment/base/error.h"
 #include "experiment/base/parallel.h"
 #include "experiment/base/whole_file.h"
-#include "experiment/protocol/protocol_keys.h"
+#include "experiment/protocol/keys/protocol_keys.h"
 #include "render/gl/headless_context.h"
 
 namespace overt {

@@ -10,7 +10,7 @@
 #include "app/stimuli/bake_errors.h"
 #include "app/stimuli/bake_plan.h"
 #include "experiment/base/counted.h"
-#include "experiment/protocol/protocol_keys.h"
+#include "experiment/protocol/keys/protocol_keys.h"
 
 namespace overt {
 

@@ -1,5 +1,5 @@
 /// What is asked in a trial and how it is answered, as [[task.answer]] states it. Explained key by key in
-/// experiment/protocol/answer_keys.cpp.
+/// experiment/protocol/keys/answer_keys.cpp.
 #pragma once
 
 #include <cstdint>

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "experiment/checks/protocol_checks.h"
-#include "experiment/protocol/characterisation_file.h"
+#include "experiment/protocol/files/characterisation_file.h"
 
 namespace overt {
 

@@ -8,8 +8,8 @@
 
 #include "experiment/base/whole_file.h"
 #include "experiment/checks/protocol_checks.h"
-#include "experiment/protocol/protocol_reader.h"
-#include "experiment/protocol/written_series.h"
+#include "experiment/protocol/files/protocol_reader.h"
+#include "experiment/protocol/files/written_series.h"
 
 namespace overt {
 

@@ -14,7 +14,7 @@
 #include "experiment/design/trial_queue.h"
 #include "experiment/protocol/all_stimuli.h"
 #include "experiment/protocol/entry_ids.h"
-#include "experiment/protocol/protocol_keys.h"
+#include "experiment/protocol/keys/protocol_keys.h"
 #include "experiment/stimulus/frame_memory.h"
 
 namespace overt {

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiment/checks/design_report.h"
-#include "experiment/protocol/protocol_keys.h"
+#include "experiment/protocol/keys/protocol_keys.h"
 
 namespace overt {
 

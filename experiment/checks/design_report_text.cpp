@@ -8,7 +8,7 @@
 #include "experiment/base/counted.h"
 #include "experiment/checks/design_report.h"
 #include "experiment/colour/characterisation_text.h"
-#include "experiment/protocol/protocol_keys.h"
+#include "experiment/protocol/keys/protocol_keys.h"
 
 namespace overt {
 

@@ -2,7 +2,7 @@
 
 #include "experiment/checks/protocol_checks.h"
 #include "experiment/design/block_plan.h"
-#include "experiment/protocol/protocol_keys.h"
+#include "experiment/protocol/keys/protocol_keys.h"
 
 namespace overt {
 

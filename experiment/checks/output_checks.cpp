@@ -5,7 +5,7 @@
 
 #include "experiment/base/counted.h"
 #include "experiment/checks/protocol_checks.h"
-#include "experiment/protocol/protocol_keys.h"
+#include "experiment/protocol/keys/protocol_keys.h"
 #include "experiment/stimulus/frame_memory.h"
 #include "experiment/stimulus/gaze_tags.h"
 #include "experiment/stimulus/photodiode_patch.h"

@@ -10,7 +10,7 @@
 #include "experiment/design/task_trials.h"
 #include "experiment/protocol/all_stimuli.h"
 #include "experiment/protocol/entry_ids.h"
-#include "experiment/protocol/protocol_keys.h"
+#include "experiment/protocol/keys/protocol_keys.h"
 
 namespace overt {
 

@@ -4,7 +4,7 @@
 #include <span>
 #include <string_view>
 
-#include "experiment/protocol/protocol_examination.h"
+#include "experiment/protocol/files/protocol_examination.h"
 
 namespace overt {
 

@@ -11,7 +11,7 @@
 
 #include "experiment/protocol/all_stimuli.h"
 #include "experiment/protocol/entry_ids.h"
-#include "experiment/protocol/protocol_keys.h"
+#include "experiment/protocol/keys/protocol_keys.h"
 #include "experiment/scene/areas.h"
 #include "experiment/spectra/metal_table.h"
 #include "experiment/stimulus/object.h"

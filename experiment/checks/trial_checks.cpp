@@ -9,7 +9,7 @@
 #include "experiment/design/drawn_lists.h"
 #include "experiment/design/task_trials.h"
 #include "experiment/protocol/entry_ids.h"
-#include "experiment/protocol/protocol_keys.h"
+#include "experiment/protocol/keys/protocol_keys.h"
 
 namespace overt {
 

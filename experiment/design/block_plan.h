@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "experiment/design/order_problem.h"
+#include "experiment/design/orders/order_problem.h"
 #include "experiment/design/rotation.h"
 #include "experiment/factors.h"
 #include "experiment/protocol/protocol.h"

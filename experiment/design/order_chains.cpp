@@ -5,7 +5,7 @@
 
 #include "experiment/design/block_plan.h"
 #include "experiment/design/latin_square.h"
-#include "experiment/protocol/protocol_keys.h"
+#include "experiment/protocol/keys/protocol_keys.h"
 
 namespace overt {
 

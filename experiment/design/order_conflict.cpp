@@ -7,7 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "experiment/design/observer_groups.h"
-#include "experiment/design/order_draw.h"
+#include "experiment/design/orders/order_draw.h"
 
 namespace overt {
 

@@ -8,7 +8,7 @@
 #include "experiment/base/random.h"
 #include "experiment/design/block_plan.h"
 #include "experiment/design/order_conflict.h"
-#include "experiment/design/order_draw.h"
+#include "experiment/design/orders/order_draw.h"
 
 namespace overt {
 

@@ -11,7 +11,7 @@
 
 #include "experiment/answers/answer_kinds.h"
 #include "experiment/base/error.h"
-#include "experiment/protocol/old_words.h"
+#include "experiment/protocol/files/old_words.h"
 #include "experiment/scene/areas.h"
 
 namespace overt {

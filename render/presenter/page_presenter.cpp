@@ -8,7 +8,7 @@
 
 #include "experiment/base/error.h"
 #include "experiment/base/random.h"
-#include "experiment/protocol/protocol_keys.h"
+#include "experiment/protocol/keys/protocol_keys.h"
 #include "render/presenter/noise_picture.h"
 #include "render/presenter/screen_text.h"
 #include "render/presenter/setup_screens.h"

@@ -4,7 +4,7 @@
 #include <fmt/ranges.h>
 
 #include "experiment/base/error.h"
-#include "experiment/protocol/protocol_keys.h"
+#include "experiment/protocol/keys/protocol_keys.h"
 #include "render/bake/frame_baker.h"
 
 namespace overt {

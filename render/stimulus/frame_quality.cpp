@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "experiment/protocol/protocol_keys.h"
+#include "experiment/protocol/keys/protocol_keys.h"
 #include "render/bake/material_model.h"
 
 namespace overt {

@@ -9,7 +9,7 @@
 #include "experiment/base/error.h"
 #include "experiment/base/parallel.h"
 #include "experiment/base/whole_file.h"
-#include "experiment/protocol/protocol_keys.h"
+#include "experiment/protocol/keys/protocol_keys.h"
 #include "render/signal/display_light.h"
 #include "render/stimulus/background_picture.h"
 #include "render/stimulus/given_maps.h"

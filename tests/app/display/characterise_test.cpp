@@ -11,7 +11,7 @@
 #include "devices/simulated/simulated_display.h"
 #include "experiment/base/error.h"
 #include "experiment/colour/characterisation_fit.h"
-#include "experiment/protocol/characterisation_file.h"
+#include "experiment/protocol/files/characterisation_file.h"
 #include "tests/app/small_experiment.h"
 
 using namespace overt;

@@ -8,7 +8,7 @@
 #include "experiment/colour/characterisation_fit.h"
 #include "experiment/colour/characterisation_text.h"
 #include "experiment/colour/patch_plan.h"
-#include "experiment/protocol/characterisation_file.h"
+#include "experiment/protocol/files/characterisation_file.h"
 #include "tests/support/temporary_folder.h"
 
 using namespace overt;

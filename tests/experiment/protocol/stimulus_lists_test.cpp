@@ -5,7 +5,7 @@
 
 #include "experiment/base/scratch_folder.h"
 #include "experiment/protocol/all_stimuli.h"
-#include "experiment/protocol/written_series.h"
+#include "experiment/protocol/files/written_series.h"
 #include "tests/experiment/protocol/protocol_fixtures.h"
 
 using namespace overt;

@@ -1,0 +1,313 @@
+#include <fmt/format.h>
+
+#include "experiment/protocol/keys/key_rows.h"
+
+namespace overt::key_rows {
+
+namespace {
+
+constexpr std::string_view units[] = {"mm", "cm", "m", "in", "own"};
+constexpr std::string_view axes[] = {"x", "y", "z", "-x", "-y", "-z"};
+
+/// The keys that the entries of all lists have, and after them the list's own.
+template <class Entry> std::vector<Key> entry_keys(std::vector<Key> own, bool is_never_empty = false) {
+    std::vector<Key> keys{
+        {"id", member_of<Entry>(&ListEntry::id),
+         identifier().left_out(is_never_empty ? "of the only entry the list's name; else as it is called"
+                                              : "as it is called"),
+         "Short name, used in file names and tables. An entry is called by the value of its key `shipped`, "
+         "`mesh`, `kind`, `probe` or `picture`, the ending of a file left out; without any, by its list."},
+        {"title", member_of<Entry>(&ListEntry::title), left_out("the id"), "Name for figures and reports."},
+        {"columns", member_of<Entry>(&ListEntry::columns), left_out("none"),
+         "What tables are to say of it besides, words or numbers: `{gloss=\"high\", size_cm=12}`. Each "
+         "name is a factor, by which trials are ordered, limited and analysed as by the list itself."},
+        {"series", member_of<Entry>(&ListEntry::series), left_out("one entry"),
+         "Several entries in place of this one, which differ in the value of a key that takes a number, a "
+         "word or a file: `{roughness=[0.02, 0.05, 0.1]}` makes three, with the ids ID-0.02 and so on, and "
+         "a column of the key's name. Of several keys the first values belong together, then the second. "
+         "`{mesh=\"shapes/*.ply\"}` stands for all files of the folder that fit, by their names; which those "
+         "were is kept in the record."},
+    };
+    keys.insert(keys.end(), own.begin(), own.end());
+    return keys;
+}
+
+} // namespace
+
+std::vector<Key> area() {
+    using A = AreaSettings;
+    return {
+        {"spheres", &A::spheres, left_out("none"), "Middle and radius of each sphere."},
+        {"boxes", &A::boxes, left_out("none"),
+         "Two corners of each box: the one with the smallest coordinates, and the one with the largest."},
+        {"groups", &A::groups, left_out("none"),
+         "Names of parts that the mesh file labels, such as the groups of an OBJ file, or that `labels` "
+         "names."},
+        {"planes", &A::planes, left_out("nothing is cut off"),
+         "A point of each plane, and the direction in which the area lies."},
+    };
+}
+
+std::vector<Key> view() {
+    using V = ViewSettings;
+    return entry_keys<V>(
+        {
+            {"width_px", &V::width_px, range(8, 16384, "px"),
+             "Width of the stimulus, shown pixel for pixel."},
+            {"height_px", &V::height_px, range(8, 16384, "px"), "Height of the stimulus."},
+            {"left_px", &V::left_px, range(0, 16384, "px").left_out("in the middle of the screen"),
+             "Columns of the screen to the left of the stimulus."},
+            {"top_px", &V::top_px, range(0, 16384, "px").left_out("in the middle of the screen"),
+             "Rows of the screen above the stimulus."},
+            {"centre_right_deg", &V::centre_right_deg, range(-80, 80, "deg").left_out("see `left_px`"),
+             "Angle from the middle of the screen to the middle of the stimulus, positive to the right; to "
+             "the "
+             "nearest pixel."},
+            {"centre_up_deg", &V::centre_up_deg, range(-80, 80, "deg").left_out("see `top_px`"),
+             "The same upwards."},
+            {"vertical_fov_deg", &V::vertical_fov_deg,
+             range(0.1, 170, "deg").left_out("the angle under which the observer sees the image"),
+             "The camera's full angle over the height of the image."},
+            {"margin", &V::margin, range(0, 0.45),
+             "Share of the image left free on each side where the camera is fitted to an object."},
+            {"camera_position", &V::camera_position, left_out("fitted to each object"),
+             "Where the camera stands, in the unit of the mesh."},
+            {"camera_target", &V::camera_target, left_out("the middle of the bounding box"),
+             "What the camera looks at."},
+        },
+        true);
+}
+
+std::vector<Key> light() {
+    using L = LightSettings;
+    return entry_keys<L>(
+        {
+            {"probe", &L::probe,
+             "\"gallery\" for a hall with windows, lamps and a low sun, in which gloss is seen best, "
+             "\"overcast\" for a cloudy sky, or a latitude-longitude picture of the surroundings (EXR or "
+             "HDR, "
+             "linear Rec. 709, +y up)."},
+            {"exposure", &L::exposure, range(1e-6, 1e6),
+             "Factor from the probe's radiance to the display's white."},
+            {"rotation_deg", &L::rotation_deg, range(-360, 360, "deg"),
+             "Turns the surroundings about the vertical."},
+        },
+        true);
+}
+
+std::vector<Key> background() {
+    using B = BackgroundSettings;
+    return entry_keys<B>(
+        {
+            {"grey", &B::grey, range(0, 1).left_out("that of `[display] background`"),
+             "Linear grey, 1 being the display's white."},
+            {"colour", &B::colour, range(0, 1).left_out("see `grey`"),
+             "Linear red, green and blue of the display, 1 being each at its fullest."},
+            {"picture", &B::picture, left_out("see `grey`"),
+             "A picture behind the object, by its path from the protocol's folder: EXR or HDR, linear, or "
+             "PNG, JPEG or TIFF, sRGB, of Rec. 709 colours of which white is the display's white. It is "
+             "made as large as it must be to cover the image, about its middle."},
+        },
+        true);
+}
+
+std::vector<Key> motion() {
+    using M = MotionSettings;
+    using A = Animation;
+    using O = ObserverTurn;
+    constexpr O M::*turn = &M::by_observer;
+    return entry_keys<M>(
+        {
+            {"kind", member_of<M>(&A::kind),
+             explanation_of_kinds<MotionKind>("What the object does, while the light may turn with any.")},
+            {"frame_count", member_of<M>(&A::frame_count), range(1, 10000),
+             "Frames of the animation; with `cycle` the last closes the loop, being the first again."},
+            {"frame_rate_hz", member_of<M>(&A::frame_rate_hz), range(0.1, 1000, "Hz"),
+             "Frames per second, if the refresh rate is a whole multiple of it; see `display.refresh_hz`."},
+            {"amplitude_deg", member_of<M>(&A::amplitude), range(0, 180, "deg"),
+             "Largest turn to each side of `angle_deg`, where the object turns to and fro."},
+            {"angle_deg", member_of<M>(&A::angle), range(-360, 360, "deg"),
+             "Where a still object stands, or from where it turns: counter-clockwise from the front view, "
+             "seen from above."},
+            {"light_amplitude_deg", member_of<M>(&A::light_amplitude), range(0, 180, "deg"),
+             "Largest turn of the surroundings to each side of where `[light]` has them, as a sine in step "
+             "with that of `turn`."},
+            {"light_turns", member_of<M>(&A::light_turns), range(-100, 100),
+             "Full turns of the surroundings while the frames go by once, at one speed; negative: "
+             "clockwise."},
+            {"turns", member_of<M>(&A::turns), range(-100, 100),
+             "Of `turntable` and `orbit`: full turns while the frames go by once; negative: clockwise."},
+            {"axis", member_of<M>(&A::axis), left_out("the vertical"),
+             "About which the object turns, [x, y, z]: x to the right of the front view, y away from it, z "
+             "up. "
+             "The turn by `angle_deg` comes before."},
+            {"pivot", member_of<M>(&A::pivot), left_out("the centre of the object's box"),
+             "A point of the axis, from the centre of the object's box, in the unit of the mesh."},
+            {"rest_share", member_of<M>(&A::rest_share), range(0, 0.99),
+             "Of `trapezoid`: share of the time that the object rests at its two ends, together."},
+            {"ease", member_of<M>(&A::ease),
+             "Of `triangle` and `trapezoid`: at one speed from end to end, or slowly out of one and into the "
+             "other, with the least jerk."},
+            {"angles_deg", member_of<M>(&A::angles_deg), range(-360, 360, "deg").left_out("none"),
+             "Of `steps`: where the object stands, one after the other, for as many frames each, from "
+             "`angle_deg`."},
+            {"waves", member_of<M>(&A::waves), range(-360, 360).left_out("none"),
+             "Of `waves`: each sine's amplitude in degrees, its whole periods while the frames go by once, "
+             "and "
+             "its phase in degrees: `[[20, 1, 0], [5, 3, 90]]`."},
+            {"approach_mm", member_of<M>(&A::approach), range(-1e6, 1e6),
+             "Of `approach`: how far the object comes nearer, towards the front, in the unit of the mesh."},
+            {"keyframes", member_of<M>(&A::keyframes), left_out("none"),
+             "Of `keyframes`: a table of places by the time, a CSV file by its path from the protocol's "
+             "folder. "
+             "Its columns: t_s; x, y, z in the unit of the mesh and qw, qx, qy, qz of a rotation from the "
+             "front "
+             "view, or angle_deg; light_deg. Only t_s is needed."},
+            {"between", member_of<M>(&A::between),
+             "What is between two of its rows: the former, or a straight way at one speed."},
+            {"playback", member_of<M>(&A::playback),
+             "The frames hold a whole period of the sine, or one sweep from end to end that is played forth "
+             "and "
+             "back."},
+            {"duration_s", member_of<M>(&A::duration_s), range(0.01, 3600, "s"),
+             "Length of one presentation at `frame_rate_hz`, a whole number of frames."},
+            {"when_late", member_of<M>(&A::when_late),
+             "What becomes of the animation when a picture comes late: it keeps time and drops the frames "
+             "whose "
+             "time has passed, or it keeps all frames and ends later. Either way the record names each "
+             "refresh "
+             "that was missed."},
+            {"step_deg", turn, &O::step, range(0.05, 180, "deg"),
+             "Of observer: from one pose to the next. Each pose is a picture that is rendered and kept."},
+            {"from_deg", turn, &O::from, range(-360, 360, "deg"),
+             "Of observer: how far clockwise it can be turned, from the front view; a whole number of steps "
+             "before `to_deg`."},
+            {"to_deg", turn, &O::to, range(-360, 720, "deg"),
+             "Of observer: how far counter-clockwise. 360 deg after `from_deg` it goes all round."},
+            {"start",
+             turn,
+             &O::start,
+             {},
+             "Of observer: whether it comes up in the pose nearest to `angle_deg`, or in one that is drawn "
+             "for "
+             "each trial. In further steps of a trial it stands as it was left."},
+            {"with",
+             turn,
+             &O::with,
+             {},
+             "Of observer: turned by dragging with the mouse and by its wheel, by held keys, or by either."},
+            {"keys", turn, &O::keys, left_out("left, right"),
+             "Of observer: the key that turns the front to the left, and the one that turns it to the "
+             "right."},
+            {"speed_deg_s", turn, &O::speed_deg_s, range(1, 1000, "deg/s"),
+             "Of observer: how fast it turns while a key is held. It stops when the key is let go."},
+            {"drag_deg", turn, &O::drag_deg, range(1, 3600, "deg"),
+             "Of observer: how far a drag over the width of its image turns it. The wheel turns it by a "
+             "pose."},
+            {"simulated_turn_deg", turn, &O::simulated_turn_deg, range(0, 720, "deg"),
+             "Of observer: standard deviation of the turns that a simulated observer makes by its keys, one "
+             "after the other."},
+            {"simulated_pause_s", turn, &O::simulated_pause_s, range(0.01, 60, "s"),
+             "Of observer: for how long a simulated observer looks between two turns, in the median; "
+             "log-normal."},
+        },
+        true);
+}
+
+std::vector<Key> object() {
+    using S = ObjectSettings;
+    return entry_keys<S>({
+        {"shipped", &S::shipped, left_out("see `mesh` and `lut`"),
+         "An object that overt makes itself, with the areas head, body and plinth: \"muse\", \"runner\" or "
+         "\"scholar\"; or one of 24 novel shapes with the areas trunk, crest, left and right: \"shape-01\" "
+         "to \"shape-24\"."},
+        {"mesh", &S::mesh, left_out("see `shipped` and `lut`"),
+         "A PLY, OBJ or STL file of triangles, by its path from the protocol's folder."},
+        {"up", &S::up, one_of(axes), "The axis of the mesh file that points up."},
+        {"scale", &S::scale, range(1e-9, 1e9), "Factor on the coordinates of the mesh file."},
+        {"unit", &S::unit, one_of(units),
+         "Unit of the mesh file's coordinates times `scale`. Surface points, maps and the camera are in "
+         "millimetres, whatever it is; with \"own\", for a mesh whose unit is unknown, in the file's, and "
+         "every export says so."},
+        {"labels", &S::labels, left_out("the labels of the mesh file, if it has any"),
+         "A text file with a whole number for each triangle of the mesh, or for each vertex: which part it "
+         "belongs to. Lines `# part 1 rim` name parts. Each part is an area, as are the groups of a mesh "
+         "file; "
+         "beside `areas` both hold, and a triangle may belong to several."},
+        {"weld_tolerance", &S::weld_tolerance, range(0, 0.01),
+         "Vertices of the mesh that are no farther apart than this share of the diagonal of its box are one: "
+         "what some programs write for a corner differs by rounding. 0: only those at the very same place."},
+        {"lut", &S::lut, left_out("maps are made from the mesh"),
+         "Instead of a mesh, for an object whose `[[frames]]` another program rendered: the "
+         "coordinate-encoded maps that it made of them, with # for the digits of the number: "
+         "\"maps/frame_####.png\". See docs/coordinate_maps.md."},
+        {"lut_first_number", &S::lut_first_number, range(0, 1000000), "Number of the first map's file."},
+        {"lut_scale", &S::lut_scale, range(65535, 65536).left_out("from the JSON file beside each map"),
+         "Code of the far side of the box: 65535 for colours from 0 to 1 saved with 16 bits, 65536 for the "
+         "paper's formula."},
+        {"lut_min", &S::lut_min, left_out("from the JSON file beside each map"),
+         "Corner of the box that the maps are coded by, with the smallest coordinates."},
+        {"lut_max", &S::lut_max, left_out("from the JSON file beside each map"),
+         "Corner of the box with the largest coordinates."},
+    });
+}
+
+namespace {
+
+/// Of all kinds of material; it stays as long as the program.
+std::string_view looks_of_kinds() {
+    static const std::string text = [] {
+        std::string all;
+        for (const MaterialKindRow& row : material_kinds)
+            all += fmt::format("{}`{}` {}", all.empty() ? "What it looks like: " : ", ", row.name, row.looks);
+        return all + ".";
+    }();
+    return text;
+}
+
+} // namespace
+
+std::vector<Key> material() {
+    using M = MaterialSettings;
+    return entry_keys<M>({
+        {"kind", &M::kind, one_of(names_in<material_kinds>).required(), looks_of_kinds()},
+        {"metal", &M::metal,
+         "\"Au\" for gold, \"Ag\" for silver, or a table of another conductor: a CSV file with the columns "
+         "wavelength_nm, n and k, by its path from the protocol's folder."},
+        {"roughness", &M::roughness, range(0.001, 1),
+         "GGX alpha of a rough metal or plastic; of `metallic-roughness` its square root, as other programs "
+         "have it."},
+        {"roughness_as", &M::roughness_as,
+         "Whether the `roughness` of a plastic is the GGX alpha, or its root."},
+        {"multiple_scattering", &M::multiple_scattering, left_out("false, as frames always were"),
+         "Of a rough metal: whether the light counts that leaves by several micro-mirrors, too. Without it "
+         "rough metals are too dark: by 4 % at a roughness of 0.13, by a third at 0.6."},
+        {"ior", &M::ior, range(1.01, 3), "Index of refraction of the clear surface of a plastic."},
+        {"body", &M::body,
+         "What `reflectance` is of: of the light that comes out of a plastic, as a colour measured on it is, "
+         "or "
+         "of the pigment inside, from which less comes out, and deeper coloured."},
+        {"metallic", &M::metallic, range(0, 1),
+         "Share of a metal of the colour `reflectance`; the rest is plastic."},
+        {"clear_coat", &M::clear_coat, range(0, 1), "Share of the surface under a clear coat, of index 1.5."},
+        {"clear_coat_roughness", &M::clear_coat_roughness, range(0, 1),
+         "Root of the GGX alpha of that coat."},
+        {"coat_ior", &M::coat_ior, range(1, 4), "Index of refraction of the coat."},
+        {"coat_absorbance", &M::coat_absorbance, range(0, 100),
+         "Optical depth of the coat in red, green and blue, for one pass of its nominal thickness."},
+        {"coat_thickness", &M::coat_thickness, range(0.0001, 0.1),
+         "Nominal thickness of the coat, as share of half the object's height."},
+        {"coat_bump", &M::coat_bump, range(0, 0.2),
+         "Height of the coat's bumps, as share of half the object's height; the coat is nowhere thinner "
+         "than a tenth of its nominal thickness."},
+        {"coat_bump_width", &M::coat_bump_width, range(0.005, 2),
+         "From one bump to the next, as share of half the object's height."},
+        {"coat_seed", &M::coat_seed, range(0, 2147483647), "Another number, other bumps."},
+        {"reflectance", &M::reflectance, range(0, 1),
+         "Share of red, green and blue light that a matt surface returns, or the body of a plastic; the "
+         "colour of "
+         "`metallic-roughness`."},
+    });
+}
+
+} // namespace overt::key_rows
