@@ -74,13 +74,13 @@ class PointPlacing {
         std::optional<RayCaster> caster;
         if (list_.facing_deg)
             caster.emplace(mesh_);
-        const Degrees angle = protocol_.motions.front().angle_of({list_.frame});
+        const ObjectPose pose = protocol_.motions.front().object_in({list_.frame});
         const auto is_seen = [&](const SurfaceSite& site) {
             if (!caster)
                 return true;
             const ObjectPoint point{"", site, position_of(mesh_, site),
                                     shading_normal_of(mesh_, normals_, site)};
-            const SeenProbe seen = seen_point(mesh_, *caster, scene_, angle, point);
+            const SeenProbe seen = seen_point(mesh_, *caster, scene_, pose, point);
             return seen.is_visible && seen.attitude().slant <= Degrees{*list_.facing_deg};
         };
         const auto count = static_cast<std::size_t>(*list_.evenly);
