@@ -274,7 +274,7 @@ bool StimulusCache::has_map(const ViewedObject& viewed, PoseIndex pose) const {
     const std::filesystem::path file = map_file(viewed, pose);
     return std::filesystem::exists(file) &&
            is_map_of(file, objects_[static_cast<std::size_t>(viewed.object)].mesh_hash,
-                     poses_.angle_of(pose));
+                     poses_.object_of(pose).angle);
 }
 
 TriangleMap StimulusCache::read_map(const ViewedObject& viewed, PoseIndex pose) const {

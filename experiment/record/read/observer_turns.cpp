@@ -18,13 +18,13 @@ ObserverTurns turns_of(std::span<const FlipRecord> flips, std::span<const Steere
     for (const FlipRecord& flip : flips) {
         if (flip.shown == no_frame)
             continue;
-        const double angle_deg = poses.angle_of(flip.pose).value;
+        const double angle_deg = poses.object_of(flip.pose).angle.value;
         seen.insert(flip.pose.value);
         turns.end = {angle_deg};
         if (!before)
             turns.start = {angle_deg};
         else if (const double turn_deg =
-                     std::remainder(angle_deg - poses.angle_of(before->pose).value, 360.0);
+                     std::remainder(angle_deg - poses.object_of(before->pose).angle.value, 360.0);
                  turn_deg != 0.0) {
             turns.net.value += turn_deg;
             turns.path.value += std::abs(turn_deg);
