@@ -44,7 +44,8 @@ std::optional<std::string> why_header_is_no_frame(const PictureHeader& header, c
         return "does not say what it is";
     if (!key.empty() && key != identity.key)
         return "is a frame of something else";
-    if (angle != text_of_angle(identity.angle))
+    if (angle != text_of_angle(identity.object.angle) ||
+        header.text(move_attribute) != text_of_move(identity.object))
         return fmt::format("is the frame at {} degrees", angle);
     return std::nullopt;
 }
@@ -55,6 +56,13 @@ std::optional<std::string> why_header_is_no_frame(const PictureHeader& header, c
 }
 
 } // namespace
+
+std::string text_of_move(const ObjectPose& object) {
+    const auto& [angle, tilt, shift] = object;
+    return object.is_turn() ? std::string()
+                            : fmt::format("{} {} {} {} {} {} {}", tilt.w, tilt.x, tilt.y, tilt.z, shift.x,
+                                          shift.y, shift.z);
+}
 
 ContentHash hash_of_pixels(const LinearImage& image) {
     ContentHasher hasher;

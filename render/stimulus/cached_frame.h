@@ -7,20 +7,27 @@
 #include <string>
 
 #include "experiment/base/content_hash.h"
-#include "experiment/units.h"
+#include "experiment/object_pose.h"
 #include "render/image/linear_image.h"
 
 namespace overt {
 
 /// What a frame is of.
 struct FrameIdentity {
-    ContentHash key;  ///< of everything that makes it but the object's angle: StimulusCache::picture_key
-    Degrees angle{0}; ///< of the object
+    ContentHash key; ///< of everything that makes it but how the object stands: StimulusCache::picture_key
+    ObjectPose object;
 };
 
 /// SHA-256 of a picture's size and of its values as a file of 24 bits keeps them (PXR24), little-endian, row
 /// by row: the same of a picture that is about to be written and of one that was read back.
 ContentHash hash_of_pixels(const LinearImage& image);
+
+/// Tilt and shift of an object that is not only turned about the vertical, as frames and maps say it; else
+/// empty.
+std::string text_of_move(const ObjectPose& object);
+
+/// The attribute of a file that holds it, where it is not empty.
+inline constexpr const char* const move_attribute = "overt:tilt_and_shift";
 
 /// Writes a frame with its identity and the hash of its pixels, whole or not at all. Throws RecordError.
 void write_cached_frame(const std::filesystem::path& file, const LinearImage& image,

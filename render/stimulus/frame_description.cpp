@@ -6,6 +6,7 @@
 #include "experiment/base/error.h"
 #include "experiment/protocol/keys/protocol_keys.h"
 #include "render/bake/frame_baker.h"
+#include "render/stimulus/cached_frame.h"
 
 namespace overt {
 
@@ -21,9 +22,10 @@ std::string text_of(const Key& key, const MaterialSettings& material) {
         return fmt::format("{}", *number);
     if (const auto* whole = key.get_if<int>(&material))
         return fmt::format("{}", *whole);
-    const auto* numbers = key.get_if<std::array<double, 3>>(&material);
-    OVERT_EXPECTS(numbers != nullptr); // no key of a material has another type
-    return fmt::format("[{}]", fmt::join(*numbers, ", "));
+    if (const auto* numbers = key.get_if<std::array<double, 3>>(&material))
+        return fmt::format("[{}]", fmt::join(*numbers, ", "));
+    OVERT_EXPECTS(key.type->written != nullptr); // no key of a material can be left out
+    return key.type->written(key.rule, key.place.in(&material));
 }
 
 /// Its kind, and the keys that make a difference to it.
@@ -47,17 +49,21 @@ ImageAttributes describe_stimulus(const Protocol& protocol, std::span<const Obje
     const MaterialSettings& material = protocol.material_of(stimulus);
     const LightSettings& light = protocol.light_of(stimulus);
     const Camera& camera = object.scene(stimulus.view).view.camera;
-    return {{"overt:protocol", protocol.name},
-            {"overt:object", object.id},
-            {"overt:mesh_sha256", object.mesh_hash},
-            {"overt:material", material.id},
-            {"overt:material_settings", text_of(material)},
-            {"overt:angle_deg", fmt::format("{}", pose.object.angle.value)},
-            {"overt:camera_position", text_of(camera.position)},
-            {"overt:camera_target", text_of(camera.target)},
-            {"overt:camera_vertical_fov_deg", fmt::format("{}", camera.vertical_fov.value)},
-            {"overt:light", light.probe},
-            {"overt:light_rotation_deg", fmt::format("{}", light.rotation_deg + pose.light.value)}};
+    ImageAttributes words{
+        {"overt:protocol", protocol.name},
+        {"overt:object", object.id},
+        {"overt:mesh_sha256", object.mesh_hash},
+        {"overt:material", material.id},
+        {"overt:material_settings", text_of(material)},
+        {"overt:angle_deg", fmt::format("{}", pose.object.angle.value)},
+        {"overt:camera_position", text_of(camera.position)},
+        {"overt:camera_target", text_of(camera.target)},
+        {"overt:camera_vertical_fov_deg", fmt::format("{}", camera.vertical_fov.value)},
+        {"overt:light", light.probe},
+        {"overt:light_rotation_deg", fmt::format("{}", light.rotation_deg + pose.light.value)}};
+    if (!pose.object.is_turn())
+        words.emplace_back(move_attribute, text_of_move(pose.object));
+    return words;
 }
 
 ImageAttributes describe_tracing(const FrameQuality& quality, const Protocol& protocol,

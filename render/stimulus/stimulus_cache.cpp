@@ -124,8 +124,13 @@ ContentHash StimulusCache::pixels_hash(const Stimulus& stimulus, const FrameQual
     if (!are_all_there)
         return {};
     ContentHasher hasher;
-    for (std::size_t i = 0; i < pictures.size(); ++i)
-        hasher.add(pictures[i].object.value).add(pictures[i].light.value).add(std::string_view(hashes[i]));
+    for (std::size_t i = 0; i < pictures.size(); ++i) {
+        const ObjectPose& object = pictures[i].object;
+        hasher.add(object.angle.value);
+        if (!object.is_turn())
+            hasher.add(std::string_view(text_of_move(object)));
+        hasher.add(pictures[i].light.value).add(std::string_view(hashes[i]));
+    }
     return hasher.finish();
 }
 
