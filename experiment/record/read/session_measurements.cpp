@@ -5,6 +5,7 @@
 
 #include "experiment/base/error.h"
 #include "experiment/base/path_inside.h"
+#include "experiment/record/gaze_rows.h"
 #include "experiment/record/read/match_rows.h"
 #include "experiment/record/read/session_record.h"
 #include "experiment/record/sql.h"
