@@ -104,8 +104,11 @@ std::string EyelinkDriver::ask(const char* variable) const {
 void EyelinkDriver::configure(const TrackerWish& wish) {
     library_->set_offline_mode();
     clock_->wait_until(clock_->now() + to_idle);
+    differences_.clear();
     grant_ = eyelink_grant(eyelink_modes(ask("read_mode_list")), wish);
-    for (const EyelinkCommand& command : eyelink_commands(wish, settings_, grant_)) {
+    const std::vector<EyelinkCommand> commands =
+        eyelink_commands(wish, settings_, grant_, eyelink_software_version(description_.model));
+    for (const EyelinkCommand& command : commands) {
         const std::int16_t result = library_->eyecmd_printf("%s", command.text.c_str());
         if (result == 0 || !command.is_needed)
             continue;
@@ -115,7 +118,22 @@ void EyelinkDriver::configure(const TrackerWish& wish) {
         throw DeviceError(fmt::format("The EyeLink refuses the command \"{}\" (error {}{}{}).", command.text,
                                       result, said[0] ? ": " : "", said.data()));
     }
+    read_back(commands);
     library_->eyemsg_printf("%s", eyelink_display_coords(wish.screen).c_str());
+}
+
+void EyelinkDriver::read_back(const std::vector<EyelinkCommand>& commands) {
+    for (const EyelinkCommand& command : commands) {
+        if (settings_.is_dummy || !command.is_read_back)
+            continue;
+        const EyelinkVariable wished = eyelink_variable(command.text);
+        const std::string told = ask(std::string(wished.name).c_str());
+        if (told.empty())
+            return; // hosts that tell one tell all
+        if (!eyelink_means_same(wished.value, told))
+            differences_ +=
+                fmt::format(", its host has {} = {} where {} was asked for", wished.name, told, wished.value);
+    }
 }
 
 TrackerDescription EyelinkDriver::connect(const TrackerWish& wish) {
@@ -135,7 +153,7 @@ TrackerDescription EyelinkDriver::connect(const TrackerWish& wish) {
     library_->eyecmd_printf("%s", "add_file_preamble_text 'Recorded by overt'");
     configure(wish);
     description_.name = settings_.is_dummy ? "eyelink without a tracker" : "eyelink";
-    description_.model += fmt::format(", its file {}", file);
+    description_.model += fmt::format(", its file {}{}", file, differences_);
     description_.sample_rate_hz = grant_.rate_hz;
     description_.eye = wish.eye;
     description_.both_eyes = grant_.both_eyes;

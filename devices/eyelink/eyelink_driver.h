@@ -56,6 +56,8 @@ class EyelinkDriver final : public TrackerDriver {
   private:
     void open_connection();
     void configure(const TrackerWish& wish);
+    /// Notes what the host has otherwise than it was told.
+    void read_back(const std::vector<EyelinkCommand>& commands);
     std::string ask(const char* variable) const;
     std::string sentence_of_calibration() const;
     bool is_recording_as_agreed(std::string& problem);
@@ -68,6 +70,7 @@ class EyelinkDriver final : public TrackerDriver {
     Clock* clock_;
     EyelinkLibrary library_;
     TrackerDescription description_;
+    std::string differences_; ///< between what the host was told and what it has
     EyelinkGrant grant_;
     bool is_open_ = false, is_file_open_ = false, is_recording_ = false;
     std::vector<std::string> files_; ///< on the host, without ".edf"

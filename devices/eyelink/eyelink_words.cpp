@@ -84,32 +84,91 @@ EyelinkGrant eyelink_grant(std::span<const EyelinkMode> modes, const TrackerWish
     return grant;
 }
 
+std::optional<double> eyelink_software_version(std::string_view model) {
+    const std::size_t last = model.find_last_of(' ');
+    return last == std::string_view::npos ? std::nullopt : number_after(model.substr(last), "");
+}
+
+EyelinkVariable eyelink_variable(std::string_view command) {
+    const std::size_t equals = command.find(" = ");
+    if (equals == std::string_view::npos)
+        return {command, {}};
+    return {command.substr(0, equals), command.substr(equals + 3)};
+}
+
+namespace {
+
+/// Its words in capitals, split at blanks and commas, in the order of letters.
+std::vector<std::string> words_of_value(std::string_view value) {
+    std::vector<std::string> words(1);
+    for (const char each : value) {
+        const bool is_between = std::string_view(" \t\r\n,").find(each) != std::string_view::npos;
+        if (is_between && !words.back().empty())
+            words.emplace_back();
+        if (!is_between)
+            words.back() += static_cast<char>(std::toupper(static_cast<unsigned char>(each)));
+    }
+    if (words.back().empty())
+        words.pop_back();
+    return words;
+}
+
+std::optional<double> number_of_word(const std::string& word) {
+    constexpr std::string_view is_true[] = {"YES", "ON", "TRUE"}, is_false[] = {"NO", "OFF", "FALSE"};
+    if (std::ranges::find(is_true, word) != std::end(is_true))
+        return 1.0;
+    if (std::ranges::find(is_false, word) != std::end(is_false))
+        return 0.0;
+    double number = 0.0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+    return error == std::errc{} && end == word.data() + word.size() ? std::optional(number) : std::nullopt;
+}
+
+} // namespace
+
+bool eyelink_means_same(std::string_view asked, std::string_view told) {
+    std::vector<std::string> ours = words_of_value(asked), theirs = words_of_value(told);
+    const auto is_number = [](const std::string& word) { return number_of_word(word).has_value(); };
+    if (ours.size() != theirs.size())
+        return false;
+    if (std::ranges::all_of(ours, is_number) && std::ranges::all_of(theirs, is_number))
+        return std::ranges::equal(ours, theirs, [](const std::string& one, const std::string& other) {
+            return std::abs(*number_of_word(one) - *number_of_word(other)) <= 0.5;
+        });
+    std::ranges::sort(ours);
+    std::ranges::sort(theirs);
+    return ours == theirs;
+}
+
 std::vector<EyelinkCommand> eyelink_commands(const TrackerWish& wish, const EyelinkSettings& settings,
-                                             const EyelinkGrant& grant) {
+                                             const EyelinkGrant& grant, std::optional<double> software) {
     const ScreenGeometry& screen = wish.screen;
     std::vector<EyelinkCommand> commands;
     const auto needed = [&](std::string text) { commands.push_back({std::move(text), true}); };
     const auto wished = [&](std::string text) { commands.push_back({std::move(text), false}); };
-    needed(fmt::format("screen_pixel_coords = 0 0 {} {}", screen.screen_px.x - 1, screen.screen_px.y - 1));
+    const auto proved = [&](std::string text) { commands.push_back({std::move(text), true, true}); };
+    proved(fmt::format("screen_pixel_coords = 0 0 {} {}", screen.screen_px.x - 1, screen.screen_px.y - 1));
     // Millimetres from the middle: left, top, right, bottom.
     needed(fmt::format("screen_phys_coords = {0:.1f} {1:.1f} {2:.1f} {3:.1f}", -0.5 * screen.screen_mm.x,
                        0.5 * screen.screen_mm.y, 0.5 * screen.screen_mm.x, -0.5 * screen.screen_mm.y));
-    needed(fmt::format("screen_distance = {:.0f}", screen.viewing_distance_mm));
-    needed(fmt::format("sample_rate = {}", grant.rate_hz));
+    proved(fmt::format("screen_distance = {:.0f}", screen.viewing_distance_mm));
+    proved(fmt::format("sample_rate = {}", grant.rate_hz));
     wished(fmt::format("binocular_enabled = {}", grant.both_eyes ? "YES" : "NO"));
     if (!grant.both_eyes)
-        needed(fmt::format("active_eye = {}", wish.eye == Eye::left ? "LEFT" : "RIGHT"));
-    needed(fmt::format("calibration_type = HV{}", settings.calibration_points));
+        proved(fmt::format("active_eye = {}", wish.eye == Eye::left ? "LEFT" : "RIGHT"));
+    proved(fmt::format("calibration_type = HV{}", settings.calibration_points));
     wished("randomize_calibration_order = YES");
     wished("randomize_validation_order = YES");
     wished("select_parser_configuration = 0"); // the standard one, for cognitive research
-    needed("pupil_size_diameter = NO");
+    proved("pupil_size_diameter = NO");
     needed("file_event_filter = LEFT,RIGHT,FIXATION,SACCADE,BLINK,MESSAGE,BUTTON,INPUT");
     wished("file_event_data = GAZE,GAZERES,HREF,AREA,VELOCITY,STATUS");
-    needed("file_sample_data = LEFT,RIGHT,GAZE,HREF,AREA,GAZERES,STATUS,INPUT");
+    // HTARGET: the place and distance of the target on the forehead, in the tracker's remote mode.
+    proved(fmt::format("file_sample_data = LEFT,RIGHT,GAZE,HREF,AREA,{}GAZERES,BUTTON,STATUS,INPUT",
+                       software.value_or(0.0) >= 4.0 ? "HTARGET," : ""));
     needed("link_event_filter = LEFT,RIGHT,FIXATION,SACCADE,BLINK,BUTTON,INPUT");
     wished("link_event_data = GAZE,GAZERES,HREF,AREA,VELOCITY,STATUS");
-    needed("link_sample_data = LEFT,RIGHT,GAZE,GAZERES,AREA,STATUS,INPUT");
+    proved("link_sample_data = LEFT,RIGHT,GAZE,GAZERES,AREA,STATUS,INPUT");
     wished("button_function 5 'accept_target_fixation'");
     return commands;
 }

@@ -46,18 +46,34 @@ EyelinkGrant eyelink_grant(std::span<const EyelinkMode> modes, const TrackerWish
 struct EyelinkCommand {
     std::string text;
     bool is_needed = false; ///< without it what is recorded means something else
+    /// Its variable is read back: a host takes what it does not understand without a word.
+    bool is_read_back = false;
 };
 
-/// What sets a tracker up for a session, in the order in which it is sent.
+/// The version of the host's software, 5.12 of "EYELINK CL 5.12"; nothing if none is told.
+std::optional<double> eyelink_software_version(std::string_view model);
+
+/// What sets a tracker up for a session, in the order in which it is sent. `software`: from version 4 on
+/// samples in the file have the place of the target that observers without a head rest wear.
 std::vector<EyelinkCommand> eyelink_commands(const TrackerWish& wish, const EyelinkSettings& settings,
-                                             const EyelinkGrant& grant);
+                                             const EyelinkGrant& grant, std::optional<double> software);
+
+/// The variable that a command sets, and to what: "sample_rate" and "1000" of "sample_rate = 1000".
+struct EyelinkVariable {
+    std::string_view name, value;
+};
+EyelinkVariable eyelink_variable(std::string_view command);
+
+/// Whether the host's word for a value is ours: numbers however they are written, lists in any order, YES and
+/// ON and 1.
+bool eyelink_means_same(std::string_view asked, std::string_view told);
 
 /// "DISPLAY_COORDS 0 0 1919 1079", for those who read the file.
 std::string eyelink_display_coords(const ScreenGeometry& screen);
 
-/// The name of a data file on the host, without ".edf", for one that is opened at `at`: the last two letters or
-/// digits of whom it is for, in capitals (or 0 where there are fewer), and the seconds since the beginning of
-/// 2020 (UTC) in six digits of base 36, which last until 2088. The host replaces a file of the same name
+/// The name of a data file on the host, without ".edf", for one that is opened at `at`: the last two letters
+/// or digits of whom it is for, in capitals (or 0 where there are fewer), and the seconds since the beginning
+/// of 2020 (UTC) in six digits of base 36, which last until 2088. The host replaces a file of the same name
 /// without a word, so that no two may have the same: not of two observers, sessions or sittings, nor of two
 /// experiments that share a host, nor before and after a connection was lost.
 std::string eyelink_file_name(std::string_view whom, std::chrono::sys_seconds at);

@@ -107,6 +107,20 @@ TEST_CASE("an EyeLink is connected, told the screen and opens its file", "[unit]
     CHECK(said.back() == "message DISPLAY_COORDS 0 0 1919 1079");
 }
 
+TEST_CASE("what an EyeLink's host has otherwise than it was told is said", "[unit]") {
+    DriverBench bench;
+    // It takes both commands without a word, and keeps what it had.
+    bench.library.tell("screen_pixel_coords", "0.00, 0.00, 1023.00, 767.00");
+    bench.library.tell("file_sample_data", "LEFT,RIGHT,GAZE,AREA");
+    EyelinkDriver driver(bench.settings, bench.clock);
+    const std::string model = driver.connect(bench.wish).model;
+    CHECK_THAT(model,
+               Catch::Contains("its host has screen_pixel_coords = 0.00, 0.00, 1023.00, 767.00 where 0 0 "
+                               "1919 1079 was asked for") &&
+                   Catch::Contains("its host has file_sample_data = LEFT,RIGHT,GAZE,AREA"));
+    CHECK_THAT(model, !Catch::Contains("sample_rate"));
+}
+
 TEST_CASE("what keeps an EyeLink from being set up is told at once", "[unit]") {
     DriverBench bench;
     EyelinkDriver driver(bench.settings, bench.clock);

@@ -48,7 +48,7 @@ TEST_CASE("an EyeLink is told the screen in pixels and millimetres", "[unit]") {
     wish.eye = Eye::left;
     EyelinkSettings settings;
     settings.calibration_points = 13;
-    const auto commands = eyelink_commands(wish, settings, {1000, false});
+    const auto commands = eyelink_commands(wish, settings, {1000, false}, 5.12);
     const auto has = [&](std::string_view text) {
         return std::ranges::find(commands, text, &EyelinkCommand::text) != commands.end();
     };
@@ -61,8 +61,29 @@ TEST_CASE("an EyeLink is told the screen in pixels and millimetres", "[unit]") {
     CHECK(has("calibration_type = HV13"));
     CHECK(has("select_parser_configuration = 0"));
     CHECK(eyelink_display_coords(wish.screen) == "DISPLAY_COORDS 0 0 1919 1079");
-    for (const EyelinkCommand& command : eyelink_commands(wish, settings, {1000, true}))
+    CHECK(has("file_sample_data = LEFT,RIGHT,GAZE,HREF,AREA,HTARGET,GAZERES,BUTTON,STATUS,INPUT"));
+    for (const EyelinkCommand& command : eyelink_commands(wish, settings, {1000, true}, std::nullopt)) {
         CHECK_FALSE(command.text.starts_with("active_eye"));
+        CHECK(command.text.find("HTARGET") == std::string::npos); // an older host refuses it
+    }
+    CHECK(eyelink_software_version("EYELINK CL 4.56") == 4.56);
+    CHECK_FALSE(eyelink_software_version("EYELINK"));
+    CHECK_FALSE(eyelink_software_version("EYELINK CL new"));
+}
+
+TEST_CASE("an EyeLink's host says the same of a value in words of its own", "[unit]") {
+    CHECK(eyelink_variable("sample_rate = 1000").name == "sample_rate");
+    CHECK(eyelink_variable("sample_rate = 1000").value == "1000");
+    CHECK(eyelink_variable("button_function 5 'accept'").value.empty());
+    CHECK(eyelink_means_same("0 0 1919 1079", "0.00, 0.00, 1919.00, 1079.00"));
+    CHECK_FALSE(eyelink_means_same("0 0 1919 1079", "0 0 1023 767"));
+    CHECK_FALSE(eyelink_means_same("0 0 1919 1079", "0 0 1919"));
+    CHECK(eyelink_means_same("LEFT,RIGHT,GAZE", "gaze,right,left"));
+    CHECK_FALSE(eyelink_means_same("LEFT,RIGHT,GAZE", "LEFT,RIGHT"));
+    CHECK(eyelink_means_same("NO", "OFF"));
+    CHECK(eyelink_means_same("YES", "1"));
+    CHECK_FALSE(eyelink_means_same("HV9", "HV13"));
+    CHECK(eyelink_means_same("1750", "1750.0"));
 }
 
 TEST_CASE("an EyeLink's data files have names of eight letters and digits that never come again", "[unit]") {

@@ -24,7 +24,8 @@ constexpr double host_ahead_us = 5'000'000'000.0; // of the host's clock
 
 std::map<std::string, double> numbers; // what tests have set
 std::map<std::string, std::string> texts;
-std::vector<std::string> said; // commands, messages, keys and calls, in their order
+std::map<std::string, std::string> variables; // of the host, as commands set them
+std::vector<std::string> said;                // commands, messages, keys and calls, in their order
 int link = 0;
 bool recording = false, has_left_dialogue = false;
 double begun_us = 0.0;
@@ -182,6 +183,7 @@ extern "C" {
 void stand_in_reset() {
     numbers.clear();
     texts.clear();
+    variables.clear();
     said.clear();
     link = 0;
     recording = false;
@@ -218,6 +220,10 @@ i16 eyecmd_printf(const char* format, ...) {
     va_start(values, format);
     say("command ", format, values);
     va_end(values);
+    // As a host does: what it does not have it takes without a word, what it has it keeps.
+    const std::string command = said.back().substr(std::strlen("command "));
+    if (const std::size_t equals = command.find(" = "); equals != std::string::npos)
+        variables[command.substr(0, equals)] = command.substr(equals + 3);
     const auto refused = texts.find("refused");
     return refused != texts.end() && said.back().find(refused->second) != std::string::npos ? i16{-3}
                                                                                             : i16{0};
@@ -235,10 +241,11 @@ i16 eyelink_read_request(char* variable) {
     return 0;
 }
 i16 eyelink_read_reply(char* text) {
-    const auto found = texts.find(texts["asked"]);
-    if (found == texts.end() || ++times_asked < 3)
+    const std::string& asked = texts["asked"];
+    const auto found = texts.find(asked), kept = variables.find(asked);
+    if ((found == texts.end() && kept == variables.end()) || ++times_asked < 3)
         return no_reply;
-    write_to(text, found->second);
+    write_to(text, found == texts.end() ? kept->second : found->second);
     return 0;
 }
 i16 eyelink_last_message(char* text) {
