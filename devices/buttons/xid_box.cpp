@@ -27,8 +27,9 @@ std::vector<std::string> serial_lines_found() {
     std::vector<std::string> lines;
     for (const SerialPortInfo& port : serial_ports("/dev", "/sys", "ttyUSB"))
         lines.push_back(fmt::format(
-            "{}: a serial line{}", describe(port),
-            port.vendor_id == ftdi_vendor_id ? ", of kind xid if it is a box of Cedrus; not asked" : ""));
+            "{}: a serial line{}{}", describe(port),
+            port.vendor_id == ftdi_vendor_id ? ", of kind xid if it is a box of Cedrus; not asked" : "",
+            latency_note(port)));
     try {
         for (const FtdiChip& chip : ftdi_chips())
             if (!chip.has_tty)

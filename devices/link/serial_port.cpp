@@ -7,6 +7,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <linux/serial.h>
 #include <sys/file.h>
 #include <sys/ioctl.h>
 #include <termios.h>
@@ -70,6 +71,17 @@ void make_raw(int descriptor, const std::string& path, int baud) {
                                       remedy_for(errno)));
 }
 
+/// A chip behind USB gathers bytes before it hands them on, 16 ms of them by default; the kernel's driver of
+/// FTDI's chips does so for 1 ms where low latency is asked for, which any owner of the port may do. What has
+/// no such thing, as a terminal or a port of the CDC class, refuses it without harm.
+void ask_for_low_latency(int descriptor) {
+    serial_struct state{};
+    if (ioctl(descriptor, TIOCGSERIAL, &state) != 0 || (state.flags & ASYNC_LOW_LATENCY) != 0)
+        return;
+    state.flags |= ASYNC_LOW_LATENCY;
+    ioctl(descriptor, TIOCSSERIAL, &state);
+}
+
 Descriptor open_serial_port(const std::string& path, int baud) {
     // Non-blocking: the open of a tty may otherwise wait for a carrier that never comes.
     Descriptor opened(::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
@@ -81,6 +93,7 @@ Descriptor open_serial_port(const std::string& path, int baud) {
     if (flock(opened.value(), LOCK_EX | LOCK_NB) != 0)
         throw DeviceError(fmt::format("{} is in use: {}.", path, remedy_for(EBUSY)));
     make_raw(opened.value(), path, baud);
+    ask_for_low_latency(opened.value());
     ioctl(opened.value(), TIOCEXCL);
     tcflush(opened.value(), TCIOFLUSH);
     return opened;

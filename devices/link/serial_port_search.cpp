@@ -43,6 +43,8 @@ void read_usb_device(const fs::path& tty, SerialPortInfo& port) {
     fs::path folder = fs::canonical(tty, error);
     for (; !error && folder.has_relative_path(); folder = folder.parent_path()) {
         std::error_code absent;
+        if (!port.latency_timer_ms && fs::exists(folder / "latency_timer", absent))
+            port.latency_timer_ms = number_in<int>(first_line(folder / "latency_timer"));
         if (!fs::exists(folder / "idVendor", absent))
             continue;
         port.vendor_id = number_in<std::uint16_t>(first_line(folder / "idVendor"), 16);
@@ -63,6 +65,16 @@ std::string describe(const SerialPortInfo& port) {
     if (!port.product.empty())
         identity += (identity.empty() ? "" : " ") + port.product;
     return identity.empty() ? port.path : fmt::format("{} ({})", port.path, identity);
+}
+
+std::string latency_note(const SerialPortInfo& port) {
+    if (port.latency_timer_ms.value_or(0) <= 1)
+        return {};
+    return fmt::format(
+        ", its chip gathers bytes for up to {} ms (latency_timer): overt asks for 1 ms while it "
+        "has the port; for other programs echo 1 | sudo tee "
+        "/sys/bus/usb-serial/devices/{}/latency_timer",
+        *port.latency_timer_ms, fs::path(port.path).filename().string());
 }
 
 std::vector<SerialPortInfo> serial_ports(const fs::path& devices, const fs::path& sysfs,

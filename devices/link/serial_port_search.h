@@ -15,6 +15,8 @@ struct SerialPortInfo {
     std::string path; ///< such as /dev/ttyACM0
     std::optional<std::uint16_t> vendor_id, product_id;
     std::string manufacturer, product, serial_number;
+    /// So long a chip of FTDI gathers bytes before it hands them on, in ms; the kernel's default is 16.
+    std::optional<int> latency_timer_ms;
 };
 
 /// USB vendor number of Cambridge Research Systems (public udev rules of laboratories).
@@ -22,6 +24,10 @@ inline constexpr std::uint16_t crs_vendor_id = 0x0861;
 
 /// "/dev/ttyACM0 (0861:1001 ColorCAL)".
 std::string describe(const SerialPortInfo& port);
+
+/// What is to be known of a latency timer of more than a millisecond and how it is set, as the end of a
+/// sentence; empty where there is none. SerialPort asks for one millisecond while it has the port.
+std::string latency_note(const SerialPortInfo& port);
 
 /// Whose serial chips Cedrus and many makers of trigger cables use: Future Technology Devices International.
 inline constexpr std::uint16_t ftdi_vendor_id = 0x0403;

@@ -79,7 +79,7 @@ template <> MarkerDevice marker_device_of<kind_called<MarkerOutputKind>("serial"
                             lines.push_back(fmt::format("{}: kind parallel", port));
                     }
                     for (const SerialPortInfo& port : serial_ports("/dev", "/sys", "ttyUSB"))
-                        lines.push_back(fmt::format("{}: kind serial", describe(port)));
+                        lines.push_back(fmt::format("{}: kind serial{}", describe(port), latency_note(port)));
                     return lines;
                 }};
 }

@@ -203,5 +203,19 @@ TEST_CASE("the search lists ttyACM ports by number with what USB says of them", 
     CHECK(ports[2].product_id == 0x100a);
     CHECK(ports[2].serial_number == "42");
     CHECK_THAT(describe(ports[2]), Contains("ttyACM10 (0861:100a A Box)"));
+    CHECK(latency_note(ports[2]).empty());
     CHECK(serial_ports(root / "nowhere", root / "neither").empty());
+    // A chip of FTDI keeps its latency timer beside the port, within the USB device.
+    folder.file("sys/devices/usb1/1-7/idVendor", "0403\n");
+    folder.file("sys/devices/usb1/1-7/1-7:1.0/ttyUSB0/latency_timer", "16\n");
+    folder.file("sys/devices/usb1/1-7/1-7:1.0/ttyUSB0/tty/ttyUSB0/dev", "188:0\n");
+    std::filesystem::create_directory_symlink(root / "sys/devices/usb1/1-7/1-7:1.0/ttyUSB0/tty/ttyUSB0",
+                                              root / "sys/class/tty/ttyUSB0");
+    const auto chips = serial_ports(root / "dev", root / "sys", "ttyUSB");
+    REQUIRE(chips.size() == 1);
+    CHECK(chips[0].latency_timer_ms == 16);
+    CHECK_THAT(latency_note(chips[0]),
+               Contains("up to 16 ms") && Contains("/sys/bus/usb-serial/devices/ttyUSB0/latency_timer"));
+    folder.file("sys/devices/usb1/1-7/1-7:1.0/ttyUSB0/latency_timer", "1\n");
+    CHECK(latency_note(serial_ports(root / "dev", root / "sys", "ttyUSB").front()).empty());
 }
