@@ -36,7 +36,7 @@ constexpr Property properties[] = {
     {"type", "type", &LslStreamChoice::type, &LslLibrary::get_type},
 };
 
-std::string_view trimmed(std::string_view text) {
+std::string_view without_blanks(std::string_view text) {
     const std::size_t begin = std::min(text.find_first_not_of(' '), text.size());
     text.remove_prefix(begin);
     return text.substr(0, text.find_last_not_of(' ') + 1);
@@ -109,11 +109,11 @@ LslStreamChoice parse_lsl_choice(std::string_view address) {
         choice.name = address;
         return choice;
     }
-    for (std::string_view rest = address; !trimmed(rest).empty();) {
+    for (std::string_view rest = address; !without_blanks(rest).empty();) {
         const std::string_view part = rest.substr(0, rest.find(','));
         rest.remove_prefix(std::min(part.size() + 1, rest.size()));
         const std::size_t equals = part.find('=');
-        const std::string_view word = trimmed(part.substr(0, equals));
+        const std::string_view word = without_blanks(part.substr(0, equals));
         const auto known = std::ranges::find(properties, word, &Property::word);
         if (known == std::end(properties) || equals == std::string_view::npos)
             throw InputError(
@@ -121,7 +121,7 @@ LslStreamChoice parse_lsl_choice(std::string_view address) {
                             "such as \"source_id=…, host=…\"; words are uid, source_id, name, host "
                             "and type (a name with an equals sign: name=…)",
                             address));
-        choice.*known->value = trimmed(part.substr(equals + 1));
+        choice.*known->value = without_blanks(part.substr(equals + 1));
     }
     return choice;
 }

@@ -12,6 +12,7 @@
 #include "experiment/protocol/keys/protocol_keys.h"
 #include "render/signal/display_light.h"
 #include "render/stimulus/background_picture.h"
+#include "render/stimulus/cached_frame.h"
 #include "render/stimulus/given_maps.h"
 #include "render/stimulus/ready_made_frames.h"
 
@@ -263,6 +264,17 @@ LightPictures StimulusLibrary::light_of(const Stimulus& stimulus) const {
     return light;
 }
 
+namespace {
+
+/// How the object stands; an object that is only turned counts as it did when there were turns alone.
+void add_object(ContentHasher& hasher, const ObjectPose& object) {
+    hasher.add(object.angle.value);
+    if (const std::string move = text_of_move(object); !move.empty())
+        hasher.add(std::string_view(move));
+}
+
+} // namespace
+
 std::optional<std::filesystem::path> StimulusLibrary::light_file(const Stimulus& stimulus, bool make) const {
     const FrameSequenceSettings* const sequence = cache_.sequence_of(stimulus);
     if (sequence && !has_alpha(frame_file(*sequence, {0})))
@@ -274,7 +286,7 @@ std::optional<std::filesystem::path> StimulusLibrary::light_file(const Stimulus&
     ContentHasher hasher;
     hasher.add(std::string_view(frames));
     for (const Pose& pose : cache_.pictures_of(stimulus))
-        hasher.add(pose.object.value);
+        add_object(hasher, pose.object);
     const std::filesystem::path file = cache_.light_file(hasher.finish());
     if (!std::filesystem::exists(file)) {
         if (!make)
@@ -290,7 +302,7 @@ std::filesystem::path StimulusLibrary::first_frame_file(const Stimulus& stimulus
     ContentHasher hasher;
     hasher.add(std::string_view(frames_hash(stimulus)));
     if (!cache_.is_ready_made(stimulus))
-        hasher.add(cache_.pictures_of(stimulus).front().object.value);
+        add_object(hasher, cache_.pictures_of(stimulus).front().object);
     if (protocol_->display.background != 0.0)
         hasher.add(protocol_->display.background);
     std::filesystem::path file = cache_.first_frame_file(hasher.finish());
