@@ -20,6 +20,7 @@
 #include "experiment/study/error_budget.h"
 #include "experiment/study/factor_effects.h"
 #include "experiment/study/fixation_maps.h"
+#include "experiment/study/gauge_reliefs.h"
 #include "experiment/study/gaze_motion.h"
 #include "experiment/study/light_at_gaze.h"
 #include "experiment/study/map_predictions.h"
@@ -236,6 +237,7 @@ StudyResults analyze_study(ReadStudy study, const StudyOptions& options, const S
 
     add_screen_area_looks(results, study.levels, options);
     reckon_answers(results.answers, options);
+    reckon_reliefs(results.reliefs);
     if (knows_stimuli(results))
         reckon_on_surfaces(study, options, progress);
     results.headline = study_headline(results, options);

@@ -17,6 +17,7 @@
 #include "experiment/study/read/answer_reader.h"
 #include "experiment/study/read/area_evidence.h"
 #include "experiment/study/read/exposure.h"
+#include "experiment/study/read/gauge_reader.h"
 #include "experiment/study/read/gaze_quality.h"
 #include "experiment/study/read/open_sessions.h"
 #include "experiment/study/read/trial_screen_areas.h"
@@ -84,6 +85,7 @@ class StudyReader {
         for (const OpenSession& one : open_)
             sessions.push_back(one.path);
         results().answers.given = read_answers(sessions, options_.same_observer);
+        results().reliefs.settings = read_gauge_settings(sessions, options_.same_observer);
     }
 
     void begin_reading() {

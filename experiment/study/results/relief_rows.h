@@ -11,10 +11,10 @@ namespace overt {
 
 /// Settings that belong together: of one observer, answer and picture of an object.
 struct ReliefOf {
-    std::string observer, task, answer;
-    std::string object, view;
-    std::optional<int> frame; ///< of the motion, that was lit; settings in other frames are other pictures
-    std::string motion;
+    std::string observer; ///< empty: all together
+    std::string task, answer;
+    std::string object, material, light, motion, view; ///< ids of what was shown
+    int frame = 0;                                     ///< of the motion, in which it was set
     friend auto operator<=>(const ReliefOf&, const ReliefOf&) = default;
 };
 
@@ -38,13 +38,13 @@ struct ReliefPointRow {
     ReliefOf of;
     std::string point;
     int settings = 0;
-    Attitude mean;          ///< of the unit normals that were set
+    Attitude mean = {};          ///< of the unit normals that were set
     double resultant = 1.0; ///< length of their mean: 1 if all are alike
-    std::optional<Attitude> truth;
-    std::optional<double> deviation_deg; ///< of the mean from the truth
+    std::optional<Attitude> truth = {};
+    std::optional<double> deviation_deg = {}; ///< of the mean from the truth
     double x = 0.0, y = 0.0;             ///< in the mean depth of the relief, in the mesh's unit
     double true_z = 0.0;                 ///< towards the eye, from the mean depth
-    std::optional<double> z; ///< of the relief, with a mean of 0; nothing: it could not be put together
+    std::optional<double> z = {}; ///< of the relief, with a mean of 0; nothing: it could not be put together
 };
 
 /// A relief and the truth.

@@ -12,6 +12,7 @@
 #include "experiment/study/tables/answers_json.h"
 #include "experiment/study/tables/area_layouts.h"
 #include "experiment/study/tables/mixed_models.h"
+#include "experiment/study/tables/relief_layouts.h"
 #include "experiment/study/tables/screen_area_layouts.h"
 #include "experiment/study/tables/study_layout.h"
 #include "experiment/study/tables/study_layouts.h"
@@ -97,6 +98,9 @@ template <class Visit> void for_each_table(const StudyResults& results, const Vi
     all(ratings_layout(), results.answers.ratings, false);
     all(matches_layout(), results.answers.matches, false);
     all(match_lines_layout(), results.answers.match_lines, false);
+    all(gauge_settings_layout(results), results.reliefs.settings, false);
+    all(relief_points_layout(), results.reliefs.points, false);
+    all(reliefs_layout(), results.reliefs.reliefs, false);
     all(reporting_layout(), results.reporting, true);
 }
 
