@@ -21,8 +21,8 @@ std::optional<PlacedStimulus> shown_under(const TrialRecord& trial, const std::s
 glm::dvec3 seen_position(const SessionHeader& header, const Stimulus& stimulus, AnimationFrameIndex frame,
                          const glm::dvec3& position) {
     const RecordedObject& object = header.objects[static_cast<std::size_t>(stimulus.object)];
-    const Degrees angle = header.poses.angle_of(header.poses.pose_of(stimulus.motion, frame));
-    const glm::dmat4 world_from_object = TurntablePose{object.axis_point, angle}.world_from_object();
+    const ObjectPose& pose = header.poses.object_of(header.poses.pose_of(stimulus.motion, frame));
+    const glm::dmat4 world_from_object = TurntablePose{object.axis_point, pose}.world_from_object();
     const View view{object.camera(stimulus.view), glm::ivec2(1)};
     return view.view_from_world() * world_from_object * glm::dvec4(position, 1.0);
 }

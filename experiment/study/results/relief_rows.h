@@ -38,12 +38,12 @@ struct ReliefPointRow {
     ReliefOf of;
     std::string point;
     int settings = 0;
-    Attitude mean = {};          ///< of the unit normals that were set
+    Attitude mean = {};     ///< of the unit normals that were set
     double resultant = 1.0; ///< length of their mean: 1 if all are alike
     std::optional<Attitude> truth = {};
     std::optional<double> deviation_deg = {}; ///< of the mean from the truth
-    double x = 0.0, y = 0.0;             ///< in the mean depth of the relief, in the mesh's unit
-    double true_z = 0.0;                 ///< towards the eye, from the mean depth
+    double x = 0.0, y = 0.0;                  ///< in the mean depth of the relief, in the mesh's unit
+    double true_z = 0.0;                      ///< towards the eye, from the mean depth
     std::optional<double> z = {}; ///< of the relief, with a mean of 0; nothing: it could not be put together
 };
 
