@@ -200,8 +200,30 @@ void check_further_tracker(ProtocolExamination& examination, std::size_t index) 
 
 } // namespace
 
+namespace {
+
+/// Only what is measured in real time is sent on.
+void check_outlet(ProtocolExamination& examination, const TrackerSettings& tracker, const std::string& key) {
+    if (!tracker.outlet || row_of(tracker.kind).is_hardware())
+        return;
+    examination.warning(
+        {key},
+        fmt::format("\"outlet\" has no effect: {}",
+                    row_of(tracker.kind).measures_gaze
+                        ? fmt::format("samples of the eye tracker \"{}\" are made up, and are not "
+                                      "sent on",
+                                      row_of(tracker.kind).name)
+                        : "there is no eye tracker"),
+        "leave it out, or try the stream with kind = \"mouse\"");
+}
+
+} // namespace
+
 void check_devices(ProtocolExamination& examination) {
     const Protocol& protocol = examination.protocol;
+    check_outlet(examination, protocol.tracker, "tracker.outlet");
+    for (std::size_t i = 0; i < protocol.further_trackers.size(); ++i)
+        check_outlet(examination, protocol.further_trackers[i], fmt::format("further_tracker[{}].outlet", i));
     check_device_ids(examination, "further_tracker", protocol.further_trackers);
     for (std::size_t i = 0; i < protocol.further_trackers.size(); ++i)
         check_further_tracker(examination, i);

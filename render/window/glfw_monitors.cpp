@@ -22,6 +22,12 @@ int library_users = 0;
 void initialise_library() {
     constexpr int attempts = 20;
     for (int attempt = 1; !glfwInit(); ++attempt) {
+        const WindowSystem system = examine_window_system();
+        if (system.is_wayland && !system.is_x11)
+            throw GraphicsError(fmt::format(
+                "windows need an X server, and there is none here (DISPLAY names none that answers): "
+                "{}; without a window, --context osmesa draws unseen",
+                system.go_between()));
         if (attempt == attempts || !display_is_available())
             throw GraphicsError(
                 fmt::format("the desktop cannot be reached ({}): start overt from a desktop session, or set "

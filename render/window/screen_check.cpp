@@ -63,6 +63,14 @@ ScreenFinding latency_finding(const DisplaySettings& display) {
 ScreenFinding depth_finding(const ScreenFacts& facts, const DisplaySettings& display) {
     const int needed = row_of(display.output).framebuffer_bits;
     const std::string found = fmt::format("{} bits per channel", facts.bits_per_channel);
+    // Such a window gets a visual of depth 32, of which the screen's own depth says nothing.
+    if (facts.bits_per_channel == needed && facts.system.depth > 3 * needed)
+        return {
+            row_of(display.output).is_packed ? Weight::refusal : Weight::risk, "depth",
+            fmt::format("{} in a window on an X screen of {} bits: it is drawn apart from the screen (depth "
+                        "32) and its values are converted on their way; set DefaultDepth {} in xorg.conf{}",
+                        found, facts.system.depth, 3 * needed,
+                        row_of(display.output).is_packed ? "" : ", or take output = \"native-10bit\"")};
     if (facts.bits_per_channel == needed)
         return {Weight::good, "depth", found};
     return {Weight::refusal, "depth",

@@ -70,6 +70,7 @@ void examine_server(WindowSystem& system, xcb_connection_t* link, int screen) {
     auto root = xcb_setup_roots_iterator(xcb_get_setup(link));
     for (int i = 0; i < screen && root.rem > 1; ++i)
         xcb_screen_next(&root);
+    system.depth = root.rem > 0 ? root.data->root_depth : 0;
     system.is_xwayland = root.rem > 0 && is_xwayland_server(link, root.data->root);
 }
 

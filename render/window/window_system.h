@@ -11,6 +11,7 @@ struct WindowSystem {
     bool is_xwayland = false;    ///< the X server is Xwayland, by its own word: it shows nothing itself
     bool has_compositor = false; ///< on X11: somebody owns the selection _NET_WM_CM_Sn
     std::string compositor;      ///< what its owner calls itself: "picom"; empty if it does not
+    int depth = 0;               ///< on X11, bits of a pixel of the screen: 24, or 30; 0: not known
     std::string desktop;         ///< as XDG_CURRENT_DESKTOP names it; empty if it does not
 
     /// What else than the X server decides when pictures are shown, as a part of a sentence with its remedy;

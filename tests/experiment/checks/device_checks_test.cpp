@@ -94,8 +94,19 @@ TEST_CASE("outputs of markers that cannot be meant so are errors at their keys",
     check_fault(output("codes = [\"onset 1\"]\n"), "12:1", "needs its \"address\"");
     check_fault(output(port), "12:1", "\"codes\" are missing");
     check_fault(output("kind = \"lsl\"\nbaud = 9600\n"), "15:8", "only serial outputs have a speed");
-    check_fault(output("kind = \"lsl\"\naddress = \"x\"\n"), "15:11", "only serial and parallel");
+    check_fault(output("kind = \"lsl\"\naddress = \"x\"\n"), "15:11",
+                "only serial, parallel and xid outputs have an address");
     CHECK(found(output("kind = \"lsl\"\n")).empty());
+    CHECK(found(output("kind = \"xid\"\ncodes = [\"onset 255\"]\n")).empty());
+    CHECK(found(output(port + "as_text = true\n")).empty()); // of all events
+    check_fault(output("kind = \"lsl\"\nas_text = true\n"), "15:11",
+                "only serial outputs take lines of text");
+}
+
+TEST_CASE("samples that are made up are not sent on, and the protocol is told so", "[unit]") {
+    check_fault("[tracker]\noutlet = true\n", "13:10", "\"simulated\" are made up, and are not sent on");
+    check_fault("[tracker]\nkind = \"none\"\noutlet = true\n", "14:10", "there is no eye tracker");
+    CHECK(found("[tracker]\nkind = \"mouse\"\noutlet = true\n").empty());
 }
 
 TEST_CASE("what rides on the picture keeps to what the picture carries", "[unit]") {

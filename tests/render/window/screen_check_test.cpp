@@ -1,6 +1,7 @@
 #include "render/window/screen_check.h"
 
 #include <cmath>
+#include <cstdlib>
 
 #include <catch2/catch.hpp>
 
@@ -158,6 +159,35 @@ TEST_CASE("59.94 Hz is 60 Hz to a screen that counts whole hertz", "[unit]") {
     CHECK(weight_of(facts, "refresh rate", display) == Weight::good);
     facts.monitor.refresh_hz = 59.5;
     CHECK(weight_of(facts, "refresh rate", display) == Weight::refusal);
+}
+
+TEST_CASE("a window of eight bits on a screen of thirty is not taken for one of the screen's own", "[unit]") {
+    ScreenFacts facts = sound();
+    facts.system.depth = 24;
+    CHECK(weight_of(facts, "depth") == Weight::good);
+    facts.system.depth = 30;
+    DisplaySettings display = said(); // a mode that packs bytes
+    display.output = OutputMode::color_plus_plus;
+    CHECK(weight_of(facts, "depth", display) == Weight::refusal);
+    display.output = OutputMode::native_8bit;
+    CHECK(weight_of(facts, "depth", display) == Weight::risk);
+    display.output = OutputMode::native_10bit;
+    facts.bits_per_channel = 10;
+    CHECK(weight_of(facts, "depth", display) == Weight::good);
+}
+
+TEST_CASE("on a Wayland desktop without an X server it is said that windows need one", "[unit]") {
+    const char* const desktop = std::getenv("WAYLAND_DISPLAY");
+    const std::string before = desktop ? desktop : "";
+    const char* const server = std::getenv("DISPLAY");
+    const std::string x_before = server ? server : "";
+    setenv("WAYLAND_DISPLAY", "wayland-0", 1);
+    unsetenv("DISPLAY");
+    CHECK_THROWS_WITH(list_monitors(),
+                      Contains("windows need an X server") && Contains("log in to a session of X11"));
+    desktop ? setenv("WAYLAND_DISPLAY", before.c_str(), 1) : unsetenv("WAYLAND_DISPLAY");
+    if (server)
+        setenv("DISPLAY", x_before.c_str(), 1);
 }
 
 TEST_CASE("the desktop's scale is advice under X11 and a resampling under Wayland", "[unit]") {
