@@ -12,6 +12,7 @@
 #include "experiment/protocol/all_stimuli.h"
 #include "render/bake/light_colour.h"
 #include "render/signal/display_light.h"
+#include "render/stimulus/cached_frame.h"
 #include "render/stimulus/frame_description.h"
 #include "render/stimulus/frame_files.h"
 
@@ -103,7 +104,7 @@ ContentHash FrameExport::key_of(const BakeUnit& unit) const {
     ContentHasher hasher;
     hasher.add(export_version)
         .add(std::string_view(library_->cache().picture_key(unit.stimulus, *quality_, unit.pose.light)));
-    hasher.add(unit.pose.object.value);
+    add_object(hasher, unit.pose.object);
     hasher.add(static_cast<int>(options_->as)).add(static_cast<int>(options_->file));
     hasher.add(protocol_->light_of(unit.stimulus).exposure);
     if (options_->is_png())

@@ -64,6 +64,12 @@ std::string text_of_move(const ObjectPose& object) {
                                           shift.y, shift.z);
 }
 
+void add_object(ContentHasher& hasher, const ObjectPose& object) {
+    hasher.add(object.angle.value);
+    if (!object.is_turn())
+        hasher.add(std::string_view(text_of_move(object)));
+}
+
 ContentHash hash_of_pixels(const LinearImage& image) {
     ContentHasher hasher;
     hasher.add(image.size_px.x).add(image.size_px.y);

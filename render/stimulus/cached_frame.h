@@ -26,6 +26,10 @@ ContentHash hash_of_pixels(const LinearImage& image);
 /// empty.
 std::string text_of_move(const ObjectPose& object);
 
+/// Adds how the object stands to a hash. An object that is only turned counts as it did when there were turns
+/// alone.
+void add_object(ContentHasher& hasher, const ObjectPose& object);
+
 /// The attribute of a file that holds it, where it is not empty.
 inline constexpr const char* const move_attribute = "overt:tilt_and_shift";
 

@@ -125,10 +125,7 @@ ContentHash StimulusCache::pixels_hash(const Stimulus& stimulus, const FrameQual
         return {};
     ContentHasher hasher;
     for (std::size_t i = 0; i < pictures.size(); ++i) {
-        const ObjectPose& object = pictures[i].object;
-        hasher.add(object.angle.value);
-        if (!object.is_turn())
-            hasher.add(std::string_view(text_of_move(object)));
+        add_object(hasher, pictures[i].object);
         hasher.add(pictures[i].light.value).add(std::string_view(hashes[i]));
     }
     return hasher.finish();
@@ -306,9 +303,7 @@ std::filesystem::path StimulusCache::file_of(std::string_view kind, const Conten
     std::string name = fmt::format("{:+010.5f}deg", object.angle.value);
     if (!object.is_turn()) {
         ContentHasher hasher;
-        for (const double number : {object.tilt.w, object.tilt.x, object.tilt.y, object.tilt.z,
-                                    object.shift.x, object.shift.y, object.shift.z})
-            hasher.add(number);
+        add_object(hasher, object);
         name += "-" + hasher.finish().substr(0, 16);
     }
     return folder_ / kind / hash.substr(0, 24) / (name + ".exr");

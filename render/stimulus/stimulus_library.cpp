@@ -264,17 +264,6 @@ LightPictures StimulusLibrary::light_of(const Stimulus& stimulus) const {
     return light;
 }
 
-namespace {
-
-/// How the object stands; an object that is only turned counts as it did when there were turns alone.
-void add_object(ContentHasher& hasher, const ObjectPose& object) {
-    hasher.add(object.angle.value);
-    if (const std::string move = text_of_move(object); !move.empty())
-        hasher.add(std::string_view(move));
-}
-
-} // namespace
-
 std::optional<std::filesystem::path> StimulusLibrary::light_file(const Stimulus& stimulus, bool make) const {
     const FrameSequenceSettings* const sequence = cache_.sequence_of(stimulus);
     if (sequence && !has_alpha(frame_file(*sequence, {0})))
