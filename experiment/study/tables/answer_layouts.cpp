@@ -1,5 +1,6 @@
 #include "experiment/study/tables/answer_layouts.h"
 
+#include <algorithm>
 #include <functional>
 #include <iterator>
 
@@ -21,6 +22,60 @@ template <class Row> void add_answer_of(StudyLayout<Row>& to) {
 }
 
 } // namespace
+
+RowLayout<StudyAnswer> answer_trials_layout(const std::vector<StudyAnswer>& answers) {
+    using Row = StudyAnswer;
+    StudyLayout<Row> to("answer_trials",
+                        "Each answer of trials that give results, with what was shown: the input of "
+                        "answer_models.R.");
+    to.text("observer", "Label of the observer", &Row::observer);
+    to.count("session", "Place of the session among those analysed, from 1",
+             [](const Row& row) { return row.session + 1; });
+    to.count("trial", "Number of the trial in the session's order", &Row::trial);
+    to.text("task", "Id of the task", &Row::task);
+    to.text("answer", "Id of the answer", &Row::answer);
+    to.text("item", "Of a scale with several items; n/a: it has one", &Row::item);
+    to.text("kind", "Kind of answer", &Row::kind);
+    to.count("missed", "1: it was not given", &Row::is_missed);
+    to.text("value", "What was answered; n/a: missed", &Row::value);
+    to.number("number", "Of scales and numbers", "", &Row::number);
+    to.text("correct", "What is correct; n/a: nothing is", &Row::correct);
+    to.text("is_correct", "1: correct; 0: wrong; n/a: neither", [](const Row& row) {
+        return row.is_correct ? std::string(*row.is_correct ? "1" : "0") : std::string();
+    });
+    to.number("response_s", "Response time, from the zero that the protocol names", "s", &Row::response_s);
+    std::vector<std::string> factors, slots, of_slots;
+    const auto add_once = [](std::vector<std::string>& names, const std::string& name) {
+        if (std::ranges::find(names, name) == names.end())
+            names.push_back(name);
+    };
+    for (const StudyAnswer& answer : answers) {
+        for (const auto& [factor, level] : answer.levels)
+            add_once(factors, factor);
+        if (answer.shown.size() < 2)
+            continue;
+        for (const AnsweredStimulus& shown : answer.shown) {
+            add_once(slots, shown.slot);
+            for (const auto& [factor, level] : shown.levels)
+                if (answer.level(factor).empty())
+                    add_once(of_slots, factor);
+        }
+    }
+    for (const std::string& factor : factors)
+        to.text(factor, "Level of this factor, of the trial or of all that it shows; n/a: they differ",
+                [factor](const Row& row) { return row.level(factor); });
+    for (const std::string& slot : slots)
+        for (const std::string& factor : of_slots)
+            to.text(fmt::format("{}.{}", slot, factor), "Level of this factor in this slot",
+                    [slot, factor](const Row& row) {
+                        for (const AnsweredStimulus& shown : row.shown)
+                            for (const auto& [name, level] : shown.levels)
+                                if (shown.slot == slot && name == factor)
+                                    return level;
+                        return std::string();
+                    });
+    return to;
+}
 
 RowLayout<AnswerSummaryRow> answers_layout() {
     using Row = AnswerSummaryRow;

@@ -1,11 +1,16 @@
 /// The tables of what observers answered.
 #pragma once
 
+#include <vector>
+
 #include "experiment/record/tables/shared_columns.h"
 #include "experiment/study/results/answer_rows.h"
 
 namespace overt {
 
+/// Each answer, with a column for each factor: of the trial where all that it shows is alike, and else of
+/// each slot. The answers give the columns and must outlive the layout.
+RowLayout<StudyAnswer> answer_trials_layout(const std::vector<StudyAnswer>& answers);
 RowLayout<AnswerSummaryRow> answers_layout();
 RowLayout<AnswerChoiceRow> answer_choices_layout();
 RowLayout<AnswerCurveRow> psychometric_functions_layout();

@@ -30,4 +30,13 @@ void write_mixed_models(const StudyResults& results, const std::filesystem::path
     write_whole_file(folder / "mixed_models.R", script);
 }
 
+void write_answer_models(const std::filesystem::path& folder, TableFormat format) {
+    std::string script(embedded::answer_models_r);
+    constexpr std::string_view mark = "{{TABLE}}";
+    const std::size_t at = script.find(mark);
+    OVERT_EXPECTS(at != script.npos);
+    script.replace(at, mark.size(), fmt::format("answer_trials.{}", ending_of(format)));
+    write_whole_file(folder / "answer_models.R", script);
+}
+
 } // namespace overt

@@ -13,4 +13,8 @@ namespace overt {
 /// that are neither observer nor object. Throws RecordError.
 void write_mixed_models(const StudyResults& results, const std::filesystem::path& folder, TableFormat format);
 
+/// Writes answer_models.R into the folder of the study's tables, which reads answer_trials: models of
+/// choices, ratings and response times, with lme4 and ordinal where R has them. Throws RecordError.
+void write_answer_models(const std::filesystem::path& folder, TableFormat format);
+
 } // namespace overt

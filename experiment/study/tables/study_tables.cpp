@@ -80,6 +80,7 @@ template <class Visit> void for_each_table(const StudyResults& results, const Vi
             take(QualityRow{results.sessions[i], nullptr, results.session_quality[i]});
         }
     });
+    all(answer_trials_layout(results.answers.given), results.answers.given, false);
     all(answers_layout(), results.answers.summaries, false);
     all(answer_choices_layout(), results.answers.choices, false);
     all(psychometric_functions_layout(), results.answers.curves, false);
@@ -231,13 +232,16 @@ void write_study_tables(const StudyResults& results, const std::filesystem::path
     });
     if (knows_stimuli(results))
         write_mixed_models(results, folder, format);
+    if (!results.answers.given.empty())
+        write_answer_models(folder, format);
     write_whole_file(folder / "dictionary.json", json_text(dictionary));
     write_whole_file(folder / "study.json", study_json(results));
 }
 
 bool is_study_table(const std::string& file) {
     if (file == "dictionary.json" || file == "study.json" || file == "mixed_models.R" ||
-        file == "mixed_models_coefficients.csv" || file == "mixed_models_tests.csv")
+        file == "mixed_models_coefficients.csv" || file == "mixed_models_tests.csv" ||
+        file == "answer_models.R" || file == "answer_models.csv")
         return true;
     const std::size_t dot = file.find('.');
     bool is_table = false;
