@@ -36,7 +36,7 @@ if (!has_lme4) say("lme4 is not installed: each observer has a model of their ow
 rows <- NULL
 
 add_rows <- function(what, model, terms, estimates, errors, p, observers, answers) {
-  rows <<- rbind(rows, data.frame(of = what, model = model, term = terms, estimate = estimates, standard_error = errors,
+  rows <<- rbind(rows, data.frame(of = what, model = model, term = gsub("`", "", terms), estimate = estimates, standard_error = errors,
                                   p = p, observers = observers, answers = answers, row.names = NULL))
 }
 
