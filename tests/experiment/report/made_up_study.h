@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "experiment/study/answer_results.h"
 #include "experiment/study/results/study_results.h"
 #include "tests/experiment/surface/flat_and_round.h"
 
@@ -105,6 +106,80 @@ inline void add_trial(StudyResults& study, int number) {
     }
     study.traces.push_back(std::move(trace));
     study.trials.push_back(std::move(trial));
+}
+
+/// Choices between two slots, ratings, and choices of which one is right, of three observers.
+inline void add_answers(StudyResults& study) {
+    for (int observer = 0; observer < 3; ++observer)
+        for (int trial = 0; trial < 48; ++trial) {
+            StudyAnswer answer;
+            answer.observer = fmt::format("0{}", observer + 1);
+            answer.task = "glossier";
+            answer.trial = trial + 1;
+            answer.is_missed = false;
+            answer.kind = "choice";
+            answer.answer = "which";
+            const double levels[] = {0.05, 0.1, 0.2, 0.4};
+            const double left = levels[trial % 4], right = levels[(trial / 4 + 1) % 4];
+            answer.shown = {{"left", {{"roughness", fmt::format("{}", left)}}, {{"roughness", left}}},
+                            {"right", {{"roughness", fmt::format("{}", right)}}, {{"roughness", right}}}};
+            answer.levels = {{"object", trial % 2 == 0 ? "ball" : "globe"}};
+            answer.value = (trial * 7 + observer) % 10 < (left < right ? 8 : 2) ? "left" : "right";
+            answer.response_s = 0.4 + 0.01 * ((trial * 13 + observer) % 40);
+            study.answers.given.push_back(answer);
+            answer.answer = "metal";
+            answer.shown.resize(1);
+            answer.levels = answer.shown.front().levels;
+            answer.correct = trial % 3 == 0 ? "yes" : "no";
+            answer.value = (trial * 11 + observer) % 9 < 6 ? answer.correct : "yes";
+            answer.is_correct = answer.value == answer.correct;
+            answer.procedure = "stairs </script>";
+            answer.procedure_factor = "roughness";
+            answer.track = 1;
+            study.answers.given.push_back(answer);
+            answer.answer = "sure";
+            answer.kind = "scale";
+            answer.correct = "";
+            answer.is_correct = std::nullopt;
+            answer.procedure = "";
+            answer.number = 1 + (trial + observer) % 4;
+            answer.value = fmt::format("{}", *answer.number);
+            study.answers.given.push_back(std::move(answer));
+        }
+    StudyOptions options;
+    options.resamples = 100;
+    reckon_answers(study.answers, options);
+    for (const char* const measure : {"dwell share", "last look"}) {
+        GazeChoiceRow row;
+        row.of = {"", "glossier", "which", ""};
+        row.measure = measure;
+        row.value = Estimate::of(0.61, Interval{0.55, 0.67});
+        row.chance = 0.5;
+        row.p = 0.03;
+        row.observers = 3;
+        row.of_observers = {0.58, 0.6, 0.65};
+        study.answers.gaze_choices.push_back(row);
+        row.area = "head";
+        row.a = "chosen";
+        row.b = "not chosen";
+        row.value = Estimate::of(-0.04, Interval{-0.1, 0.02});
+        study.answers.gaze_choices.push_back(std::move(row));
+    }
+    study.answer_maps = study.differences;
+    study.answer_maps.front().column = "which";
+    study.answer_maps.front().a = "chosen";
+    study.answer_maps.front().b = "not chosen";
+    DifferenceMap absent;
+    absent.keys = {{"task", "glossier"}};
+    absent.object = 1;
+    absent.column = "which";
+    absent.a = "chosen";
+    absent.b = "not chosen";
+    absent.absent = "one observer alone gave both answers";
+    study.answer_maps.push_back(std::move(absent));
+    study.headline = {"Which of the two is glossier?", "144 trials; what differs is roughness (4 levels).",
+                      "N = 3 simulated observers, none left out; 1 trial excluded.",
+                      "On the scale of roughness 0.05 lies highest, at 1.1 (95 % interval 0.7 to 1.5)."};
 }
 
 } // namespace made_up
@@ -213,6 +288,7 @@ inline StudyResults made_up_study() {
     difference.observers = 6;
     difference.least_p = 1.0 / 32.0;
     study.differences.push_back(difference);
+    made_up::add_answers(study);
     MapPredictionRow prediction;
     prediction.nss = Estimate::of(1.2, Interval{0.8, 1.5});
     prediction.kl = Estimate::none("no other observer has fixations there");

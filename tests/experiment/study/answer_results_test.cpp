@@ -9,6 +9,8 @@
 
 #include "experiment/base/random.h"
 #include "experiment/statistics/distributions.h"
+#include "experiment/study/answer_designs.h"
+#include "experiment/study/answer_differences.h"
 
 using namespace overt;
 
@@ -178,4 +180,229 @@ TEST_CASE("steps of a scale give back the places of levels, and pairs in two fac
         ++found;
     }
     CHECK(found == 4); // of the observer and of all
+}
+
+namespace {
+
+/// Answers "glossy" or "matt" to one stimulus, by its level and by the object it is on.
+StudyAnswer word_of(const std::string& observer, double level, const std::string& object, bool is_glossy) {
+    StudyAnswer answer = choice_of(observer, {gloss_in("", level)}, is_glossy ? "glossy" : "matt");
+    answer.shown.front().levels.emplace_back("object", object);
+    answer.levels = answer.shown.front().levels;
+    answer.response_s = 0.5 + (object == "cow" ? 0.2 : 0.0);
+    return answer;
+}
+
+/// Of observers whose thresholds are so much higher for the cow than for the bust.
+std::vector<StudyAnswer> words(int observers, double of_cow, std::uint64_t seed) {
+    RandomStream random(seed, "words");
+    std::vector<StudyAnswer> answers;
+    for (int observer = 0; observer < observers; ++observer) {
+        const double own = 0.3 + 0.03 * random.normal();
+        for (const double level : {0.1, 0.2, 0.3, 0.4, 0.5, 0.6})
+            for (const std::string object : {"bust", "cow"})
+                for (int trial = 0; trial < 30; ++trial) {
+                    const double threshold = own + (object == "cow" ? of_cow : 0.0);
+                    answers.push_back(
+                        word_of(fmt::format("P{:02}", observer), level, object,
+                                random.uniform() < 1.0 / (1.0 + std::exp(-20.0 * (level - threshold)))));
+                }
+    }
+    return answers;
+}
+
+const AnswerDifferenceRow& difference_row(const std::vector<AnswerDifferenceRow>& rows,
+                                          const std::string& measure) {
+    const auto found = std::ranges::find_if(rows, [&](const AnswerDifferenceRow& row) {
+        return row.measure == measure && row.column == "object";
+    });
+    REQUIRE(found != rows.end());
+    return *found;
+}
+
+} // namespace
+
+TEST_CASE("a threshold that differs between levels of another factor is found, a less b, and none else",
+          "[unit]") {
+    const std::vector<StudyAnswer> answers = words(8, 0.1, 3);
+    const AnswersBy by = answers_by(answers);
+    const std::vector<AnswerDifferenceRow> rows = answer_differences(by, quick_options());
+    const AnswerDifferenceRow& threshold = difference_row(rows, "threshold of gloss");
+    CHECK(threshold.a == "bust");
+    CHECK(threshold.b == "cow");
+    CHECK(threshold.difference.value.value() == Approx(-0.1).margin(0.02));
+    CHECK(threshold.difference.interval.value().contains(-0.1));
+    CHECK(threshold.p.value() == Approx(2.0 / 256.0));
+    CHECK(threshold.p_holm.value() >= threshold.p.value());
+    CHECK(threshold.observers == 8);
+    CHECK(difference_row(rows, "median response time / s").difference.value.value() == Approx(-0.2));
+    // Glossy is the first choice by its letters, and is said less often of the cow.
+    CHECK(difference_row(rows, "share of glossy").difference.value.value() > 0.1);
+    // Functions of each level stand beside that of all.
+    std::vector<std::string> levels;
+    for (const AnswerCurveRow& row : answer_curves(by, quick_options())) {
+        if (!row.of.observer.empty())
+            continue;
+        double counted = 0.0;
+        for (const AnswerCurvePoint& point : row.points) {
+            counted += point.trials;
+            CHECK(point.share.low <= point.yes / point.trials);
+            CHECK(point.share.high >= point.yes / point.trials);
+        }
+        CHECK(counted == row.trials);
+        CHECK(row.points.size() == 6);
+        levels.push_back(row.level);
+        if (row.level == "cow")
+            CHECK(row.threshold.value.value() == Approx(0.4).margin(0.04));
+    }
+    CHECK(levels == std::vector<std::string>{"", "bust", "cow"});
+    // Without a difference there is none to be found.
+    const std::vector<StudyAnswer> alike = words(8, 0.0, 4);
+    const auto none = answer_differences(answers_by(alike), quick_options());
+    CHECK(difference_row(none, "threshold of gloss").p.value() > 0.05);
+}
+
+TEST_CASE("columns that part answers alike are compared once, numbers before words", "[unit]") {
+    std::vector<StudyAnswer> answers = words(1, 0.0, 5);
+    for (StudyAnswer& one : answers)
+        one.levels.emplace_back("animal", one.level("object") == "cow" ? "yes" : "no");
+    AnswerList list;
+    for (const StudyAnswer& one : answers)
+        list.push_back(&one);
+    std::vector<std::string> names;
+    for (const ComparedColumn& column : compared_columns(list))
+        names.push_back(column.name);
+    CHECK(names == std::vector<std::string>{"gloss", "object"});
+    CHECK(answers_in(list, "object", "cow").size() == list.size() / 2);
+}
+
+TEST_CASE("designs are told by what was shown, and have their own d'", "[unit]") {
+    const auto in = [](const std::string& slot, const std::string& level) {
+        return AnsweredStimulus{slot, {{"material", level}}, {}};
+    };
+    const auto judged = [](std::vector<AnsweredStimulus> shown, const std::string& value,
+                           const std::string& correct) {
+        StudyAnswer answer = choice_of("P01", std::move(shown), value);
+        answer.correct = correct;
+        answer.is_correct = value == correct;
+        return answer;
+    };
+    const auto of = [](const std::vector<StudyAnswer>& answers) {
+        AnswerList list;
+        for (const StudyAnswer& one : answers)
+            list.push_back(&one);
+        return list;
+    };
+    std::vector<StudyAnswer> same, abx, odd, three;
+    for (int i = 0; i < 200; ++i) {
+        const bool is_right = i % 5 != 0, is_same = i % 2 == 0;
+        const std::string right = is_same ? "same" : "different", wrong = is_same ? "different" : "same";
+        same.push_back(judged({in("left", "gold"), in("right", is_same ? "gold" : "clay")},
+                              is_right ? right : wrong, right));
+        const std::string side = i % 2 == 0 ? "left" : "right", other = i % 2 == 0 ? "right" : "left";
+        abx.push_back(
+            judged({in("top", "gold"), in(side, "gold"), in(other, "clay")}, is_right ? side : other, side));
+        const std::string places[] = {"left", "top", "right"};
+        const std::string &place = places[i % 3], &next = places[(i + 1) % 3], &last = places[(i + 2) % 3];
+        const bool is_gold = i % 2 == 0; // either kind is the odd one by turns
+        odd.push_back(judged({in(place, is_gold ? "gold" : "clay"), in(next, is_gold ? "clay" : "gold"),
+                              in(last, is_gold ? "clay" : "gold")},
+                             is_right ? place : next, place));
+        three.push_back(
+            judged({in(place, "gold"), in(next, "clay"), in(last, "clay")}, is_right ? place : next, place));
+    }
+    const auto check = [&](const std::vector<StudyAnswer>& answers, const std::string& name, double d_prime) {
+        const std::optional<AnswerDesign> design = answer_design(of(answers));
+        REQUIRE(design);
+        CHECK(design->name() == name);
+        CHECK(d_prime_by(*design, of(answers)).value().d_prime == Approx(d_prime).margin(1e-6));
+    };
+    // 160 of 200 right, after the log-linear correction; of same-different 80 of 100 hits and 20 false
+    // alarms.
+    constexpr double share = 160.5 / 201.0;
+    check(same, "same-different, differencing", d_prime_same_different(80.5 / 101.0, 20.5 / 101.0).value());
+    check(abx, "ABX, differencing", d_prime_of_share(DetectionDesign::abx_differencing, share).value());
+    check(odd, "oddity of three", d_prime_of_share(DetectionDesign::oddity, share).value());
+    check(three, "3 alternatives", d_prime_of_share(DetectionDesign::alternatives, share, 3).value());
+    // Two slots of which one is right are two alternatives, and no other design.
+    std::vector<StudyAnswer> two;
+    for (int i = 0; i < 20; ++i)
+        two.push_back(judged({in("left", i % 2 ? "gold" : "clay"), in("right", i % 2 ? "clay" : "gold")},
+                             "left", i % 2 ? "left" : "right"));
+    CHECK_FALSE(answer_design(of(two)));
+}
+
+TEST_CASE("times have their distribution, and slow answers their share of correct ones", "[unit]") {
+    RandomStream random(7, "times");
+    std::vector<StudyAnswer> answers;
+    for (const std::string observer : {"P01", "P02", "P03"})
+        for (int trial = 0; trial < 400; ++trial) {
+            StudyAnswer answer = choice_of(observer, {gloss_in("", 0.1)}, "yes");
+            answer.response_s = 0.3 + std::exp(-1.0 + 0.4 * random.normal());
+            answer.correct = "yes";
+            // The slower the better.
+            answer.is_correct = random.uniform() < (*answer.response_s > 0.668 ? 0.95 : 0.6);
+            answers.push_back(std::move(answer));
+        }
+    const AnswersBy by = answers_by(answers);
+    const std::vector<AnswerTimeRow> times = answer_times(by, quick_options());
+    const auto row = [&](const std::string& observer, const std::string& which) {
+        return *std::ranges::find_if(times, [&](const AnswerTimeRow& one) {
+            return one.of.observer == observer && one.which == which;
+        });
+    };
+    CHECK(row("P01", "all").times == 400);
+    CHECK(row("P01", "correct").times + row("P01", "wrong").times == 400);
+    CHECK(row("P01", "all").median_s.value.value() == Approx(0.668).margin(0.03));
+    CHECK(row("P01", "all").shift_s.value() == Approx(0.3).margin(0.08));
+    CHECK(row("P01", "all").log_sd.value() == Approx(0.4).margin(0.12));
+    // Shifted log-normal times fit better as what they are.
+    CHECK(row("P01", "all").log_normal_log_likelihood.value() > row("P01", "all").ex_log_likelihood.value());
+    CHECK_FALSE(row("", "all").ex_mu_s);
+    const std::vector<AnswerSpeedRow> speeds = answer_speeds(by, quick_options());
+    REQUIRE(speeds.size() == 20);
+    CHECK(speeds[0].of.observer.empty());
+    CHECK(speeds[0].part == 1);
+    CHECK(speeds[0].trials == 240);
+    CHECK(speeds[0].correct.value.value() == Approx(0.6).margin(0.1));
+    CHECK(speeds[4].correct.value.value() == Approx(0.95).margin(0.05));
+    CHECK(speeds[0].mean_response_s.value() < speeds[4].mean_response_s.value());
+}
+
+TEST_CASE("a track is told in its order, with its reversals, and each condition apart", "[unit]") {
+    std::vector<StudyAnswer> answers;
+    const auto add = [&](int trial, int track, double level, const std::string& side) {
+        StudyAnswer answer = choice_of("P01",
+                                       {gloss_in("left", side == "left" ? level : 0.05),
+                                        gloss_in("right", side == "left" ? 0.05 : level)},
+                                       "left");
+        answer.trial = trial;
+        answer.procedure = "stairs";
+        answer.procedure_factor = "gloss";
+        answer.track = track;
+        answer.levels = {{"side", side}};
+        answers.push_back(std::move(answer));
+    };
+    int trial = 0;
+    for (const double level : {0.5, 0.4, 0.3, 0.3, 0.4, 0.3, 0.2}) {
+        add(trial + 1, 1, level, trial % 4 == 0 ? "left" : "right");
+        add(trial + 2, 2, 0.6, "right");
+        trial += 2;
+    }
+    const std::vector<AnswerTrackRow> rows = answer_tracks(answers);
+    REQUIRE(rows.size() == 14);
+    std::vector<double> levels;
+    std::vector<int> reversals;
+    for (const AnswerTrackRow& row : rows) {
+        if (row.track == 2) {
+            CHECK_FALSE(row.is_reversal);
+            continue;
+        }
+        levels.push_back(row.level);
+        CHECK(row.place == static_cast<int>(levels.size()));
+        if (row.is_reversal)
+            reversals.push_back(row.place);
+    }
+    CHECK(levels == std::vector<double>{0.5, 0.4, 0.3, 0.3, 0.4, 0.3, 0.2});
+    CHECK(reversals == std::vector<int>{4, 5});
 }

@@ -1,0 +1,166 @@
+/// What simulated observers answer on average is what they answer often.
+#include "devices/simulated/simulated_keys.h"
+
+#include <algorithm>
+
+#include <catch2/catch.hpp>
+#include <fmt/format.h>
+
+#include "experiment/answers/answer_kinds.h"
+
+using namespace overt;
+
+namespace {
+
+AnswerKind kind_named(std::string_view name) {
+    std::size_t kind = 0;
+    while (kinds_of<AnswerKind>[kind].name != name)
+        ++kind;
+    return static_cast<AnswerKind>(kind);
+}
+
+/// Two slots, four levels, an object in each; answers of all kinds that have a truth.
+Protocol sided() {
+    Protocol protocol;
+    protocol.slots.resize(2);
+    protocol.slots[0].id = "left";
+    protocol.slots[1].id = "right";
+    protocol.objects.resize(2);
+    protocol.objects[0].id = "bust";
+    protocol.objects[1].id = "cow";
+    for (int i = 0; i < 4; ++i) {
+        auto& material = protocol.materials.emplace_back();
+        material.id = fmt::format("gold_{}", i);
+        material.columns = {{"gloss", fmt::format("{}", i), 1.0 * i}};
+    }
+    Task task;
+    task.id = "judge";
+    task.slots = {"left", "right"};
+    TaskAnswer which;
+    which.id = "which";
+    which.kind = kind_named("choice");
+    which.choices = {"left", "right"};
+    which.keys = {"f", "j"};
+    which.truth.by = "gloss";
+    which.truth.slope = 0.8;
+    which.truth.bias = 0.3;
+    which.truth.lapses = 0.1;
+    TaskAnswer word = which;
+    word.id = "word";
+    word.choices = {"matt", "silky", "glossy"};
+    word.keys = {"a", "b", "c"};
+    word.truth.offset = 1.0;
+    TaskAnswer steps;
+    steps.id = "steps";
+    steps.kind = kind_named("scale");
+    steps.steps = 5;
+    steps.truth.by = "gloss";
+    steps.truth.offset = 1.5;
+    steps.truth.gain = 1.0;
+    steps.truth.noise = 0.9;
+    TaskAnswer right;
+    right.id = "right";
+    right.kind = kind_named("choice");
+    right.choices = {"metal", "stone", "glass"};
+    right.keys = {"a", "b", "c"};
+    right.correct = "stone";
+    right.truth.share_correct = 0.6;
+    task.answers = {which, word, steps, right};
+    protocol.tasks = {task};
+    return protocol;
+}
+
+Trial trial_of(int index, int left, int right, int object = 0) {
+    Trial trial;
+    trial.index = index;
+    trial.stimulus.material = left;
+    trial.stimulus.object = object;
+    trial.beside = {{{object, right, 0, 0, 0}, 1}};
+    return trial;
+}
+
+} // namespace
+
+TEST_CASE("what an observer answers on average is what the same observer answers in many trials", "[unit]") {
+    Protocol protocol = sided();
+    SimulatedEffect effect;
+    effect.entries[0] = "cow";
+    effect.answer = "word";
+    effect.answer_shift = 0.7;
+    protocol.simulated_effects = {effect};
+    effect.answer = "steps";
+    effect.answer_slope = 1.4;
+    effect.answer_shift = 0.0;
+    protocol.simulated_effects.push_back(effect);
+    const SimulatedAnswers answers(protocol, 11);
+    for (const int object : {0, 1})
+        for (const TaskAnswer& asked : protocol.tasks[0].answers) {
+            const Trial trial = trial_of(0, 1, 2, object);
+            const AnswerOffer offer = offer_of(protocol, asked, "", trial);
+            const SimulatedAnswers::Expected expected = answers.expected(offer, trial);
+            CAPTURE(asked.id, object);
+            constexpr int often = 6000;
+            std::vector<double> counts(offer.values.size(), 0.0);
+            double sum = 0.0;
+            for (int i = 0; i < often; ++i) {
+                const SimulatedAnswers::Intended given = answers.answer(offer, trial_of(i, 1, 2, object));
+                if (given.number)
+                    sum += *given.number;
+                else
+                    counts[static_cast<std::size_t>(given.choice)] += 1.0;
+            }
+            if (asked.id == "steps") {
+                CHECK(expected.mean.value() == Approx(sum / often).margin(0.05));
+                CHECK(expected.shares.empty());
+                continue;
+            }
+            double all = 0.0;
+            for (std::size_t i = 0; i < counts.size(); ++i) {
+                CHECK(expected.shares[i] == Approx(counts[i] / often).margin(0.025));
+                all += expected.shares[i];
+            }
+            CHECK(all == Approx(1.0).margin(1e-3));
+        }
+}
+
+TEST_CASE("choices mean the same however they go round over the keys, the bias with them", "[unit]") {
+    const Protocol protocol = sided();
+    const SimulatedAnswers answers(protocol, 12);
+    const TaskAnswer& which = protocol.tasks[0].answers[0];
+    for (int i = 0; i < 50; ++i) {
+        const Trial trial = trial_of(i, i % 4, (i + 1) % 4);
+        AnswerOffer offer = offer_of(protocol, which, "", trial);
+        const std::string meant = offer.values[static_cast<std::size_t>(answers.answer(offer, trial).choice)];
+        std::ranges::reverse(offer.values);
+        CHECK(offer.values[static_cast<std::size_t>(answers.answer(offer, trial).choice)] == meant);
+    }
+}
+
+TEST_CASE("observers lean to what they are going to choose, where the protocol says so", "[unit]") {
+    Protocol protocol = sided();
+    const std::vector<std::string> areas{"head", "rim"};
+    CHECK(SimulatedAnswers(protocol, 3).favour_of(trial_of(0, 0, 3), areas).slot == -1);
+    protocol.tasks[0].answers[0].truth.look_share = 0.8;
+    protocol.tasks[0].answers[0].truth.look_area = "rim";
+    protocol.tasks[0].answers[0].truth.look_odds = 4.0;
+    const SimulatedAnswers answers(protocol, 3);
+    const TaskAnswer& which = protocol.tasks[0].answers[0];
+    for (int i = 0; i < 40; ++i) {
+        const Trial trial = trial_of(i, i % 4, (i + 1) % 4);
+        const int chosen = answers.answer(offer_of(protocol, which, "", trial), trial).choice;
+        const GazeFavour favour = answers.favour_of(trial, areas);
+        CHECK(favour.slot == chosen);
+        CHECK(favour.share == 0.8);
+        CHECK(favour.area == (chosen == 0 ? 1 : -1));
+    }
+    // Of one of two slots nobody knows yet what will be chosen.
+    Trial half = trial_of(0, 0, 3);
+    half.beside.clear();
+    CHECK(answers.favour_of(half, areas).slot == -1);
+    GazePlan plan;
+    plan.area_count = 2;
+    plan.shares = {0.3, 0.2};
+    favour_area(plan, {-1, 0.0, 1, 4.0});
+    CHECK(plan.shares[1] / (1.0 - plan.shares[1]) == Approx(4.0 * 0.25));
+    CHECK(plan.shares[0] == Approx(0.3 * (1.0 - plan.shares[1]) / 0.8));
+}
