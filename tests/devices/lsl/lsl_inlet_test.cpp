@@ -229,7 +229,9 @@ TEST_CASE("without liblsl, or with one that lacks functions, it is said what to 
                       Contains("/nowhere/liblsl.so: cannot open shared object") &&
                           Contains("OVERT_LSL_LIBRARY"));
     CHECK_THROWS_WITH(load_lsl(OVERT_FAKE_LIBLSL_BROKEN), Contains("it lacks lsl_resolve_byprop;"));
-    CHECK(library_candidates("a", "HOME", {"b", "c"}) == std::vector<std::string>{"a"});
-    CHECK(library_candidates("", "HOME", {"b"}).front() != "b");
-    CHECK(library_candidates("", "OVERT_NO_SUCH_VARIABLE", {"b", "c"}) == std::vector<std::string>{"b", "c"});
+    const VendorLibrary of_home{"home", "a library", "HOME", {"b", "c"}},
+        of_nothing{"none", "a library", "OVERT_NO_SUCH_VARIABLE", {"b", "c"}};
+    CHECK(library_candidates("a", of_home) == std::vector<std::string>{"a"});
+    CHECK(library_candidates("", of_home).front() != "b");
+    CHECK(library_candidates("", of_nothing) == std::vector<std::string>{"b", "c"});
 }
