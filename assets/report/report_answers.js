@@ -237,8 +237,66 @@ function show_differences() {
       note: `Within observers. In brackets the ${level} over observers; p by flipping the signs of observers' differences. Holm: over the rows of an answer's measure.`}));
 }
 
+function show_matches() {
+  const rows = answers.matches, lines = answers.match_lines, kinds = unique(rows.filter(of_all), r => [...r.of.slice(1), r.along, r.column].join('\t')), box = element('div', {class: 'chart'}), names = element('div');
+  if (!kinds.length) return;
+  const show = index => {
+    const wanted = kinds[index], mine = rows.filter(r => of_all(r) && same_answer(r, wanted) && r.along === wanted.along && r.column === wanted.column && r.match.v !== null);
+    const levels = [...new Set(mine.map(r => r.level))], all = mine.flatMap(r => [r.reference, r.match.v, r.match.lo, r.match.hi]).filter(v => Number.isFinite(v));
+    names.replaceChildren(...(levels.length > 1 ? [curve_names(levels)] : []));
+    responsive(box, width => {
+      const ends = [Math.min(...all), Math.max(...all)], room = 0.05 * (ends[1] - ends[0] || 1), range = [ends[0] - room, ends[1] + room];
+      const frame = plot({width: Math.min(width, 620), height: 360, x: range, y: range, x_label: `${wanted.along} of the reference`, y_label: `${wanted.along} that was set`, label: 'Matches'});
+      frame.svg.append(shape('line', {x1: frame.px(range[0]), y1: frame.py(range[0]), x2: frame.px(range[1]), y2: frame.py(range[1]), class: 'grid', 'stroke-dasharray': '4 4'}));
+      levels.forEach((one, i) => {
+        const line = lines.find(r => of_all(r) && same_answer(r, wanted) && r.along === wanted.along && r.column === wanted.column && r.level === one && r.slope.v !== null && r.intercept.v !== null);
+        const own = mine.filter(r => r.level === one).sort((a, b) => a.reference - b.reference);
+        if (line && own.length > 1) frame.svg.append(curve(i, [own[0], own[own.length - 1]].map(r => [frame.px(r.reference), frame.py(line.intercept.v + line.slope.v * r.reference)])));
+        for (const r of own) {
+          if (r.match.lo !== undefined) frame.svg.append(shape('line', {x1: frame.px(r.reference), x2: frame.px(r.reference), y1: frame.py(r.match.lo), y2: frame.py(r.match.hi), stroke: colour_of(i)}));
+          const dot = marker(i, frame.px(r.reference), frame.py(r.match.v));
+          dot.append(shape('title', {}, `${one || 'all'}, reference ${digits(r.reference)}: ${estimate_text(r.match)}`));
+          frame.svg.append(dot);
+        }
+      });
+      box.replaceChildren(frame.svg);
+    });
+  };
+  answer_part('answers_body', 'Matches', chooser('Match', kinds.map(r => `${answer_name(r.of)}, ${r.along}${r.column ? ` by ${r.column}` : ''}`), show), names, box,
+      table({name: 'match_lines', title: 'Lines of matches over references', rows: lines, columns: [
+        ...answer_columns(lines), text_column('along', r => r.along), ...if_any(lines, text_column('within', r => r.column ? `${r.column} ${r.level}` : '')), number_column('slope', r => r.slope), number_column('intercept', r => r.intercept),
+        ...if_any(lines, number_column('slope, errors in both', r => r.deming)), number_column('settings', r => r.settings), ...if_any(lines, number_column('planted slope', r => r.planted))],
+        note: `Dots: means over observers with the ${level}; broken line: a match that is the reference.`}),
+      table({name: 'matches', title: 'Matches', rows, columns: [
+        ...answer_columns(rows), text_column('along', r => r.along), ...if_any(rows, text_column('within', r => r.column ? `${r.column} ${r.level}` : '')), number_column('reference', r => r.reference), number_column('match', r => r.match),
+        ...if_any(rows, number_column('constant error', r => r.error)), ...if_any(rows, number_column('SD', r => r.sd)), number_column('settings', r => r.settings), number_column('stopped at an end', r => r.at_end)]}));
+}
+
+function show_reliefs() {
+  const rows = answers.reliefs, drawn = rows.filter(r => r.places.length > 1), box = element('div', {class: 'chart'});
+  if (!rows.length) return;
+  const show = index => {
+    const places = drawn.length ? drawn[index].places : [];
+    if (!places.length) return;
+    responsive(box, width => {
+      const of = i => [Math.min(...places.map(p => p[i])), Math.max(...places.map(p => p[i]))];
+      const frame = plot({width: Math.min(width, 620), height: 320, x: of(0), y: of(1), x_label: 'true depth towards the eye', y_label: 'depth of the relief', label: 'Relief over true depth'});
+      for (const [truth, set] of places) frame.svg.append(marker(0, frame.px(truth), frame.py(set)));
+      box.replaceChildren(frame.svg);
+    });
+  };
+  answer_part('answers_body', 'Reliefs of gauge settings', ...(drawn.length ? [chooser('Relief', drawn.map(r => `${r.of[0] || 'all'}, ${r.of[2]}, ${r.of[3]}`), show), box] : []),
+      table({name: 'reliefs', title: 'Reliefs of gauge settings', rows, columns: [
+        observer_column, text_column('answer', r => r.of[2]), text_column('shown', r => r.of[3]), number_column('points', r => r.points), number_column('settings', r => r.settings), number_column('from the true normal / deg', r => r.deviation),
+        number_column('SD of repeats / deg', r => r.repeat), number_column('gain', r => r.gain), number_column('r', r => r.r), number_column('gain, affine', r => r.affine_gain), number_column('shear x', r => r.x_shear), number_column('shear y', r => r.y_shear),
+        number_column('r, affine', r => r.affine_r), ...remark_column(rows, r => r.note)],
+        note: 'The relief that fits the settings best, by least squares, against the true depth: with a gain, and with a gain and shears (affine).'}));
+}
+
 if (answers) {
   show_curves();
+  show_matches();
+  show_reliefs();
   show_scales();
   show_ratings();
   show_choices();

@@ -5,6 +5,8 @@
 #include <map>
 #include <tuple>
 
+#include <fmt/format.h>
+
 namespace overt {
 
 namespace {
@@ -143,6 +145,36 @@ Json each_of(const std::vector<double>& values) {
     return each;
 }
 
+/// Of an observer, or of all: an answer's key and what was shown.
+Json relief_key(const ReliefOf& of) {
+    return {of.observer, of.task, of.answer,
+            fmt::format("{} {} {} {} {} {}", of.object, of.material, of.light, of.motion, of.view, of.frame)};
+}
+
+Json json_of_reliefs(const StudyReliefs& study) {
+    Json reliefs = Json::array();
+    for (const ReliefRow& row : study.reliefs) {
+        Json places = Json::array();
+        for (const ReliefPointRow& point : study.points)
+            if (point.of == row.of && point.z)
+                places.push_back({number(point.true_z), number(*point.z)});
+        reliefs.push_back({{"of", relief_key(row.of)},
+                           {"settings", row.settings},
+                           {"points", row.points},
+                           {"deviation", number(row.deviation_deg)},
+                           {"repeat", number(row.repeat_sd_deg)},
+                           {"gain", number(row.gain)},
+                           {"r", number(row.r)},
+                           {"affine_gain", number(row.affine_gain)},
+                           {"x_shear", number(row.x_shear)},
+                           {"y_shear", number(row.y_shear)},
+                           {"affine_r", number(row.affine_r)},
+                           {"note", row.note},
+                           {"places", std::move(places)}});
+    }
+    return reliefs;
+}
+
 } // namespace
 
 Json report_answers(const StudyResults& results) {
@@ -202,6 +234,31 @@ Json report_answers(const StudyResults& results) {
     json["tracks"] = json_of_tracks(answers);
     json["differences"] = std::move(differences);
     json["gaze"] = std::move(gaze);
+    Json matches = Json::array(), lines = Json::array();
+    for (const AnswerMatchRow& row : answers.matches)
+        matches.push_back({{"of", answer_key(row.of)},
+                           {"column", row.column},
+                           {"level", row.level},
+                           {"along", row.along},
+                           {"reference", number(row.reference)},
+                           {"settings", row.settings},
+                           {"match", json_of(row.match)},
+                           {"error", number(row.constant_error)},
+                           {"sd", number(row.sd)},
+                           {"at_end", row.at_end}});
+    for (const AnswerMatchLineRow& row : answers.match_lines)
+        lines.push_back({{"of", answer_key(row.of)},
+                         {"column", row.column},
+                         {"level", row.level},
+                         {"along", row.along},
+                         {"settings", row.settings},
+                         {"slope", json_of(row.slope)},
+                         {"intercept", json_of(row.intercept)},
+                         {"deming", number(row.deming_slope)},
+                         {"planted", number(row.planted)}});
+    json["matches"] = std::move(matches);
+    json["match_lines"] = std::move(lines);
+    json["reliefs"] = json_of_reliefs(results.reliefs);
     return json;
 }
 

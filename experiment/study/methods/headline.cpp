@@ -70,6 +70,17 @@ std::string curve_sentence(const StudyAnswers& answers, const FirstAnswer& first
                        with_interval(curve->threshold, confidence), over(first.observers));
 }
 
+std::string match_sentence(const StudyAnswers& answers, const FirstAnswer& first, double confidence) {
+    const AnswerMatchLineRow* const line =
+        row_of_all(answers.match_lines, first.of, [](const AnswerMatchLineRow& row) {
+            return row.column.empty() && row.slope.value.has_value();
+        });
+    if (!line)
+        return {};
+    return fmt::format("the slope of matches of {} over references is {}, {}", line->along,
+                       with_interval(line->slope, confidence), over(first.observers));
+}
+
 std::string scale_sentence(const StudyAnswers& answers, const FirstAnswer& first, double confidence) {
     const AnswerScaleRow *least = nullptr, *most = nullptr;
     std::string method;

@@ -15,7 +15,7 @@ using namespace overt;
 
 namespace {
 
-AnswerKind kind_called(std::string_view name) {
+AnswerKind answer_kind_called(std::string_view name) {
     std::size_t kind = 0;
     while (kinds_of<AnswerKind>[kind].name != name)
         ++kind;
@@ -40,7 +40,7 @@ Experiment judged() {
     task.id = "judge";
     TaskAnswer word;
     word.id = "looks";
-    word.kind = kind_called("choice");
+    word.kind = answer_kind_called("choice");
     word.choices = {"matt", "glossy"};
     word.keys = {"f", "j"};
     word.truth.by = "roughness";
@@ -49,14 +49,14 @@ Experiment judged() {
     word.truth.observer_sd = 0.5;
     TaskAnswer rating;
     rating.id = "gloss";
-    rating.kind = kind_called("scale");
+    rating.kind = answer_kind_called("scale");
     rating.steps = 7;
     rating.truth.offset = 4.0;
     rating.truth.noise = 1.0;
     rating.truth.observer_sd = 0.5;
     TaskAnswer kind;
     kind.id = "kind";
-    kind.kind = kind_called("choice");
+    kind.kind = answer_kind_called("choice");
     kind.choices = {"metal", "stone"};
     kind.keys = {"d", "k"};
     kind.correct = "metal";
@@ -68,8 +68,8 @@ Experiment judged() {
     return experiment;
 }
 
-PowerCurve power_of(const Experiment& experiment, const std::string& effect, int studies,
-                    std::vector<int> observers = {8}, int jobs = 0) {
+PowerCurve answer_power_of(const Experiment& experiment, const std::string& effect, int studies,
+                           std::vector<int> observers = {8}, int jobs = 0) {
     PowerSettings settings;
     settings.observers = std::move(observers);
     settings.studies = studies;
@@ -85,21 +85,21 @@ TEST_CASE("thresholds, shares of correct answers and ratings are found of the si
           "[unit]") {
     const Experiment experiment = judged();
     // A threshold of matt over roughness rises by what is planted, however observers differ.
-    const PowerCurve threshold = power_of(experiment, "threshold:object=cow:shift=0.08", 30);
+    const PowerCurve threshold = answer_power_of(experiment, "threshold:object=cow:shift=0.08", 30);
     CHECK(threshold.points[0].share() > 0.9);
     CHECK(threshold.points[0].median_estimate == Approx(0.08).margin(0.01));
     CHECK(threshold.analysis.find("threshold of roughness") != std::string::npos);
-    const PowerCurve lower = power_of(experiment, "threshold:object=bust:shift=-0.08", 10);
+    const PowerCurve lower = answer_power_of(experiment, "threshold:object=bust:shift=-0.08", 10);
     CHECK(lower.points[0].median_estimate == Approx(-0.08).margin(0.015));
-    const PowerCurve slope = power_of(experiment, "slope:object=cow:ratio=3", 20);
+    const PowerCurve slope = answer_power_of(experiment, "slope:object=cow:ratio=3", 20);
     CHECK(slope.points[0].median_estimate == Approx(std::log(3.0)).margin(0.25));
     // 48 answers each: from odds of 3 to 6, shares of 0.75 and 0.857.
-    const PowerCurve correct = power_of(experiment, "correct:object=cow:odds=2", 40);
+    const PowerCurve correct = answer_power_of(experiment, "correct:object=cow:odds=2", 40);
     CHECK(correct.points[0].median_estimate == Approx(6.0 / 7.0 - 0.75).margin(0.015));
-    const PowerCurve rating = power_of(experiment, "rating:object=cow:shift=0.5", 30);
+    const PowerCurve rating = answer_power_of(experiment, "rating:object=cow:shift=0.5", 30);
     CHECK(rating.points[0].share() > 0.9);
     CHECK(rating.points[0].median_estimate == Approx(0.5).margin(0.06));
-    const PowerCurve choice = power_of(experiment, "choice:object=cow:shift=1", 20);
+    const PowerCurve choice = answer_power_of(experiment, "choice:object=cow:shift=1", 20);
     CHECK(choice.points[0].share() > 0.9);
     // The first by its letters is glossy, which comes second in the protocol.
     CHECK(choice.points[0].median_estimate > 0.1);
@@ -107,17 +107,17 @@ TEST_CASE("thresholds, shares of correct answers and ratings are found of the si
 
 TEST_CASE("without an effect answers differ as seldom as the level says, whatever the threads", "[unit]") {
     const Experiment experiment = judged();
-    const PowerCurve none = power_of(experiment, "rating:object=cow:shift=0", 200, {8}, 1);
+    const PowerCurve none = answer_power_of(experiment, "rating:object=cow:shift=0", 200, {8}, 1);
     // 99.9 % of a binomial distribution with 5 %.
     CHECK(none.points[0].found <= 21);
     CHECK(std::abs(none.points[0].median_estimate) < 0.05);
-    const PowerCurve again = power_of(experiment, "rating:object=cow:shift=0", 200, {8}, 2);
+    const PowerCurve again = answer_power_of(experiment, "rating:object=cow:shift=0", 200, {8}, 2);
     CHECK(again.points[0].found == none.points[0].found);
     // More observers find more, and have the first of the others.
-    const PowerCurve more = power_of(experiment, "rating:object=cow:shift=0.15", 60, {6, 14});
+    const PowerCurve more = answer_power_of(experiment, "rating:object=cow:shift=0.15", 60, {6, 14});
     CHECK(more.points[1].found > more.points[0].found);
     // Where the effect differs between observers as much as it is large, it is found less often.
-    const PowerCurve differs = power_of(experiment, "rating:object=cow:shift=0.5:sd=0.8", 60, {8});
+    const PowerCurve differs = answer_power_of(experiment, "rating:object=cow:shift=0.5:sd=0.8", 60, {8});
     CHECK(differs.points[0].share() < 0.8);
 }
 

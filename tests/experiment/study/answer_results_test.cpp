@@ -185,7 +185,8 @@ TEST_CASE("steps of a scale give back the places of levels, and pairs in two fac
 namespace {
 
 /// Answers "glossy" or "matt" to one stimulus, by its level and by the object it is on.
-StudyAnswer word_of(const std::string& observer, double level, const std::string& object, bool is_glossy) {
+StudyAnswer word_answer(const std::string& observer, double level, const std::string& object,
+                        bool is_glossy) {
     StudyAnswer answer = choice_of(observer, {gloss_in("", level)}, is_glossy ? "glossy" : "matt");
     answer.shown.front().levels.emplace_back("object", object);
     answer.levels = answer.shown.front().levels;
@@ -194,7 +195,7 @@ StudyAnswer word_of(const std::string& observer, double level, const std::string
 }
 
 /// Of observers whose thresholds are so much higher for the cow than for the bust.
-std::vector<StudyAnswer> words(int observers, double of_cow, std::uint64_t seed) {
+std::vector<StudyAnswer> word_answers(int observers, double of_cow, std::uint64_t seed) {
     RandomStream random(seed, "words");
     std::vector<StudyAnswer> answers;
     for (int observer = 0; observer < observers; ++observer) {
@@ -204,8 +205,8 @@ std::vector<StudyAnswer> words(int observers, double of_cow, std::uint64_t seed)
                 for (int trial = 0; trial < 30; ++trial) {
                     const double threshold = own + (object == "cow" ? of_cow : 0.0);
                     answers.push_back(
-                        word_of(fmt::format("P{:02}", observer), level, object,
-                                random.uniform() < 1.0 / (1.0 + std::exp(-20.0 * (level - threshold)))));
+                        word_answer(fmt::format("P{:02}", observer), level, object,
+                                    random.uniform() < 1.0 / (1.0 + std::exp(-20.0 * (level - threshold)))));
                 }
     }
     return answers;
@@ -224,7 +225,7 @@ const AnswerDifferenceRow& difference_row(const std::vector<AnswerDifferenceRow>
 
 TEST_CASE("a threshold that differs between levels of another factor is found, a less b, and none else",
           "[unit]") {
-    const std::vector<StudyAnswer> answers = words(8, 0.1, 3);
+    const std::vector<StudyAnswer> answers = word_answers(8, 0.1, 3);
     const AnswersBy by = answers_by(answers);
     const std::vector<AnswerDifferenceRow> rows = answer_differences(by, quick_options());
     const AnswerDifferenceRow& threshold = difference_row(rows, "threshold of gloss");
@@ -257,13 +258,13 @@ TEST_CASE("a threshold that differs between levels of another factor is found, a
     }
     CHECK(levels == std::vector<std::string>{"", "bust", "cow"});
     // Without a difference there is none to be found.
-    const std::vector<StudyAnswer> alike = words(8, 0.0, 4);
+    const std::vector<StudyAnswer> alike = word_answers(8, 0.0, 4);
     const auto none = answer_differences(answers_by(alike), quick_options());
     CHECK(difference_row(none, "threshold of gloss").p.value() > 0.05);
 }
 
 TEST_CASE("columns that part answers alike are compared once, numbers before words", "[unit]") {
-    std::vector<StudyAnswer> answers = words(1, 0.0, 5);
+    std::vector<StudyAnswer> answers = word_answers(1, 0.0, 5);
     for (StudyAnswer& one : answers)
         one.levels.emplace_back("animal", one.level("object") == "cow" ? "yes" : "no");
     AnswerList list;
