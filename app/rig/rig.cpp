@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "app/cli/own_folders.h"
 #include "app/cli/this_program.h"
 #include "app/rig/response_devices.h"
 #include "app/rig/tracker_devices.h"
@@ -133,7 +134,8 @@ void Rig::open(SimulatedFaults faults, SessionTime start) {
                                      .observer = *observer_,
                                      .seed = request_.seed,
                                      .file_name = request_.observer,
-                                     .faults = std::move(faults.tracker)},
+                                     .faults = std::move(faults.tracker),
+                                     .notes = state_folder()},
                                     request_.virtual_time);
     tracker_ = std::move(made.tracker);
     faulty_tracker_ = made.faulty;
@@ -158,7 +160,8 @@ void Rig::open_further_trackers() {
                                         .clock = clock(),
                                         .observer = *observer_,
                                         .seed = seed,
-                                        .file_name = id},
+                                        .file_name = id,
+                                        .notes = state_folder()},
                                        request_.virtual_time)
                               .tracker;
     }

@@ -77,6 +77,14 @@ void add_show(CLI::App& app, ChosenCommand& chosen) {
     add_json_flag(command, options.json);
 }
 
+void add_fetch(CLI::App& app, ChosenCommand& chosen) {
+    const auto [command, options] = add_command(
+        app, chosen, run_tracker_fetch, "fetch",
+        "Fetches the data files that sessions had to leave on an EyeLink's host into their folders",
+        "overt tracker fetch");
+    add_library_option(command);
+}
+
 } // namespace
 
 void add_tracker_commands(CLI::App& app, ChosenCommand& chosen) {
@@ -88,6 +96,7 @@ void add_tracker_commands(CLI::App& app, ChosenCommand& chosen) {
     add_test(command, chosen);
     add_calibrate(command, chosen);
     add_show(command, chosen);
+    add_fetch(command, chosen);
 }
 
 } // namespace overt

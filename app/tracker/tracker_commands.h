@@ -1,4 +1,4 @@
-/// The commands for eye trackers: tracker list, test, calibrate, show.
+/// The commands for eye trackers: tracker list, test, calibrate, show, fetch.
 #pragma once
 
 #include <cstdint>
@@ -48,5 +48,9 @@ struct TrackerShowOptions {
     bool json = false;
 };
 int run_tracker_show(const TrackerShowOptions& options);
+
+struct TrackerFetchOptions {};
+/// What sessions could not fetch from an EyeLink's host. Gives 1 if a file stays there.
+int run_tracker_fetch(const TrackerFetchOptions& options);
 
 } // namespace overt

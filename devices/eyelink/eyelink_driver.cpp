@@ -154,6 +154,11 @@ TrackerDescription EyelinkDriver::connect(const TrackerWish& wish) {
     configure(wish);
     description_.name = settings_.is_dummy ? "eyelink without a tracker" : "eyelink";
     description_.model += fmt::format(", its file {}{}", file, differences_);
+    if (const std::vector<LeftOnHost> left = left_files(); !left.empty()) {
+        description_.model += fmt::format("; still on its host, and brought by overt tracker fetch:");
+        for (const LeftOnHost& each : left)
+            description_.model += fmt::format(" {}.EDF for {}", each.name, each.folder.string());
+    }
     description_.sample_rate_hz = grant_.rate_hz;
     description_.eye = wish.eye;
     description_.both_eyes = grant_.both_eyes;
@@ -385,6 +390,7 @@ template <> TrackerDevice tracker_device_of<kind_called<TrackerKind>("eyelink")>
                 settings.address = parts.protocol.tracker.address;
             settings.calibration_points = parts.protocol.calibration.points;
             settings.target_deg = parts.protocol.calibration.target_deg;
+            settings.notes = parts.notes;
             return std::make_unique<EyelinkDriver>(settings, parts.clock);
         },
         .can_do =

@@ -8,6 +8,7 @@
 #include "devices/eyelink/eyelink_items.h"
 #include "devices/eyelink/eyelink_library.h"
 #include "devices/eyelink/eyelink_words.h"
+#include "devices/eyelink/left_on_host.h"
 #include "devices/tracker/tracker_driver.h"
 #include "experiment/ports/clock.h"
 
@@ -53,7 +54,14 @@ class EyelinkDriver final : public TrackerDriver {
     std::vector<std::string> finish(const std::string& folder,
                                     const EyeTracker::FileProgress& progress) override;
 
+    /// Connects, and fetches what earlier sessions left on this host into the folders where it belongs. Gives
+    /// a sentence for each file, as finish() does. Throws DeviceError if the host cannot be reached,
+    /// RecordError if the note of them cannot be read or written.
+    std::vector<std::string> fetch_left_files(const EyeTracker::FileProgress& progress);
+
   private:
+    /// Of earlier sessions, on this host.
+    std::vector<LeftOnHost> left_files() const;
     void open_connection();
     void configure(const TrackerWish& wish);
     /// Notes what the host has otherwise than it was told.
@@ -62,8 +70,11 @@ class EyelinkDriver final : public TrackerDriver {
     std::string sentence_of_calibration() const;
     bool is_recording_as_agreed(std::string& problem);
     std::optional<ClockPair> exchange_times() const noexcept;
-    void fetch(const std::string& name, const std::string& folder, const EyeTracker::FileProgress& progress,
-               std::vector<std::string>& said);
+    /// Whether it has come; if not, it is noted that it stays on the host.
+    bool fetch(const std::string& name, const std::filesystem::path& folder,
+               const EyeTracker::FileProgress& progress, std::vector<std::string>& said);
+    void note_left(const std::string& name, const std::filesystem::path& folder,
+                   std::vector<std::string>& said) noexcept;
     void close() noexcept;
 
     EyelinkSettings settings_;

@@ -33,7 +33,43 @@ extern "C" void overt_el_progress(unsigned size, unsigned received) {
 
 } // namespace
 
-void EyelinkDriver::fetch(const std::string& name, const std::string& folder,
+void EyelinkDriver::note_left(const std::string& name, const std::filesystem::path& folder,
+                              std::vector<std::string>& said) noexcept {
+    if (settings_.notes.empty())
+        return;
+    try {
+        note_left_on_host(settings_.notes, {name, settings_.address, std::filesystem::absolute(folder)});
+        said.emplace_back("It is offered again: overt tracker fetch brings it once the host can be reached.");
+    } catch (const std::exception& error) {
+        said.emplace_back(error.what());
+    }
+}
+
+std::vector<LeftOnHost> EyelinkDriver::left_files() const {
+    std::vector<LeftOnHost> left;
+    if (!settings_.notes.empty() && !settings_.is_dummy)
+        left = read_left_on_host(settings_.notes);
+    std::erase_if(left, [this](const LeftOnHost& each) { return each.host != settings_.address; });
+    return left;
+}
+
+std::vector<std::string> EyelinkDriver::fetch_left_files(const EyeTracker::FileProgress& progress) {
+    std::vector<std::string> said;
+    const std::vector<LeftOnHost> left = left_files();
+    if (left.empty())
+        return said;
+    close();
+    open_connection();
+    library_->set_offline_mode();
+    clock_->wait_until(clock_->now() + 500ms);
+    for (const LeftOnHost& each : left)
+        if (fetch(each.name, each.folder, progress, said))
+            forget_left_on_host(settings_.notes, each);
+    close();
+    return said;
+}
+
+bool EyelinkDriver::fetch(const std::string& name, const std::filesystem::path& folder,
                           const EyeTracker::FileProgress& progress, std::vector<std::string>& said) {
     std::string from = name + ".EDF";
     const std::filesystem::path file = free_place(folder, name),
@@ -56,13 +92,16 @@ void EyelinkDriver::fetch(const std::string& name, const std::string& folder,
         if (none)
             problem = none.message();
     }
-    if (problem)
+    if (problem) {
         said.push_back(
             fmt::format("The EyeLink's file {} could not be fetched: {}. It is on the host, where it can be "
                         "copied from; what arrived is in {}.",
                         from, *problem, to));
-    else
-        said.push_back(fmt::format("The EyeLink's file {}, {} bytes", file.string(), size));
+        note_left(name, folder, said);
+        return false;
+    }
+    said.push_back(fmt::format("The EyeLink's file {}, {} bytes", file.string(), size));
+    return true;
 }
 
 std::vector<std::string> EyelinkDriver::finish(const std::string& folder,
@@ -83,11 +122,16 @@ std::vector<std::string> EyelinkDriver::finish(const std::string& folder,
         if (is_file_open_)
             library_->close_data_file();
         is_file_open_ = false;
-        for (const std::string& name : files_)
+        while (!files_.empty()) {
+            const std::string name = files_.front();
             fetch(name, folder, progress, said);
+            files_.erase(files_.begin());
+        }
     } catch (const std::exception& error) {
         said.push_back(fmt::format("The EyeLink's recording stays on its host, as {}.EDF: {}",
                                    fmt::join(files_, ".EDF, "), error.what()));
+        for (const std::string& name : files_)
+            note_left(name, folder, said);
     }
     close();
     files_.clear();

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -22,6 +23,8 @@ struct EyelinkSettings {
     int calibration_points = 9;        ///< 3, 5, 9 or 13
     double target_deg = 0.6;           ///< diameter of the targets
     SessionDuration drift_patience = std::chrono::seconds(30); ///< for one check
+    /// Where it is noted which files stay on the host, see left_on_host.h; empty: nowhere.
+    std::filesystem::path notes = {};
 };
 
 /// A rate that the tracker offers as it is mounted now.

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -26,6 +27,7 @@ struct TrackerParts {
     std::uint64_t seed = 0;            ///< of everything simulated, and of the order of targets
     std::string file_name = "overt";   ///< see TrackerWish
     TrackerFaults faults = {};         ///< of a tracker that is no hardware
+    std::filesystem::path notes = {};  ///< where a driver notes what outlives the session; empty: nowhere
 };
 
 /// What makes it throws DeviceError if the tracker is not there, InputError for settings that it cannot have.

@@ -383,6 +383,45 @@ TEST_CASE("an EyeLink's file that does not arrive whole stays on the host, and i
     }
 }
 
+TEST_CASE("an EyeLink's file that stayed on its host is offered at the next start, and can be fetched",
+          "[unit]") {
+    DriverBench bench;
+    const TemporaryFolder folder, notes;
+    bench.settings.notes = notes.path();
+    std::string name;
+    {
+        EyelinkDriver driver(bench.settings, bench.clock);
+        driver.connect(bench.wish);
+        name = *opened_files(bench.library).begin();
+        bench.library.set("transfer", -110);
+        const auto said = driver.finish(folder.path().string(), {});
+        REQUIRE(said.size() == 2);
+        CHECK_THAT(said[1], Catch::Contains("overt tracker fetch"));
+    }
+    const LeftOnHost left{name, bench.settings.address, folder.path()};
+    CHECK(read_left_on_host(notes.path()) == std::vector<LeftOnHost>{left});
+    {
+        EyelinkDriver next(bench.settings, bench.clock);
+        CHECK_THAT(next.connect(bench.wish).model,
+                   Catch::Contains("still on its host") &&
+                       Catch::Contains(name + ".EDF for " + folder.path().string()));
+        bench.settings.address = "100.1.1.7"; // another tracker's host knows nothing of it
+        CHECK_THAT(EyelinkDriver(bench.settings, bench.clock).connect(bench.wish).model,
+                   !Catch::Contains("still on its host"));
+        bench.settings.address = left.host;
+    }
+    EyelinkDriver fetching(bench.settings, bench.clock);
+    CHECK(fetching.fetch_left_files({}).size() == 2); // it fails again, and stays noted
+    CHECK(read_left_on_host(notes.path()).size() == 1);
+    bench.library.set("transfer", 100'000);
+    const auto said = fetching.fetch_left_files({});
+    REQUIRE(said.size() == 1);
+    CHECK_THAT(said[0], Catch::Contains(name + ".edf, 100000 bytes"));
+    CHECK(read_whole_file(folder.path() / (name + ".edf")).size() == 100'000);
+    CHECK(read_left_on_host(notes.path()).empty());
+    CHECK(fetching.fetch_left_files({}).empty());
+}
+
 TEST_CASE("an EyeLink without a tracker records nothing and waits for nothing", "[unit]") {
     DriverBench bench;
     bench.settings.is_dummy = true;
