@@ -312,14 +312,14 @@ TEST_CASE("shards share out all units once, and evenly by cost", "[unit]") {
         for (int number = 1; number <= count; ++number) {
             double load = 0.0;
             for (const BakeUnit& unit : dealt_to({number, count}, units)) {
-                ++seen[{unit.stimulus.object, unit.stimulus.material, unit.pose.object.value}];
+                ++seen[{unit.stimulus.object, unit.stimulus.material, unit.pose.object.angle.value}];
                 load += unit.cost;
             }
             CHECK(load <= all / count + dearest);
         }
         std::map<std::tuple<int, int, double>, int> wanted;
         for (const BakeUnit& unit : units)
-            ++wanted[{unit.stimulus.object, unit.stimulus.material, unit.pose.object.value}];
+            ++wanted[{unit.stimulus.object, unit.stimulus.material, unit.pose.object.angle.value}];
         CHECK(seen == wanted);
     }
 }
