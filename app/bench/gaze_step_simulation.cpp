@@ -34,11 +34,18 @@ struct PlantedClock {
     }
 };
 
-/// Places of the screen that are on the area in a pose, and that are not.
+/// Places of the screen that are on the area in a pose, and that are not: of the slot, and of others.
 class Places {
   public:
-    Places(const AreaView& area, const ScreenGeometry& screen, int poses) {
+    Places(const AreaView& area, const ScreenGeometry& screen, int poses,
+           std::span<const ScreenGeometry> other_slots) {
         constexpr int columns = 48;
+        std::vector<ScreenPoint> elsewhere;
+        for (const ScreenGeometry& other : other_slots)
+            for (int i = 0; i < columns * columns; i += 2)
+                elsewhere.push_back(
+                    other.screen_from_image({(i % columns + 0.5) * other.image_px.x / columns,
+                                             (i / columns + 0.5) * other.image_px.y / columns}));
         by_pose_.resize(static_cast<std::size_t>(poses));
         for (int pose = 0; pose < poses; ++pose)
             for (int i = 0; i < columns * columns; ++i) {
@@ -50,6 +57,8 @@ class Places {
         for (const auto& both : by_pose_)
             if (both[0].empty() || both[1].empty())
                 throw InputError("the area is nowhere, or everywhere, in a pose of the object");
+        for (auto& both : by_pose_)
+            both[0].insert(both[0].end(), elsewhere.begin(), elsewhere.end());
     }
     const std::vector<ScreenPoint>& of(PoseIndex pose, bool on_area) const {
         return by_pose_[static_cast<std::size_t>(pose.value)][on_area ? 1 : 0];
@@ -71,6 +80,23 @@ std::vector<FlipRecord> planted_flips(const PageCycle& plan, double refresh_hz, 
         flip.report.refresh = {refresh};
         flip.report.vertical_blank = SessionTime(from_seconds(5.0 + refresh / refresh_hz));
         flips.push_back(flip);
+    }
+    return flips;
+}
+
+/// What a further slot shows with the same flips.
+SlotFlip slot_flip_of(const FlipRecord& flip, const PageCycle& plan, int place) {
+    const PageCycleEntry& entry = plan.entry_at(flip.refresh_in_trial);
+    return {flip.trial, flip.refresh_in_trial, place, entry.frame, entry.frame, entry.pose};
+}
+
+/// The flips as the ledger of one slot has them.
+std::vector<FlipRecord> flips_of_slot(std::vector<FlipRecord> flips, const PageCycle& plan, int place) {
+    for (FlipRecord& flip : flips) {
+        const SlotFlip own = slot_flip_of(flip, plan, place);
+        flip.planned = own.planned;
+        flip.shown = own.shown;
+        flip.pose = own.pose;
     }
     return flips;
 }
@@ -132,17 +158,31 @@ PlantedPath planted_path(const FlipHistory& history, const PlantedClock& clock, 
 } // namespace
 
 GazeStepTrials simulate_gaze_steps(const Protocol& protocol, std::span<const Object> objects,
-                                   const std::string& area, int trials, std::uint64_t seed) {
+                                   const std::string& area, int trials, std::uint64_t seed,
+                                   const GazeStepScene& scene) {
+    OVERT_EXPECTS(scene.awaited < scene.shown.size());
     const double refresh_hz = protocol.display.refresh_hz;
     const PoseTable poses = poses_of(protocol);
-    const PageCycle plan =
-        cut_to(page_cycles(protocol).front(), static_cast<int>(std::lround(3.0 * refresh_hz)), std::nullopt);
+    const std::vector<PageCycle> cycles = page_cycles(protocol);
+    std::vector<PageCycle> plans;
+    std::vector<ScreenGeometry> other_slots;
+    for (std::size_t i = 0; i < scene.shown.size(); ++i) {
+        const PlacedStimulus& shown = scene.shown[i];
+        plans.push_back(cut_to(cycles[static_cast<std::size_t>(shown.stimulus.motion)],
+                               static_cast<int>(std::lround(3.0 * refresh_hz)), std::nullopt));
+        if (i != scene.awaited)
+            other_slots.push_back(
+                slot_geometry(protocol, protocol.slots[static_cast<std::size_t>(shown.slot)]));
+    }
+    const auto awaited = static_cast<int>(scene.awaited);
+    const PlacedStimulus& looked_at = scene.shown[scene.awaited];
     SeenAreas seen(protocol, objects, poses);
-    const std::shared_ptr<const AreaView> view = seen.area_of({}, area);
+    const std::shared_ptr<const AreaView> view = seen.area_of(looked_at, area);
     if (!view)
         throw InputError("the object has no area " + area);
-    const ScreenGeometry screen = screen_geometry_of(protocol);
-    const Places places(*view, screen, static_cast<int>(poses.angles.size()));
+    const ScreenGeometry screen =
+        slot_geometry(protocol, protocol.slots[static_cast<std::size_t>(looked_at.slot)]);
+    const Places places(*view, screen, static_cast<int>(poses.angles.size()), other_slots);
     const ScanOut scan_out{from_seconds(1e-3 * protocol.display.latency_ms), refresh_hz,
                            static_cast<double>(screen.screen_px.y)};
     GazeWait wait;
@@ -150,13 +190,21 @@ GazeStepTrials simulate_gaze_steps(const Protocol& protocol, std::span<const Obj
     wait.for_s = piece_s;
     wait.blink_s = blink_s;
 
+    std::vector<SlotFlip> further;
+    const auto further_of = [&](const FlipRecord& flip) -> std::span<const SlotFlip> {
+        further.clear();
+        for (std::size_t i = 1; i < plans.size(); ++i)
+            further.push_back(slot_flip_of(flip, plans[i], static_cast<int>(i)));
+        return further;
+    };
     GazeStepTrials result;
     GazeWatch watch(screen, protocol.display);
     std::chrono::steady_clock::duration looking{};
     for (int trial = 0; trial < trials; ++trial) {
         RandomStream random(seed, "planted gaze step", static_cast<std::uint64_t>(trial));
-        const std::vector<FlipRecord> flips = planted_flips(plan, refresh_hz, random);
-        const FlipHistory history(flips, scan_out, plan);
+        const std::vector<FlipRecord> flips = planted_flips(plans.front(), refresh_hz, random);
+        const PageCycle& plan = plans[scene.awaited];
+        const FlipHistory history(flips_of_slot(flips, plan, awaited), scan_out, plan);
         const PlantedClock clock{static_cast<std::int64_t>(random.below(1'000'000'000)),
                                  1.0 + 1e-6 * random.uniform(-50.0, 50.0)};
         std::vector<ClockPair> readings;
@@ -171,7 +219,7 @@ GazeStepTrials simulate_gaze_steps(const Protocol& protocol, std::span<const Obj
                                               places, trial % 2 == 1, random);
         const SessionDuration late = from_seconds(random.uniform(0.001, 0.006));
         // As TrialRun::present: what has come is looked at before each flip.
-        watch.begin(wait, {{}, {{0, view}}}, 0, SessionTime(), readings,
+        watch.begin(wait, {{}, {{awaited, view}}}, 0, SessionTime(), readings,
                     {"planted", sample_rate_hz, Eye::right});
         std::size_t next = 0, ended = flips.size();
         for (std::size_t flip = 0; flip < flips.size() && ended == flips.size(); ++flip) {
@@ -186,7 +234,7 @@ GazeStepTrials simulate_gaze_steps(const Protocol& protocol, std::span<const Obj
             if (watch.has_come())
                 ended = flip;
             else
-                watch.flipped(flips[flip], {});
+                watch.flipped(flips[flip], further_of(flips[flip]));
         }
         ++result.trials;
         const bool is_exact =

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "experiment/protocol/protocol.h"
 #include "experiment/stimulus/object.h"
@@ -21,12 +22,20 @@ struct GazeStepTrials {
     double look_us = 0.0;      ///< mean time for a sample, the ray included
 };
 
+/// What each trial shows, at least one, and in whose slot gaze is waited for; the first leads.
+struct GazeStepScene {
+    std::vector<PlacedStimulus> shown = std::vector<PlacedStimulus>(1);
+    std::size_t awaited = 0; ///< index into `shown`
+};
+
 /// Each trial: 2000 Hz gaze on the area of a name while the object turns, with refreshes that go by, a clock
 /// of the tracker's own that runs apart, samples that come some milliseconds late, short visits to the area
 /// that are no piece, a single sample outside before the last, and a blink within it in every second trial.
-/// The area is looked for in the frame that was lit on the gaze's row. The first object must have the area.
-/// Deterministic but for `look_us`.
+/// The area is looked for in the frame of the awaited slot that was lit on the gaze's row; gaze that is not
+/// on it is beside it, or in another slot, on its stimulus's area of that name or not. The object in the
+/// awaited slot must have the area. Deterministic but for `look_us`. Throws InputError.
 GazeStepTrials simulate_gaze_steps(const Protocol& protocol, std::span<const Object> objects,
-                                   const std::string& area, int trials, std::uint64_t seed);
+                                   const std::string& area, int trials, std::uint64_t seed,
+                                   const GazeStepScene& scene = {});
 
 } // namespace overt
