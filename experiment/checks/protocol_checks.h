@@ -43,6 +43,8 @@ void take_characterisation(ProtocolExamination& examination, bool look_at_files)
 void check_ids(ProtocolExamination& examination);
 void check_objects(ProtocolExamination& examination, std::span<const std::string_view> shipped_sculptures);
 void check_materials(ProtocolExamination& examination);
+/// What stands behind objects.
+void check_backgrounds(ProtocolExamination& examination);
 void check_frames(ProtocolExamination& examination);
 /// What the stimuli of a trial take of the frame store together. Of a protocol that is sound otherwise.
 void check_slot_memory(ProtocolExamination& examination);

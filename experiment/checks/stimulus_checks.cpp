@@ -276,6 +276,23 @@ void check_objects(ProtocolExamination& examination, std::span<const std::string
     }
 }
 
+/// What stands behind an object is one thing.
+void check_backgrounds(ProtocolExamination& examination) {
+    for (std::size_t i = 0; i < examination.protocol.backgrounds.size(); ++i) {
+        std::string_view first;
+        for (const std::string_view key : {"grey", "colour", "picture"}) {
+            const std::string path = entry_path("background", i, key);
+            if (!examination.is_written(path))
+                continue;
+            if (!first.empty())
+                examination.error({path},
+                                  fmt::format("\"{}\" already says what is behind the object", first));
+            else
+                first = key;
+        }
+    }
+}
+
 void check_materials(ProtocolExamination& examination) {
     std::set<std::string_view> keys;
     for (const MaterialKindRow& row : material_kinds)

@@ -309,7 +309,26 @@ void write_out_series(TomlFile& toml, const std::string& file, const FilesOfPatt
     }
 }
 
+namespace {
+
+void add_id(TomlTable& table, Place place, std::string id) {
+    if (!entry_called(table, "id"))
+        table.push_back({"id", place, {place, std::move(id)}});
+}
+
+/// The only task is "task", others have their numbers.
+void name_tasks(TomlFile& toml) {
+    TomlEntry* const root = entry_called(toml.root, "task");
+    auto* const tasks = root ? std::get_if<TomlList>(&root->value.content) : nullptr;
+    for (std::size_t i = 0; tasks && i < tasks->size(); ++i)
+        if (auto* const table = std::get_if<TomlTable>(&(*tasks)[i].content))
+            add_id(*table, (*tasks)[i].place, tasks->size() == 1 ? "task" : fmt::format("task-{}", i + 1));
+}
+
+} // namespace
+
 void name_entries(TomlFile& toml) {
+    name_tasks(toml);
     for (const StimulusList& list : stimulus_lists) {
         const Section& section = protocol_keys().section(list.name);
         for (TomlEntry& root : toml.root) {
@@ -319,8 +338,8 @@ void name_entries(TomlFile& toml) {
                 continue;
             for (TomlValue& entry : *entries) {
                 auto* const table = std::get_if<TomlTable>(&entry.content);
-                if (table && !entry_called(*table, "id"))
-                    table->push_back({"id", entry.place, {entry.place, name_of_entry(*table, list)}});
+                if (table)
+                    add_id(*table, entry.place, name_of_entry(*table, list));
             }
         }
     }

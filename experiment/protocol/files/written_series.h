@@ -33,7 +33,8 @@ void write_out_series(TomlFile& toml, const std::string& file, const FilesOfPatt
 
 /// Gives entries of these lists that have no id the one that they are called by: the value of the first of
 /// StimulusList::named_by that they have, else the list's name. The only entry of a list that is never empty
-/// stays without. To be called once series are written out.
+/// stays without. Tasks are "task", or with several "task-1", "task-2", …. To be called once series are
+/// written out.
 void name_entries(TomlFile& toml);
 
 } // namespace overt

@@ -80,7 +80,8 @@ std::vector<Key> schedule() {
 std::vector<Key> task() {
     using T = Task;
     return {
-        {"id", &T::id, identifier().required(), "Short name, used in file names and tables."},
+        {"id", &T::id, identifier().left_out("`task`; of several tasks `task-1`, `task-2`, …"),
+         "Short name, used in file names and tables."},
         {"question", &T::question, required(), "What the observer reads before the animation."},
         {"stimuli", &T::stimuli,
          "Asked for every object in every material, or once per object with the material changing from "

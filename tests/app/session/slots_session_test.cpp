@@ -13,18 +13,20 @@ using namespace overt::test;
 
 namespace {
 
-std::string four_on_a_circle() {
+/// A large one, and three smaller ones on a circle about it.
+std::string four_of_two_sizes() {
     std::string text = with(small_protocol, "duration_s = 1", "duration_s = 8");
     for (const char* const task : {"id = \"face\"", "id = \"clothes\"", "id = \"free\""})
-        text = with(text, task, std::string(task) + "\nslots = \"ring\"");
-    return text + "\n[[slot]]\nid = \"ring\"\ncircle = 4\nradius_deg = 2.9\nsize_deg = 2.5\n";
+        text = with(text, task, std::string(task) + "\nslots = [\"middle\", \"ring\"]");
+    return text + "\n[[slot]]\nid = \"middle\"\nsize_deg = 3\n"
+                  "[[slot]]\nid = \"ring\"\ncircle = 3\nradius_deg = 3.2\nsize_deg = 2.2\n";
 }
 
 } // namespace
 
-TEST_CASE("four stimuli on a circle are shown, recorded, resumed, replayed, exported and analysed",
+TEST_CASE("four stimuli of two sizes are shown, recorded, resumed, replayed, exported and analysed",
           "[session]") {
-    const SmallExperiment experiment(four_on_a_circle());
+    const SmallExperiment experiment(four_of_two_sizes());
     const ProgramRun check = experiment.overt({"check", experiment.protocol().string()});
     CAPTURE(check.out, check.err);
     REQUIRE(check.exit_code == 0);
@@ -41,7 +43,9 @@ TEST_CASE("four stimuli on a circle are shown, recorded, resumed, replayed, expo
     const SessionRecord record(session);
     CHECK(record.is_complete());
     REQUIRE(record.header().slots.size() == 4);
-    CHECK(record.header().slots[1].id == "ring-2");
+    CHECK(record.header().slots[1].id == "ring-1");
+    CHECK(record.header().slots[0].size_px.x > record.header().slots[1].size_px.x);
+    CHECK(record.header().objects[0].cameras.size() == 2);
     const std::vector<TrialRecord> presentations = record.presentations();
     REQUIRE(presentations.size() == 4 * record.trials().size());
     for (const TrialRecord& seen : presentations) {
@@ -68,6 +72,21 @@ TEST_CASE("four stimuli on a circle are shown, recorded, resumed, replayed, expo
     CHECK(on_surface.size() == 4);
     for (const auto& [slot, count] : on_surface)
         CHECK(count > 100);
+
+    // Each slot is an interest area for as long as it was lit.
+    const std::filesystem::path asc = experiment.folder().path() / "asc";
+    REQUIRE(
+        experiment.overt({"export", session, "--format", "asc", "--out", asc.string()}).exit_code == 0);
+    std::string messages;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(asc))
+        if (entry.path().extension() == ".asc")
+            messages += text_of(entry.path());
+    std::size_t areas = 0;
+    for (std::size_t place = messages.find("!V IAREA 0 -8000 RECTANGLE"); place != std::string::npos;
+         place = messages.find("!V IAREA 0 -8000 RECTANGLE", place + 1))
+        ++areas;
+    CHECK(areas == 4 * small_trials);
+    CHECK(messages.find("!V IAREA RECTANGLE") == std::string::npos);
 
     const std::filesystem::path study = experiment.folder().path() / "study";
     const ProgramRun analysis =

@@ -19,7 +19,7 @@ std::string side_by_side() {
         text = with(text, task, std::string(task) + "\nslots = [\"left\", \"right\"]");
     text = with(text, "rate_hz = 1000", "rate_hz = 2000");
     return text + "\n[[slot]]\nid = \"left\"\nright_deg = -7\nsize_deg = 6.4\n"
-                  "[[slot]]\nid = \"right\"\nright_deg = 7\nup_deg = 0.5\nsize_deg = 6.4\n";
+                  "[[slot]]\nid = \"right\"\nright_deg = 7\nup_deg = 0.5\nsize_deg = 4.6\n";
 }
 
 /// Two intervals at one place, the second with another object beside it; and the first again at the end.
@@ -37,7 +37,7 @@ std::string in_intervals() {
     text = with(text, "rate_hz = 1000", "rate_hz = 2000");
     return text + "\n[[slot]]\nid = \"first\"\nright_deg = 5\nsize_deg = 6.4\n"
                   "[[slot]]\nid = \"second\"\nright_deg = 5\nsize_deg = 6.4\n"
-                  "[[slot]]\nid = \"left\"\nright_deg = -5\nsize_deg = 6.4\n";
+                  "[[slot]]\nid = \"left\"\nright_deg = -5\nsize_deg = 5.2\n";
 }
 
 } // namespace
@@ -68,6 +68,8 @@ TEST_CASE("of objects shown one after the other at one place each sample is on t
         const TrialRecord second = trial.seen_in(1);
         CHECK(second.outcome.presentation_onset == *steps[3].begin);
         CHECK(second.outcome.presentation_end == *steps[3].end);
+        CHECK(second.outcome.shown_refreshes == 180);
+        CHECK(trial.seen_in(0).outcome.shown_refreshes == 144 + 60);
         CHECK(trial.seen_in(0).lit_spans().size() == 2);
         int lit[3] = {}, last_refresh = -1;
         for (int place = 0; place < 3; ++place) {

@@ -1,8 +1,10 @@
+#include <algorithm>
 #include <cmath>
 
 #include <catch2/catch.hpp>
 
 #include "experiment/design/schedule.h"
+#include "experiment/protocol/all_stimuli.h"
 #include "tests/experiment/protocol/protocol_fixtures.h"
 
 using namespace overt;
@@ -130,9 +132,6 @@ TEST_CASE("slots that overlap, leave the screen or are unknown are errors at the
     const Lines beyond = slot_lines("\"far\"", slot_of("far", "right_deg = 9\nsize_deg = 8"));
     REQUIRE(beyond.size() == 1);
     CHECK(beyond[0].starts_with("15:13: slot \"far\" takes columns "));
-    const Lines sizes = slot_lines("\"left\"", left + slot_of("small", "right_deg = 5\nsize_deg = 4"));
-    REQUIRE(sizes.size() == 1);
-    CHECK(sizes[0].starts_with("20:12: slot \"small\" is "));
     // One finding for all the places of a circle.
     CHECK(slot_lines("\"ring\"", slot_of("ring", "circle = 8\nradius_deg = 9\nsize_deg = 8")).size() == 1);
     // Neighbours of a circle meet.
@@ -158,4 +157,37 @@ TEST_CASE("what an entry of slots lacks, or says twice, is an error at its place
           Lines{"16:8: a grid is two whole numbers: its columns and its rows"});
     CHECK(lines("circle = 3\nradius_deg = 3\ngrid = [2, 1]\ndistance_deg = 3") ==
           Lines{"18:8: the places are on a circle already"});
+}
+
+TEST_CASE("slots of one size share their pictures, and each further size has views of its own", "[unit]") {
+    const std::string slots = slot_of("sample", "up_deg = 3\nsize_deg = 5") +
+                              slot_of("left", "right_deg = -5\nup_deg = -3\nsize_deg = 4") +
+                              slot_of("right", "right_deg = 5\nup_deg = -3\nsize_deg = 4");
+    const std::string named = "slots = [\"sample\", \"left\", \"right\"]\n";
+    const ReadText read(minimal_protocol, named + slots);
+    CHECK(read.lines() == Lines{});
+    REQUIRE(read.protocol);
+    const Protocol& protocol = *read.protocol;
+    const Stimulus stimulus;
+    CHECK(protocol.in_slot({stimulus, 0}) == stimulus);
+    const Stimulus small = protocol.in_slot({stimulus, 1});
+    CHECK(small.view == 1);
+    CHECK(protocol.in_slot({stimulus, 2}) == small);
+    CHECK(protocol.views_at_all_sizes() == 2);
+    for (int slot = 0; slot < 3; ++slot) {
+        const ViewSettings& view = protocol.view_of(protocol.in_slot({stimulus, slot}));
+        const ScreenGeometry at = slot_geometry(protocol, protocol.slots[static_cast<std::size_t>(slot)]);
+        CHECK(glm::ivec2(view.width_px, view.height_px) == at.image_px);
+    }
+    CHECK(stimuli_in_slots(protocol).size() == 2 * all_stimuli(protocol).size());
+    CHECK(all_viewed_objects(protocol).size() == 2 * protocol.objects.size());
+    CHECK(stimulus_name(protocol, stimulus) + "/left" == stimulus_name(protocol, small));
+    // What another program drew has one size.
+    const Lines frames = slot_lines("[\"sample\", \"left\", \"right\"]",
+                                    slots + "[[frames]]\nobject = \"muse\"\nmaterial = \"gold\"\n"
+                                            "files = \"f_###.png\"\n");
+    REQUIRE(!frames.empty());
+    CHECK(std::ranges::any_of(frames, [](const std::string& line) {
+        return line.find("ready-made frames are of one size") != std::string::npos;
+    }));
 }
