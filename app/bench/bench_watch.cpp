@@ -101,11 +101,15 @@ class RunningSession {
         options.facts.has_tracker = true;
         options.facts.width_px = header.display.screen.screen_px.x;
         options.facts.height_px = header.display.screen.screen_px.y;
-        options.facts.image_width_px = header.display.screen.image_px.x;
-        options.facts.image_height_px = header.display.screen.image_px.y;
+        const ImageBox image = header.display.screen.image_box();
+        options.facts.slots = {
+            {"centre", image.origin_px.x, image.origin_px.y, image.size_px.x, image.size_px.y}};
         options.facts.poses = static_cast<int>(header.poses.angles.size());
         options.facts.clock_zero_s = seconds_of(CLOCK_MONOTONIC) - to_seconds(clock.now() - SessionTime{});
-        options.trials = {{"free", "Look around", header.objects.front().id, "gold", ""}};
+        ViewedStimulus shown;
+        shown.object = header.objects.front().id;
+        shown.material = "gold";
+        options.trials = {{"free", "Look around", {shown}}};
         return options;
     }
     void show(const std::stop_token& stop) {

@@ -7,21 +7,6 @@
 
 namespace overt {
 
-namespace {
-
-/// "left: vase, right: bowl": the entry of each slot's stimulus.
-template <class Entry>
-std::string in_slots(const Protocol& protocol, const Trial& trial, const std::vector<Entry>& entries,
-                     int Stimulus::*index) {
-    std::string text;
-    for (const auto& [stimulus, slot] : trial.all_shown())
-        text += (text.empty() ? "" : ", ") + protocol.slots[static_cast<std::size_t>(slot)].id + ": " +
-                entries[static_cast<std::size_t>(stimulus.*index)].id;
-    return text;
-}
-
-} // namespace
-
 OperatorServer::Options operator_view_of(const SessionHeader& header, const Protocol& protocol,
                                          const std::filesystem::path& folder, bool has_tracker, int completed,
                                          const Clock* steady) {
@@ -34,9 +19,10 @@ OperatorServer::Options operator_view_of(const SessionHeader& header, const Prot
     facts.refresh_hz = protocol.display.refresh_hz;
     facts.width_px = protocol.display.width_px;
     facts.height_px = protocol.display.height_px;
-    const ScreenGeometry geometry = screen_geometry_of(protocol);
-    facts.image_width_px = geometry.image_px.x;
-    facts.image_height_px = geometry.image_px.y;
+    for (const Slot& slot : protocol.slots) {
+        const ImageBox at = slot_geometry(protocol, slot).image_box();
+        facts.slots.push_back({slot.id, at.origin_px.x, at.origin_px.y, at.size_px.x, at.size_px.y});
+    }
     facts.poses = static_cast<int>(header.poses.angles.size());
     facts.has_tracker = has_tracker;
     facts.is_timing_unproven = header.display.is_timing_unproven();
@@ -51,24 +37,20 @@ OperatorServer::Options operator_view_of(const SessionHeader& header, const Prot
     options.completed = completed;
     for (const Trial& trial : header.schedule.trials) {
         const Task& task = protocol.tasks[static_cast<std::size_t>(trial.task)];
-        ViewedTrial viewed{
-            task.id,
-            task.question,
-            protocol.objects[static_cast<std::size_t>(trial.stimulus.object)].id,
-            protocol.materials[static_cast<std::size_t>(trial.stimulus.material)].id,
-            light_file(header, trial.stimulus),
-            trial.stimulus.view,
-            shown_pictures(header.animation_of(trial.stimulus), header.poses.frames_of(trial.stimulus.motion))
-                .of_frame};
-        // Where gaze meets the surface is shown of one object in the place of the image: else only what is
-        // where.
-        if (!protocol.slot_entries.empty()) {
-            viewed.object = in_slots(protocol, trial, protocol.objects, &Stimulus::object);
-            viewed.material = in_slots(protocol, trial, protocol.materials, &Stimulus::material);
-            viewed.light_file.clear();
+        ViewedTrial viewed{task.id, task.question};
+        for (const PlacedStimulus& placed : trial.all_shown()) {
+            const Stimulus stimulus = header.in_slot(placed);
+            ViewedStimulus& shown = viewed.shown.emplace_back();
+            shown.slot = placed.slot;
+            shown.object = protocol.object_of(stimulus).id;
+            shown.material = protocol.material_of(stimulus).id;
+            shown.seen_in = stimulus.view;
+            if (std::string file = light_file(header, stimulus); std::filesystem::exists(folder / file))
+                shown.light_file = std::move(file);
+            viewed.picture_of_frame.push_back(
+                shown_pictures(header.animation_of(stimulus), header.poses.frames_of(stimulus.motion))
+                    .of_frame);
         }
-        if (!std::filesystem::exists(folder / viewed.light_file))
-            viewed.light_file.clear();
         options.trials.push_back(std::move(viewed));
     }
     return options;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <set>
 
 #include <sys/resource.h>
 #include <unistd.h>
@@ -28,7 +29,7 @@ std::uint32_t nearest_corner(const Mesh& mesh, const RayHit& hit) {
 /// What a map is made with; of a large mesh only the coarse surface is kept.
 struct LiveSaliency::Surface {
     explicit Surface(const WatchedObject& object)
-        : sigma(kernel_deg * object.degree_on_surface()), areas(object.mesh().part_names) {
+        : sigma(kernel_deg * object.degree_on_surface()), part_names(object.mesh().part_names) {
         const SurfaceGeometry fine(object.mesh());
         const CoarseSurface coarse(fine, most_nodes);
         mesh = std::make_shared<Mesh>(coarse.mesh());
@@ -39,24 +40,35 @@ struct LiveSaliency::Surface {
             places.push_back(coarse.place_of(v));
         geometry = std::make_unique<SurfaceGeometry>(*mesh);
         smoother = std::make_unique<SurfaceSmoother>(*geometry, sigma);
-        session_s.resize(coarse.vertex_count());
-        trial_s.resize(coarse.vertex_count());
     }
 
-    void add(int in_trial, std::uint32_t vertex, PartIndex part, double seconds) {
-        if (in_trial != trial) {
-            std::ranges::fill(trial_s, 0.0);
-            trial = in_trial;
+    /// Gaze in one slot.
+    struct Sums {
+        std::vector<double> session_s, trial_s; ///< by vertex of `mesh`
+        AreaTally areas;
+        int trial = -1;
+    };
+    Sums& sums_in(const std::string& slot) {
+        const std::vector<double> none(places.size());
+        return sums.try_emplace(slot, Sums{none, none, AreaTally(part_names)}).first->second;
+    }
+
+    void add(const std::string& slot, int in_trial, std::uint32_t vertex, PartIndex part, double seconds) {
+        Sums& in_slot = sums_in(slot);
+        if (in_trial != in_slot.trial) {
+            std::ranges::fill(in_slot.trial_s, 0.0);
+            in_slot.trial = in_trial;
         }
         const std::uint32_t near = vertex_near[vertex];
-        session_s[near] += seconds;
-        trial_s[near] += seconds;
-        areas.add(in_trial, part, seconds);
+        in_slot.session_s[near] += seconds;
+        in_slot.trial_s[near] += seconds;
+        in_slot.areas.add(in_trial, part, seconds);
     }
 
-    SaliencyMap map(Of of, const std::string& object) const {
-        const std::vector<double>& seconds = of == Of::session ? session_s : trial_s;
-        SaliencyMap map{object, mesh, {}, 0.0, areas.shares(of == Of::trial)};
+    SaliencyMap map(Of of, const std::string& object, const std::string& slot) {
+        const Sums& in_slot = sums_in(slot);
+        const std::vector<double>& seconds = of == Of::session ? in_slot.session_s : in_slot.trial_s;
+        SaliencyMap map{object, slot, mesh, {}, 0.0, in_slot.areas.shares(of == Of::trial)};
         std::vector<SurfaceWeight> weights;
         for (std::size_t v = 0; v < seconds.size(); ++v)
             if (seconds[v] > 0.0) {
@@ -80,9 +92,8 @@ struct LiveSaliency::Surface {
     std::vector<SurfacePlace> places;       ///< by vertex of `mesh`
     std::unique_ptr<SurfaceGeometry> geometry;
     std::unique_ptr<SurfaceSmoother> smoother;
-    std::vector<double> session_s, trial_s; ///< by vertex of `mesh`
-    AreaTally areas;
-    int trial = -1;
+    std::vector<std::string> part_names;
+    std::map<std::string, Sums> sums; ///< by slot
 };
 
 LiveSaliency::LiveSaliency() : thread_([this](const std::stop_token& stop) { work(stop); }) {}
@@ -92,20 +103,20 @@ LiveSaliency::~LiveSaliency() {
     wakes_.notify_all();
 }
 
-void LiveSaliency::looked(const std::shared_ptr<const WatchedObject>& object, int trial, const RayHit& hit,
-                          double seconds) {
+void LiveSaliency::looked(const std::shared_ptr<const WatchedObject>& object, const std::string& slot,
+                          int trial, const RayHit& hit, double seconds) {
     {
         const std::lock_guard lock(lock_);
-        looks_.push_back({object, trial, nearest_corner(object->mesh(), hit),
+        looks_.push_back({object, slot, trial, nearest_corner(object->mesh(), hit),
                           object->mesh().triangle_parts[hit.triangle], seconds});
     }
     wakes_.notify_one();
 }
 
-void LiveSaliency::prepare(const std::shared_ptr<const WatchedObject>& object) {
+void LiveSaliency::prepare(const std::shared_ptr<const WatchedObject>& object, const std::string& slot) {
     {
         const std::lock_guard lock(lock_);
-        looks_.push_back({object, -1, 0, 0, 0.0});
+        looks_.push_back({object, slot, -1, 0, 0, 0.0});
     }
     wakes_.notify_one();
 }
@@ -119,9 +130,10 @@ void LiveSaliency::show(Of what) {
     wakes_.notify_one();
 }
 
-std::shared_ptr<const SaliencyMap> LiveSaliency::newest(const std::string& object) const {
+std::shared_ptr<const SaliencyMap> LiveSaliency::newest(const std::string& object,
+                                                        const std::string& slot) const {
     const std::lock_guard lock(lock_);
-    const auto found = newest_.find(object);
+    const auto found = newest_.find({object, slot});
     return found == newest_.end() ? nullptr : found->second;
 }
 
@@ -135,7 +147,7 @@ LiveSaliency::Surface& LiveSaliency::surface_of(const WatchedObject& object) {
 void LiveSaliency::work(const std::stop_token& stop) {
     // A thread's own, on Linux: whatever else the machine does goes first.
     ::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), 10);
-    std::string last;
+    std::pair<std::string, std::string> last; // object and slot
     while (!stop.stop_requested()) {
         std::vector<Look> looks;
         Of of = Of::session;
@@ -146,16 +158,20 @@ void LiveSaliency::work(const std::stop_token& stop) {
             is_other_ = false;
             of = of_;
         }
+        std::set<std::pair<std::string, std::string>> changed{last};
         for (const Look& look : looks) {
             Surface& surface = surface_of(*look.object);
-            last = look.object->id();
+            last = {look.object->id(), look.slot};
+            changed.insert(last);
             if (look.seconds > 0.0)
-                surface.add(look.trial, look.vertex, look.part, look.seconds);
+                surface.add(look.slot, look.trial, look.vertex, look.part, look.seconds);
         }
-        if (!last.empty() && !stop.stop_requested()) {
-            auto map = std::make_shared<const SaliencyMap>(surfaces_.at(last)->map(of, last));
+        for (const auto& [object, slot] : changed) {
+            if (object.empty() || stop.stop_requested())
+                continue;
+            auto map = std::make_shared<const SaliencyMap>(surfaces_.at(object)->map(of, object, slot));
             const std::lock_guard lock(lock_);
-            newest_[last] = std::move(map);
+            newest_[{object, slot}] = std::move(map);
         }
         std::unique_lock lock(lock_);
         wakes_.wait_for(lock, stop, between_maps, [] { return false; });

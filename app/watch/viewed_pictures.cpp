@@ -8,9 +8,10 @@
 
 namespace overt {
 
-const ViewedPicture& ViewedPictures::of(const SessionFacts& facts, const SessionView& view) {
-    if (view.light_file != file_) {
-        file_ = view.light_file;
+const ViewedPicture& ViewedPictures::of(const SessionFacts& facts, const ViewedSlot& slot,
+                                        const ViewedStimulus& shown) {
+    if (shown.light_file != file_) {
+        file_ = shown.light_file;
         light_.reset();
         picture_ = {};
         number_ = -1;
@@ -18,14 +19,14 @@ const ViewedPicture& ViewedPictures::of(const SessionFacts& facts, const Session
         if (!file_.empty()) {
             try {
                 light_ = read_light_pictures(std::filesystem::path(facts.folder) / file_,
-                                             {facts.image_width_px, facts.image_height_px}, view.pictures);
+                                             {slot.width_px, slot.height_px}, shown.pictures);
             } catch (const Error&) {
             }
         }
     }
-    if (!light_ || view.picture < 0 || view.picture >= light_->pictures || view.picture == number_)
+    if (!light_ || shown.picture < 0 || shown.picture >= light_->pictures || shown.picture == number_)
         return picture_;
-    number_ = view.picture;
+    number_ = shown.picture;
     picture_.width = light_->size().x;
     picture_.height = light_->size().y;
     picture_.lightness.resize(light_->squares());

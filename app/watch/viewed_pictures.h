@@ -13,8 +13,9 @@ namespace overt {
 /// Reads the file of a stimulus once, when its first picture is asked for.
 class ViewedPictures {
   public:
-    /// The picture that the view's frame has; without squares where there is none, or none that can be read.
-    const ViewedPicture& of(const SessionFacts& facts, const SessionView& view);
+    /// The picture that the frame of what is shown in a slot has; without squares where there is none, or
+    /// none that can be read.
+    const ViewedPicture& of(const SessionFacts& facts, const ViewedSlot& slot, const ViewedStimulus& shown);
 
   private:
     std::string file_;

@@ -28,7 +28,7 @@ Recorded read_object(const std::filesystem::path& session, const std::string& id
         found->cameras[view].vertical_fov.value <= 0.0)
         throw InputError(fmt::format("{}: has no mesh in {}", id, session.string()));
     MeshCleaningReport unused;
-    return {*found, header.display.screen, header.poses.angles,
+    return {*found, header.screen_of_view(static_cast<int>(view)), header.poses.angles,
             import_mesh(session / found->mesh_file, {}, unused)};
 }
 
@@ -45,9 +45,11 @@ WatchedObject::WatchedObject(const std::filesystem::path& session, const std::st
           return RayCaster(mesh_);
       }()) {}
 
-std::optional<RayHit> WatchedObject::met_at(ScreenPoint place, int pose) const {
-    const glm::dvec2 point = screen_.image_from_screen(place);
-    if (pose < 0 || static_cast<std::size_t>(pose) >= angles_.size() || !screen_.is_inside_image(point))
+std::optional<RayHit> WatchedObject::met_at(ScreenPoint place, int pose, glm::ivec2 image_origin_px) const {
+    ScreenGeometry screen = screen_;
+    screen.image_origin_px = image_origin_px;
+    const glm::dvec2 point = screen.image_from_screen(place);
+    if (pose < 0 || static_cast<std::size_t>(pose) >= angles_.size() || !screen.is_inside_image(point))
         return std::nullopt;
     return rays_.first_hit(
         to_object(scene_.view.ray_through(point), scene_.pose_at(angles_[static_cast<std::size_t>(pose)])));

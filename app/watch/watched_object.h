@@ -32,7 +32,11 @@ class WatchedObject {
 
     /// What the line of sight through a place of the screen meets in a pose: the same surface point as the
     /// session's coordinate maps give. Nothing beside the object.
-    std::optional<RayHit> met_at(ScreenPoint place, int pose) const;
+    std::optional<RayHit> met_at(ScreenPoint place, int pose) const {
+        return met_at(place, pose, screen_.image_origin_px);
+    }
+    /// The same in a slot whose image begins there.
+    std::optional<RayHit> met_at(ScreenPoint place, int pose, glm::ivec2 image_origin_px) const;
 
     /// Of the object where it was met.
     const std::string& part_of(const RayHit& hit) const;

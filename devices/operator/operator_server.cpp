@@ -21,6 +21,9 @@ namespace overt {
 
 namespace {
 
+/// With more on its way to a view, gaze is not sent.
+constexpr std::size_t most_waiting_for_gaze = 16384;
+
 using SteadyClock = std::chrono::steady_clock;
 
 constexpr std::size_t most_views = 4;
@@ -102,7 +105,8 @@ void check_socket_place(const std::filesystem::path& socket) { const SocketAddre
 
 OperatorServer::OperatorServer(Options options)
     : options_(std::move(options)), listener_(open_listener(options_.socket)), woken_(open_counter()),
-      news_(options_.ring_capacity), builder_(std::move(options_.trials), options_.completed) {
+      news_(options_.ring_capacity),
+      builder_(std::move(options_.trials), options_.completed, options_.facts.slots) {
     thread_ = std::jthread([this](const std::stop_token& stop) { serve(stop); });
 }
 
@@ -207,7 +211,7 @@ void OperatorServer::take_gaze() {
         std::string line;
         for (View& view : views_) {
             // Gaze that cannot be sent now would be old.
-            if (!view.is_greeted || view.waiting.size() > longest_view_line)
+            if (!view.is_greeted || view.waiting.size() > most_waiting_for_gaze)
                 continue;
             if (line.empty())
                 line = line_of(std::span(points).first(count));

@@ -22,17 +22,30 @@ void WatchedLog::tell(ViewNews news) const noexcept {
     server_.push(news);
 }
 
+void WatchedLog::tell_frame(int trial, int place, AnimationFrameIndex shown, PoseIndex pose,
+                            int refresh) noexcept {
+    const auto index = static_cast<std::size_t>(place);
+    if (index >= told_frames_.size() || shown.value == told_frames_[index])
+        return;
+    told_frames_[index] = shown.value;
+    tell({.kind = ViewNews::Kind::flip,
+          .trial = trial,
+          .shown = place,
+          .pose = shown == no_frame ? -1 : pose.value,
+          .frame = shown.value,
+          .refresh = refresh,
+          .at = last_blank_});
+}
+
 void WatchedLog::flip(const FlipRecord& flip) noexcept {
     record_.flip(flip);
-    if (flip.shown.value == told_frame_)
-        return;
-    told_frame_ = flip.shown.value;
-    tell({.kind = ViewNews::Kind::flip,
-          .trial = flip.trial,
-          .pose = flip.shown == no_frame ? -1 : flip.pose.value,
-          .frame = flip.shown.value,
-          .refresh = flip.refresh_in_trial,
-          .at = flip.report.vertical_blank});
+    last_blank_ = flip.report.vertical_blank;
+    tell_frame(flip.trial, 0, flip.shown, flip.pose, flip.refresh_in_trial);
+}
+
+void WatchedLog::slot_flip(const SlotFlip& flip) noexcept {
+    record_.slot_flip(flip);
+    tell_frame(flip.trial, flip.place, flip.shown, flip.pose, flip.refresh_in_trial);
 }
 
 void WatchedLog::missed(const MissedRefresh& refresh) noexcept {
@@ -78,7 +91,7 @@ void WatchedLog::calibration(const RecordedCalibration& calibration) {
 void WatchedLog::trial_started(const Trial& trial, SessionTime at) {
     record_.trial_started(trial, at);
     samples_in_trial_ = lost_in_trial_ = missed_in_trial_ = 0;
-    told_frame_ = -1;
+    told_frames_.assign(trial.shown_count(), -1);
     tell({.kind = ViewNews::Kind::trial_started, .trial = trial.index, .at = at});
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "devices/operator/operator_panel.h"
 #include "devices/operator/operator_server.h"
@@ -21,7 +22,7 @@ class WatchedLog final : public SessionLog {
         : record_(record), server_(server), panel_(panel), clock_(clock), gaze_(gaze) {}
 
     void flip(const FlipRecord& flip) noexcept override;
-    void slot_flip(const SlotFlip& flip) noexcept override { record_.slot_flip(flip); }
+    void slot_flip(const SlotFlip& flip) noexcept override;
     void steered_flip(const SteeredFlip& flip) noexcept override { record_.steered_flip(flip); }
     void missed(const MissedRefresh& refresh) noexcept override;
     void sample(int trial, const GazeSample& sample) noexcept override;
@@ -50,6 +51,7 @@ class WatchedLog final : public SessionLog {
   private:
     /// With the counts so far.
     void tell(ViewNews news) const noexcept;
+    void tell_frame(int trial, int place, AnimationFrameIndex shown, PoseIndex pose, int refresh) noexcept;
 
     SessionLog& record_;
     OperatorServer& server_;
@@ -59,7 +61,8 @@ class WatchedLog final : public SessionLog {
     std::int64_t missed_ = 0, missed_in_trial_ = 0;
     SampleListener* gaze_;
     std::optional<TrackerTime> told_samples_;
-    int told_frame_ = -1;
+    std::vector<int> told_frames_; ///< by what the trial shows; -1: that nothing is lit
+    SessionTime last_blank_;       ///< of the flip that further slots' flips belong to
     std::optional<SessionTime> told_level_;
 };
 

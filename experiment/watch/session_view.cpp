@@ -13,12 +13,15 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t longest_word = 400;
+/// Of texts that people read, and of ids and files.
+constexpr std::size_t longest_word = 400, longest_name = 60;
+/// So many entries of a list are written.
+constexpr std::size_t most_entries = 64;
 
-std::string bounded(const std::string& text) {
-    if (text.size() <= longest_word)
+std::string bounded(const std::string& text, std::size_t longest = longest_word) {
+    if (text.size() <= longest)
         return text;
-    std::size_t end = longest_word;
+    std::size_t end = longest;
     while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0u) == 0x80u)
         --end;
     return text.substr(0, end) + "…";
@@ -56,6 +59,29 @@ template <class T> void take(const Json& from, const char* name, T& into) {
     }
 }
 
+// The members of a list's entries, once for writing and reading.
+template <class Members, class Slot>
+requires std::is_same_v<std::remove_const_t<Slot>, ViewedSlot>
+void entry_members(Members& members, Slot& slot) {
+    members.name("id", slot.id);
+    members.value("left_px", slot.left_px);
+    members.value("top_px", slot.top_px);
+    members.value("width_px", slot.width_px);
+    members.value("height_px", slot.height_px);
+}
+template <class Members, class Shown>
+requires std::is_same_v<std::remove_const_t<Shown>, ViewedStimulus>
+void entry_members(Members& members, Shown& shown) {
+    members.value("slot", shown.slot);
+    members.name("object", shown.object);
+    members.name("material", shown.material);
+    members.name("light_file", shown.light_file);
+    members.value("seen_in", shown.seen_in);
+    members.value("pictures", shown.pictures);
+    members.value("pose", shown.pose);
+    members.value("picture", shown.picture);
+}
+
 /// Puts the members of a line's object; words are cut to a length.
 struct MemberWriter {
     Json json = Json::object();
@@ -64,6 +90,15 @@ struct MemberWriter {
         json[name] = of ? Json(*of) : Json(nullptr);
     }
     void words(const char* name, const std::string& of) { json[name] = bounded(of); }
+    void name(const char* name, const std::string& of) { json[name] = bounded(of, longest_name); }
+    template <class Entry> void entries(const char* name, const std::vector<Entry>& of) {
+        json[name] = Json::array();
+        for (std::size_t i = 0; i < std::min(of.size(), most_entries); ++i) {
+            MemberWriter entry;
+            entry_members(entry, of[i]);
+            json[name].push_back(std::move(entry.json));
+        }
+    }
     void words(const char* name, const std::vector<std::string>& of) {
         json[name] = Json::array();
         for (const std::string& one : of)
@@ -75,6 +110,17 @@ struct MemberReader {
     const Json& json;
     template <class T> void value(const char* name, T& into) { take(json, name, into); }
     template <class T> void words(const char* name, T& into) { take(json, name, into); }
+    void name(const char* name, std::string& into) { take(json, name, into); }
+    template <class Entry> void entries(const char* name, std::vector<Entry>& into) {
+        const auto found = json.find(name);
+        if (found == json.end() || !found->is_array())
+            return;
+        for (const Json& one : *found)
+            if (one.is_object() && into.size() < most_entries) {
+                MemberReader reader{one};
+                entry_members(reader, into.emplace_back());
+            }
+    }
 };
 
 // The members of each object, once for writing and reading.
@@ -86,8 +132,7 @@ template <class Members, class Facts> void facts_members(Members& members, Facts
     members.value("refresh_hz", facts.refresh_hz);
     members.value("width_px", facts.width_px);
     members.value("height_px", facts.height_px);
-    members.value("image_width_px", facts.image_width_px);
-    members.value("image_height_px", facts.image_height_px);
+    members.entries("slots", facts.slots);
     members.value("poses", facts.poses);
     members.value("has_tracker", facts.has_tracker);
     members.value("is_timing_unproven", facts.is_timing_unproven);
@@ -104,17 +149,11 @@ template <class Members, class View> void view_members(Members& members, View& v
     members.value("trial", view.trial);
     members.words("task", view.task);
     members.words("question", view.question);
-    members.words("object", view.object);
-    members.words("material", view.material);
-    members.value("light_file", view.light_file);
+    members.entries("shown", view.shown);
     members.value("done", view.done);
     members.value("failed", view.failed);
     members.value("first_trial_s", view.first_trial_s);
     members.value("done_before", view.done_before);
-    members.value("pose", view.pose);
-    members.value("seen_in", view.seen_in);
-    members.value("picture", view.picture);
-    members.value("pictures", view.pictures);
     members.value("refresh", view.refresh);
     members.value("missed", view.missed);
     members.value("missed_in_trial", view.missed_in_trial);
@@ -142,21 +181,23 @@ template <class Members, class Event> void event_members(Members& members, Event
     members.words("detail", event.detail);
 }
 
-/// A point is [eye, trial, pose, at_s, sampled_us], and then [x, y] unless the eye was lost.
+/// A point is [eye, trial, shown, pose, at_s, sampled_us], and then [x, y] unless the eye was lost.
 std::vector<ViewedGaze> read_gaze(const Json& points) {
     std::vector<ViewedGaze> gaze;
     for (const Json& point : points) {
         const bool is_point =
-            point.is_array() && (point.size() == 5 || point.size() == 7) && point[0].is_string() &&
+            point.is_array() && (point.size() == 6 || point.size() == 8) && point[0].is_string() &&
             std::all_of(point.begin() + 1, point.end(), [](const Json& part) { return part.is_number(); }) &&
-            point[1].is_number_integer() && point[2].is_number_integer() && point[4].is_number_integer();
+            point[1].is_number_integer() && point[2].is_number_integer() && point[3].is_number_integer() &&
+            point[5].is_number_integer();
         if (!is_point || gaze.size() == longest_gaze)
             continue;
-        ViewedGaze one{point[0] == "right",    {},
-                       point[1].get<int>(),    point[2].get<int>(),
-                       point[3].get<double>(), point[4].get<std::int64_t>()};
-        if (point.size() == 7)
-            one.place = ScreenPoint{point[5].get<double>(), point[6].get<double>()};
+        ViewedGaze one{point[0] == "right",         {},
+                       point[1].get<int>(),         point[2].get<int>(),
+                       point[3].get<int>(),         point[4].get<double>(),
+                       point[5].get<std::int64_t>()};
+        if (point.size() == 8)
+            one.place = ScreenPoint{point[6].get<double>(), point[7].get<double>()};
         gaze.push_back(one);
     }
     return gaze;
@@ -204,8 +245,8 @@ std::string line_of(const ViewedEvent& event) {
 std::string line_of(std::span<const ViewedGaze> gaze) {
     Json points = Json::array();
     for (const ViewedGaze& one : gaze.last(std::min(gaze.size(), longest_gaze))) {
-        Json point =
-            Json::array({one.is_right ? "right" : "left", one.trial, one.pose, one.at_s, one.sampled_us});
+        Json point = Json::array(
+            {one.is_right ? "right" : "left", one.trial, one.shown, one.pose, one.at_s, one.sampled_us});
         if (one.place) {
             point.push_back(one.place->x_px);
             point.push_back(one.place->y_px);
@@ -245,6 +286,23 @@ ViewLine read_view_line(std::string_view line) {
         read.camera = read_camera(*camera);
     }
     return read;
+}
+
+bool SessionView::is_lit() const {
+    return std::ranges::any_of(shown, [](const ViewedStimulus& one) { return one.pose >= 0; });
+}
+
+std::string words_of_shown(const SessionFacts& facts, const SessionView& view) {
+    std::string words;
+    for (const ViewedStimulus& shown : view.shown) {
+        const auto slot = static_cast<std::size_t>(shown.slot);
+        if (!words.empty())
+            words += "; ";
+        if (facts.slots.size() > 1 && slot < facts.slots.size())
+            words += facts.slots[slot].id + ": ";
+        words += shown.object + ", " + shown.material;
+    }
+    return words;
 }
 
 std::optional<double> time_left_s(const SessionFacts& facts, const SessionView& view) {

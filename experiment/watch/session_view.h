@@ -14,20 +14,30 @@
 namespace overt {
 
 /// Of the language. Both sides say theirs first; neither goes on with another.
-inline constexpr int view_version = 2;
-inline constexpr std::size_t longest_view_line = 16384;
+inline constexpr int view_version = 3;
+inline constexpr std::size_t longest_view_line = 131072;
 /// Of a line with a camera's image.
 inline constexpr std::size_t longest_camera_line = 131072;
+
+/// A place on the display at which stimuli are shown.
+struct ViewedSlot {
+    std::string id;
+    int left_px = 0, top_px = 0, width_px = 0, height_px = 0; ///< of its image
+    bool holds(ScreenPoint place) const {
+        return place.x_px >= left_px && place.y_px >= top_px && place.x_px < left_px + width_px &&
+               place.y_px < top_px + height_px;
+    }
+};
 
 /// What does not change while a session runs.
 struct SessionFacts {
     std::string protocol, observer;
-    std::string folder;                          ///< of the session, absolute
-    int trials = 0;                              ///< of the whole session
-    double refresh_hz = 0.0;                     ///< of the display
-    int width_px = 0, height_px = 0;             ///< of the display
-    int image_width_px = 0, image_height_px = 0; ///< of the stimulus, in the middle of the display
-    int poses = 0;                               ///< of a stimulus
+    std::string folder;              ///< of the session, absolute
+    int trials = 0;                  ///< of the whole session
+    double refresh_hz = 0.0;         ///< of the display
+    int width_px = 0, height_px = 0; ///< of the display
+    std::vector<ViewedSlot> slots;   ///< of the session, in its order
+    int poses = 0;                   ///< of a stimulus
     bool has_tracker = false;
     bool is_timing_unproven = false; ///< missed refreshes are counted by times that nothing proves
     double drift_limit_deg = 0.0, mean_limit_deg = 0.0, max_limit_deg = 0.0; ///< of the protocol
@@ -41,7 +51,8 @@ struct ViewedGaze {
     bool is_right = true;
     std::optional<ScreenPoint> place; ///< nothing: the eye was lost
     int trial = -1;                   ///< -1: outside of trials
-    int pose = -1;     ///< lit when the sample came, as far as that was known then; -1: no animation was
+    int shown = -1;    ///< in whose slot it lay, an index into SessionView::shown; -1: in none that was lit
+    int pose = -1;     ///< of that, lit when the sample came, as far as that was known then; -1: none was
     double at_s = 0.0; ///< session time at which it came
     std::int64_t sampled_us = 0; ///< by the tracker's clock
 };
@@ -56,22 +67,28 @@ struct ViewedCamera {
     static constexpr int most_width_px = 192, most_height_px = 144;
 };
 
+/// What the trial under way, or the last, shows in a slot.
+struct ViewedStimulus {
+    int slot = 0; ///< index into SessionFacts::slots
+    std::string object, material;
+    std::string light_file; ///< pictures of it (light_pictures.h), relative to the folder; may be empty
+    int seen_in = 0;        ///< index of the view that it is seen in
+    int pictures = 0;       ///< that `light_file` has
+    int pose = -1;          ///< that is shown; -1: nothing is
+    int picture = -1;       ///< of those in `light_file`; -1: not known
+};
+
 /// Everything that changes. Each line of it is complete, so that one that is left out does no harm.
 struct SessionView {
-    double time_s = 0.0;                          ///< session time of what is newest here
-    std::string phase;                            ///< see name_of(SessionPhase)
-    int trial = -1;                               ///< from 0; -1: none is under way
-    std::string task, question, object, material; ///< of the trial under way, or the last
-    std::string
-        light_file; ///< pictures of its stimulus (light_pictures.h), relative to the folder; may be empty
-    int done = 0;   ///< trials that are completed
-    int failed = 0; ///< attempts that did not count
+    double time_s = 0.0;                 ///< session time of what is newest here
+    std::string phase;                   ///< see name_of(SessionPhase)
+    int trial = -1;                      ///< from 0; -1: none is under way
+    std::string task, question;          ///< of the trial under way, or the last
+    std::vector<ViewedStimulus> shown;   ///< likewise
+    int done = 0;                        ///< trials that are completed
+    int failed = 0;                      ///< attempts that did not count
     std::optional<double> first_trial_s; ///< session time at which the first trial of this sitting began
     int done_before = 0;                 ///< completed when that began
-    int pose = -1;                       ///< that is shown; -1: no animation is
-    int seen_in = 0;                     ///< index of the view that the stimulus is seen in
-    int picture = -1;                    ///< of those in `light_file`; -1: not known
-    int pictures = 0;                    ///< that it has
     int refresh = 0;                     ///< of the presentation under way
     std::int64_t missed = 0, missed_in_trial = 0; ///< refreshes
     std::int64_t samples = 0, lost = 0;           ///< of the session's trials; lost: without gaze
@@ -85,7 +102,13 @@ struct SessionView {
     std::string answer;       ///< the last
     std::int64_t dropped = 0; ///< pieces of news that found no room on their way here
     bool is_over = false;     ///< nothing comes after this
+
+    /// Whether any stimulus is lit.
+    bool is_lit() const;
 };
+
+/// "vase, gold", or of several slots "left: vase, gold; right: bowl, gold".
+std::string words_of_shown(const SessionFacts& facts, const SessionView& view);
 
 /// Something that the record has, or that the session answers to a command.
 struct ViewedEvent {

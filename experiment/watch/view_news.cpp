@@ -22,7 +22,8 @@ template <std::size_t size> void set(std::array<char, size>& into, std::string_v
 void ViewNews::set_word(std::string_view from) noexcept { set(word, from); }
 void ViewNews::set_text(std::string_view from) noexcept { set(text, from); }
 
-ViewBuilder::ViewBuilder(std::vector<ViewedTrial> trials, int completed) : trials_(std::move(trials)) {
+ViewBuilder::ViewBuilder(std::vector<ViewedTrial> trials, int completed, std::vector<ViewedSlot> slots)
+    : trials_(std::move(trials)), slots_(std::move(slots)) {
     view_.phase = name_of(SessionPhase::set_up);
     view_.done = view_.done_before = completed;
 }
@@ -33,7 +34,7 @@ std::optional<ViewedEvent> ViewBuilder::apply(const ViewNews& news) {
     case ViewNews::Kind::phase:
         view_.phase = name_of(news.phase);
         view_.trial = news.trial;
-        lit(news.at, -1);
+        nothing_lit(news.at);
         view_.asks.clear();
         view_.level_rms.reset();
         view_.level_peak.reset();
@@ -48,11 +49,11 @@ std::optional<ViewedEvent> ViewBuilder::apply(const ViewNews& news) {
             const ViewedTrial& trial = trials_[static_cast<std::size_t>(news.trial)];
             view_.task = trial.task;
             view_.question = trial.question;
-            view_.object = trial.object;
-            view_.material = trial.material;
-            view_.light_file = trial.light_file;
-            view_.seen_in = trial.seen_in;
-            view_.pictures = trial.picture_of_frame.empty() ? 0 : 1 + std::ranges::max(trial.picture_of_frame);
+            view_.shown = trial.shown;
+            for (std::size_t i = 0; i < view_.shown.size() && i < trial.picture_of_frame.size(); ++i)
+                if (const std::vector<int>& pictures = trial.picture_of_frame[i]; !pictures.empty())
+                    view_.shown[i].pictures = 1 + std::ranges::max(pictures);
+            lit_.assign(view_.shown.size(), {});
         }
         return std::nullopt;
     case ViewNews::Kind::trial_ended:
@@ -60,11 +61,13 @@ std::optional<ViewedEvent> ViewBuilder::apply(const ViewNews& news) {
         view_.answer = news.text.data();
         if (news.has_value)
             view_.drift_deg = news.value;
-        lit(news.at, -1);
+        nothing_lit(news.at);
         break;
     case ViewNews::Kind::flip:
-        lit(news.at, news.pose);
-        view_.picture = picture_of(news.frame);
+        if (const auto shown = static_cast<std::size_t>(news.shown); shown < view_.shown.size()) {
+            lit(news.at, shown, news.pose);
+            view_.shown[shown].picture = picture_of(shown, news.frame);
+        }
         view_.refresh = news.refresh;
         view_.missed = news.missed;
         view_.missed_in_trial = news.missed_in_trial;
@@ -103,24 +106,48 @@ std::optional<ViewedEvent> ViewBuilder::apply(const ViewNews& news) {
     return std::nullopt;
 }
 
-int ViewBuilder::picture_of(int frame) const {
+int ViewBuilder::picture_of(std::size_t shown, int frame) const {
     if (view_.trial < 0 || static_cast<std::size_t>(view_.trial) >= trials_.size() || frame < 0)
         return -1;
-    const std::vector<int>& pictures = trials_[static_cast<std::size_t>(view_.trial)].picture_of_frame;
-    return static_cast<std::size_t>(frame) < pictures.size() ? pictures[static_cast<std::size_t>(frame)] : -1;
+    const auto& all = trials_[static_cast<std::size_t>(view_.trial)].picture_of_frame;
+    if (shown >= all.size() || static_cast<std::size_t>(frame) >= all[shown].size())
+        return -1;
+    return all[shown][static_cast<std::size_t>(frame)];
 }
 
-void ViewBuilder::lit(SessionTime since, int pose) {
-    view_.pose = pose;
-    std::rotate(lit_.begin(), lit_.end() - 1, lit_.end());
-    lit_.front() = {since, pose};
+void ViewBuilder::lit(SessionTime since, std::size_t shown, int pose) {
+    view_.shown[shown].pose = pose;
+    auto& last = lit_[shown];
+    std::rotate(last.begin(), last.end() - 1, last.end());
+    last.front() = {since, pose};
+}
+
+void ViewBuilder::nothing_lit(SessionTime since) {
+    for (std::size_t shown = 0; shown < view_.shown.size(); ++shown)
+        lit(since, shown, -1);
 }
 
 ViewedGaze ViewBuilder::placed(const GazeNews& gaze) const {
-    const auto then = std::ranges::find_if(lit_, [&](const Lit& one) { return one.since <= gaze.at; });
-    return {gaze.is_right,       gaze.has_place ? std::optional(gaze.place) : std::nullopt,
-            view_.trial,         then == lit_.end() ? -1 : then->pose,
-            to_seconds(gaze.at), gaze.sampled_at.time_since_epoch().count()};
+    ViewedGaze placed{gaze.is_right,
+                      gaze.has_place ? std::optional(gaze.place) : std::nullopt,
+                      view_.trial,
+                      -1,
+                      -1,
+                      to_seconds(gaze.at),
+                      gaze.sampled_at.time_since_epoch().count()};
+    for (std::size_t shown = 0; shown < lit_.size(); ++shown) {
+        const auto then =
+            std::ranges::find_if(lit_[shown], [&](const Lit& one) { return one.since <= gaze.at; });
+        if (then == lit_[shown].end() || then->pose < 0)
+            continue;
+        const auto slot = static_cast<std::size_t>(view_.shown[shown].slot);
+        if (slot < slots_.size() && !(gaze.has_place && slots_[slot].holds(gaze.place)))
+            continue;
+        placed.shown = static_cast<int>(shown);
+        placed.pose = then->pose;
+        break;
+    }
+    return placed;
 }
 
 void ViewBuilder::apply_event(const ViewedEvent& event) {

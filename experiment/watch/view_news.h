@@ -23,7 +23,7 @@ struct ViewNews {
         phase,         ///< `phase`, `trial`
         trial_started, ///< `trial`, its place in the schedule
         trial_ended, ///< `counts`: it is completed; `text`: the answer; `value`: drift in deg, if `has_value`
-        flip,        ///< `pose`, `frame`, `refresh`, missed
+        flip,        ///< `shown`, its `pose` and `frame`, `refresh`, missed
         samples,     ///< counts of samples
         event,       ///< `word`: its kind, `text`: its detail
         validation,  ///< `value` and `other`: mean and largest error in deg
@@ -34,6 +34,7 @@ struct ViewNews {
     SessionPhase phase = SessionPhase::set_up;
     bool counts = false, has_value = false;
     int trial = -1;
+    int shown = 0; ///< which of what the trial shows (Trial::shown)
     int pose = -1, frame = -1, refresh = 0;
     SessionTime at;
     double value = 0.0, other = 0.0;
@@ -57,21 +58,23 @@ struct GazeNews {
 
 /// What is told of a trial that begins, by its place in the schedule.
 struct ViewedTrial {
-    std::string task, question, object, material, light_file;
-    int seen_in = 0;                       ///< index of the view
-    std::vector<int> picture_of_frame = {}; ///< of its motion (Animation::pictures), by animation frame
+    std::string task, question;
+    std::vector<ViewedStimulus> shown = {}; ///< as Trial::shown has them
+    /// Of each: the picture of its motion (Animation::pictures), by animation frame.
+    std::vector<std::vector<int>> picture_of_frame = {};
 };
 
 /// Makes of the news what is to be shown. For one thread.
 class ViewBuilder {
   public:
-    /// `trials`: by their index. `completed`: how many of them are done before this sitting.
-    ViewBuilder(std::vector<ViewedTrial> trials, int completed);
+    /// `trials`: by their index. `completed`: how many of them are done before this sitting. `slots`: gaze
+    /// belongs to what is lit in the one that holds it; none: to the first that is lit.
+    ViewBuilder(std::vector<ViewedTrial> trials, int completed, std::vector<ViewedSlot> slots = {});
 
     /// Gives an event if the news is one that is listed.
     std::optional<ViewedEvent> apply(const ViewNews& news);
 
-    /// With the trial under way and the pose that was lit, by the news so far.
+    /// With the trial under way, in whose slot it lies and the pose that was lit there, by the news so far.
     ViewedGaze placed(const GazeNews& gaze) const;
 
     const SessionView& view() const { return view_; }
@@ -85,13 +88,15 @@ class ViewBuilder {
         int pose = -1;
     };
     void apply_event(const ViewedEvent& event);
-    void lit(SessionTime since, int pose);
-    /// That a frame of the trial under way shows; -1: not known.
-    int picture_of(int frame) const;
+    void lit(SessionTime since, std::size_t shown, int pose);
+    void nothing_lit(SessionTime since);
+    /// That a frame of what the trial under way shows has; -1: not known.
+    int picture_of(std::size_t shown, int frame) const;
 
     std::vector<ViewedTrial> trials_;
     SessionView view_;
-    std::array<Lit, 8> lit_{}; ///< the last ones, the newest first
+    std::vector<ViewedSlot> slots_;
+    std::vector<std::array<Lit, 8>> lit_; ///< of what is shown: the last ones, the newest first
 };
 
 } // namespace overt

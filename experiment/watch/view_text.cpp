@@ -40,8 +40,10 @@ std::string bar(double share, int length) {
 
 /// The stimulus in characters, each about twice as high as wide, with gaze.
 std::vector<std::string> picture_of(const ViewText& of, int columns, int rows) {
-    const SessionFacts& facts = of.facts;
-    if (of.picture.width <= 0 || of.picture.height <= 0 || facts.image_width_px <= 0 || rows < 4)
+    const auto shown = static_cast<std::size_t>(of.pictured);
+    const bool is_known = shown < of.view.shown.size() &&
+                          static_cast<std::size_t>(of.view.shown[shown].slot) < of.facts.slots.size();
+    if (of.picture.width <= 0 || of.picture.height <= 0 || !(is_known || of.is_camera) || rows < 4)
         return {};
     rows = std::min(rows, columns / 2);
     const int wide = std::min(columns, rows * 2 * of.picture.width / of.picture.height);
@@ -50,7 +52,7 @@ std::vector<std::string> picture_of(const ViewText& of, int columns, int rows) {
     constexpr std::string_view shades = " .:-=+*%#@";
     std::vector<std::string> lines(static_cast<std::size_t>(rows),
                                    std::string(static_cast<std::size_t>(wide), ' '));
-    const bool is_shown = of.view.pose >= 0 || of.is_camera;
+    const bool is_shown = of.is_camera || of.view.shown[shown].pose >= 0;
     for (int y = 0; y < rows && is_shown; ++y)
         for (int x = 0; x < wide; ++x) {
             const int from_x = x * of.picture.width / wide, from_y = y * of.picture.height / rows;
@@ -60,13 +62,13 @@ std::vector<std::string> picture_of(const ViewText& of, int columns, int rows) {
             lines[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)] =
                 shades[static_cast<std::size_t>(shade)];
         }
-    const double left = 0.5 * (facts.width_px - facts.image_width_px);
-    const double top = 0.5 * (facts.height_px - facts.image_height_px);
+    const ViewedSlot at =
+        of.is_camera ? ViewedSlot() : of.facts.slots[static_cast<std::size_t>(of.view.shown[shown].slot)];
     for (std::size_t i = 0; i < of.gaze.size() && !of.is_camera; ++i) {
         if (!of.gaze[i].place)
             continue;
-        const double x = (of.gaze[i].place->x_px - left) / facts.image_width_px * wide;
-        const double y = (of.gaze[i].place->y_px - top) / facts.image_height_px * rows;
+        const double x = (of.gaze[i].place->x_px - at.left_px) / at.width_px * wide;
+        const double y = (of.gaze[i].place->y_px - at.top_px) / at.height_px * rows;
         if (x >= 0.0 && x < wide && y >= 0.0 && y < rows)
             lines[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)] =
                 i + 1 == of.gaze.size() ? 'O' : 'o';
@@ -114,7 +116,7 @@ std::vector<std::string> figures_of(const ViewText& of) {
                     duration_text(view.time_s)));
     if (!view.task.empty())
         lines.push_back(
-            fmt::format("stimulus  {}, {}: {}", view.object, view.material, plain_line_of(view.question)));
+            fmt::format("stimulus  {}: {}", words_of_shown(facts, view), plain_line_of(view.question)));
     lines.push_back("display   missed refreshes: " + missed_text(facts, view));
     if (!facts.has_tracker)
         lines.emplace_back("tracker   none");

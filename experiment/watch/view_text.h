@@ -26,6 +26,7 @@ struct ViewText {
     std::string surface = {}; ///< what gaze meets on the object, in words; empty if that is not known
     std::string areas = {};   ///< which shares of the gaze on the object its areas have, in words; or empty
     bool is_camera = false;   ///< the picture is what the tracker's camera sees
+    int pictured = 0;         ///< whose the picture is: an index into SessionView::shown
 };
 
 /// Progress, time, quality, tracker, answers: a line for each.

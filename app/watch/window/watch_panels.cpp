@@ -109,7 +109,7 @@ void WatchPanels::draw_display(const ViewText& text, const WatchedSession& sessi
     const ImVec2 room = ImGui::GetContentRegionAvail(), at = ImGui::GetCursorScreenPos();
     if (facts.width_px <= 0 || facts.height_px <= 0)
         return;
-    // The whole display, with the stimulus in its middle.
+    // The whole display, with the stimuli where they are.
     const float scale =
         std::min(room.x / static_cast<float>(facts.width_px), room.y / static_cast<float>(facts.height_px));
     const ImVec2 size{scale * static_cast<float>(facts.width_px),
@@ -117,8 +117,6 @@ void WatchPanels::draw_display(const ViewText& text, const WatchedSession& sessi
     const ImVec2 corner{at.x + 0.5f * (room.x - size.x), at.y + 0.5f * (room.y - size.y)};
     ImDrawList& draws = *ImGui::GetWindowDrawList();
     draws.AddRectFilled(corner, {corner.x + size.x, corner.y + size.y}, IM_COL32(12, 12, 12, 255));
-    const ImVec2 half{0.5f * scale * static_cast<float>(facts.image_width_px),
-                      0.5f * scale * static_cast<float>(facts.image_height_px)};
     const ImVec2 middle{corner.x + 0.5f * size.x, corner.y + 0.5f * size.y};
     if (pictures.camera && session.camera()) {
         const ViewedCamera& camera = *session.camera();
@@ -134,12 +132,21 @@ void WatchPanels::draw_display(const ViewText& text, const WatchedSession& sessi
         draws.AddText({corner.x + 6.0f, corner.y + 2.0f}, IM_COL32(220, 220, 220, 255), words.c_str());
         return;
     }
-    if (pictures.stimulus && text.view.pose >= 0)
-        draws.AddImage(texture_of(pictures.stimulus), {middle.x - half.x, middle.y - half.y},
-                       {middle.x + half.x, middle.y + half.y});
+    for (std::size_t i = 0; i < std::min(pictures.stimuli.size(), text.view.shown.size()); ++i) {
+        const ViewedStimulus& shown = text.view.shown[i];
+        const auto slot = static_cast<std::size_t>(shown.slot);
+        if (!pictures.stimuli[i] || shown.pose < 0 || slot >= facts.slots.size())
+            continue;
+        const ViewedSlot& box = facts.slots[slot];
+        const ImVec2 first{corner.x + scale * static_cast<float>(box.left_px),
+                           corner.y + scale * static_cast<float>(box.top_px)};
+        draws.AddImage(texture_of(pictures.stimuli[i]), first,
+                       {first.x + scale * static_cast<float>(box.width_px),
+                        first.y + scale * static_cast<float>(box.height_px)});
+    }
     draws.AddRect(corner, {corner.x + size.x, corner.y + size.y}, IM_COL32(90, 90, 90, 255));
     display_ = {{corner.x, corner.y}, {size.x, size.y}, scale};
-    if (text.view.pose < 0) {
+    if (!text.view.is_lit()) {
         const std::string words = text.view.is_over ? "the session is over" : text.view.phase;
         const ImVec2 wide = ImGui::CalcTextSize(words.c_str());
         draws.AddText({middle.x - 0.5f * wide.x, middle.y - 0.5f * wide.y}, IM_COL32(160, 160, 160, 255),
@@ -149,8 +156,11 @@ void WatchPanels::draw_display(const ViewText& text, const WatchedSession& sessi
 
 void WatchPanels::draw_saliency(const ViewText& text, const WatchedSession& session) {
     surface_drawn_ = {};
-    ImGui::TextColored(quiet, "gaze on %s",
-                       text.view.object.empty() ? "the object" : text.view.object.c_str());
+    const auto looked_at = static_cast<std::size_t>(session.looked_at());
+    const std::string name = looked_at < text.view.shown.size() ? text.view.shown[looked_at].object : "",
+                      slot = session.slot_of(session.looked_at());
+    ImGui::TextColored(quiet, "gaze on %s%s%s", name.empty() ? "the object" : name.c_str(),
+                       slot.empty() ? "" : ", ", slot.c_str());
     ImGui::SameLine();
     if (ImGui::RadioButton("all seen here", !of_trial_))
         of_trial_ = false;
@@ -162,13 +172,13 @@ void WatchPanels::draw_saliency(const ViewText& text, const WatchedSession& sess
     if (ImGui::SmallButton("Front"))
         orbit_ = {};
     const ImVec2 at = ImGui::GetCursorScreenPos(), room = ImGui::GetContentRegionAvail();
-    const auto& object = session.object();
-    const auto map = object ? saliency_.newest(object->id()) : nullptr;
+    const auto object = session.object();
+    const auto map = object ? saliency_.newest(object->id(), slot) : nullptr;
     if (!map || room.x < 40.0f || room.y < 40.0f) {
         ImGui::TextColored(quiet, "%s",
-                           text.view.object.empty() ? "shown with the first trial"
-                           : object                 ? "the surface is being prepared"
-                                                    : "no mesh, or it is being read");
+                           name.empty() ? "shown with the first trial"
+                           : object     ? "the surface is being prepared"
+                                        : "no mesh, or it is being read");
         return;
     }
     ImDrawList& draws = *ImGui::GetWindowDrawList();
@@ -220,7 +230,8 @@ std::vector<Mark> WatchPanels::marks(const WatchedSession& session) const {
         const bool is_newest = i + 1 == gaze.size();
         marks.push_back({place, is_newest ? 9.0f : 2.5f, is_newest ? 2.5f : 0.0f, colour});
     }
-    if (surface_drawn_.scale > 0.0f && session.object() && session.last_gaze() && session.last_gaze()->hit)
+    if (surface_drawn_.scale > 0.0f && session.object() && session.last_gaze() && session.last_gaze()->hit &&
+        session.last_gaze()->gaze.shown == session.looked_at())
         if (const auto place = surface_.place_of(*session.object(), session.last_gaze()->hit->position)) {
             const glm::vec2 at = surface_drawn_.corner_px + glm::vec2(place->px);
             if (is_within(surface_drawn_, at))
@@ -247,7 +258,7 @@ void WatchPanels::draw_figures(const ViewText& text, std::optional<double> delay
                             duration_text(view.time_s)));
     row("failed attempts", fmt::format("{}", view.failed));
     if (!view.task.empty())
-        row("stimulus", fmt::format("{}, {}: {}", view.object, view.material, view.question));
+        row("stimulus", fmt::format("{}: {}", words_of_shown(facts, view), view.question));
     ImGui::Separator();
     row("missed refreshes", missed_text(facts, view), !facts.is_timing_unproven && view.missed_in_trial > 0);
     if (!facts.has_tracker)

@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/watch/live_saliency.h"
 #include "app/watch/watched_session.h"
@@ -16,8 +17,8 @@ namespace overt {
 
 /// Textures; 0 where there is none.
 struct WatchPictures {
-    GLuint stimulus = 0; ///< that is shown now
-    GLuint camera = 0;   ///< what the tracker's camera sees, instead
+    std::vector<GLuint> stimuli = {}; ///< that are shown now, as SessionView::shown has them
+    GLuint camera = 0;                ///< what the tracker's camera sees, instead
 };
 
 class WatchPanels {

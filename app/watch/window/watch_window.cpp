@@ -2,6 +2,9 @@
 
 #include <chrono>
 #include <fstream>
+#include <memory>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -116,13 +119,14 @@ int watch_in_window(const std::filesystem::path& socket, const std::filesystem::
     WatchedSession session(client);
     LiveSaliency saliency;
     ImguiWindow window(first_width, first_height, "overt: the operator's view");
-    PixelTexture picture(window), camera(window);
+    PixelTexture camera(window);
+    std::vector<std::unique_ptr<PixelTexture>> stimuli; // by what is shown
     SaliencyPicture surface(window);
     MarkPen pen(window);
     WatchPanels panels(client, saliency, surface);
     ShownTimes shown(!times.empty());
     const auto between = window.description().is_software ? between_drawn_frames : between_frames;
-    std::shared_ptr<const WatchedObject> prepared;
+    std::pair<std::shared_ptr<const WatchedObject>, std::string> prepared;
     bool has_right = false; // of both eyes one is enough: their gaze would be counted twice
     SteadyClock::time_point due{};
     while (!window.is_closed() && !Interruption::requested()) {
@@ -131,16 +135,18 @@ int watch_in_window(const std::filesystem::path& socket, const std::filesystem::
             for (const GazeOnSurface& one : session.new_gaze()) {
                 has_right = has_right || one.gaze.is_right;
                 if (one.hit && one.gaze.is_right == has_right)
-                    saliency.looked(session.object(), one.gaze.trial, *one.hit, seconds_of_point);
+                    saliency.looked(session.object_of(one.gaze.shown), session.slot_of(one.gaze.shown),
+                                    one.gaze.trial, *one.hit, seconds_of_point);
             }
             return !session.new_gaze().empty();
         };
         while (SteadyClock::now() < due)
             take(std::chrono::milliseconds(1));
         due = SteadyClock::now() + between;
-        if (session.object() && session.object() != prepared) {
-            prepared = session.object();
-            saliency.prepare(prepared);
+        if (const std::pair now{session.object(), session.slot_of(session.looked_at())};
+            now.first && now != prepared) {
+            prepared = now;
+            saliency.prepare(prepared.first, prepared.second);
         }
         const ViewText text = session.text();
         WatchPictures pictures;
@@ -148,7 +154,12 @@ int watch_in_window(const std::filesystem::path& socket, const std::filesystem::
             pictures.camera = camera.of(session.camera()->width_px, session.camera()->height_px,
                                         rgba_of(*session.camera()));
         else
-            pictures.stimulus = picture.of(text.picture.width, text.picture.height, rgba_of(text.picture));
+            for (const ViewedPicture& one : session.pictures()) {
+                if (pictures.stimuli.size() == stimuli.size())
+                    stimuli.push_back(std::make_unique<PixelTexture>(window));
+                PixelTexture& texture = *stimuli[pictures.stimuli.size()];
+                pictures.stimuli.push_back(texture.of(one.width, one.height, rgba_of(one)));
+            }
         window.draw([&](float width, float height) {
             panels.draw(text, session, pictures, shown.median_delay_s(), width, height);
         });

@@ -145,7 +145,7 @@ TEST_CASE("commands from the view do what the operator's keys do, and stand in t
     send("note the observer wears glasses");
     while (client.read(20ms)) {
         const SessionView& view = client.view();
-        if (view.phase == "stimulus" && view.pose >= 0 && !is_rejected) {
+        if (view.phase == "stimulus" && view.is_lit() && !is_rejected) {
             send("reject");
             is_rejected = true;
         } else if (is_rejected && view.phase == "task screen" && view.failed == 1 && !is_checked) {

@@ -14,9 +14,10 @@ using namespace overt::test;
 namespace {
 
 std::shared_ptr<const SaliencyMap> awaited(const LiveSaliency& saliency, const std::string& object,
-                                           const std::function<bool(const SaliencyMap&)>& is_it) {
+                                           const std::function<bool(const SaliencyMap&)>& is_it,
+                                           const std::string& slot = {}) {
     for (int tries = 0; tries < 3000; ++tries) {
-        auto map = saliency.newest(object);
+        auto map = saliency.newest(object, slot);
         if (map && is_it(*map))
             return map;
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
@@ -66,12 +67,16 @@ TEST_CASE("a view meets the surface where the session's own maps have it, and ad
     REQUIRE(empty);
     CHECK(empty->gaze_s == 0.0);
     CHECK(*std::ranges::max_element(empty->share) == 0.0f);
-    saliency.looked(object, 0, *first, 3.0);
-    saliency.looked(object, 1, *last, 1.0);
+    saliency.looked(object, "", 0, *first, 3.0);
+    saliency.looked(object, "", 1, *last, 1.0);
+    // What was seen of it in another slot is in that slot's map.
+    saliency.looked(object, "right", 1, *last, 8.0);
     const auto both =
         awaited(saliency, "bust", [](const SaliencyMap& map) { return map.gaze_s == Approx(4.0); });
     REQUIRE(both);
     REQUIRE(both->share.size() == both->surface->positions.size());
+    CHECK(awaited(
+        saliency, "bust", [](const SaliencyMap& map) { return map.gaze_s == Approx(8.0); }, "right"));
     const auto highest = [](const SaliencyMap& map) {
         return glm::dvec3(map.surface->positions[static_cast<std::size_t>(
             std::ranges::max_element(map.share) - map.share.begin())]);

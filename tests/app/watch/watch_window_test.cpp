@@ -108,10 +108,13 @@ TEST_CASE("the window shows gaze where it is, sends a pause at once and asks bef
     options.facts.has_tracker = true;
     options.facts.width_px = 1000;
     options.facts.height_px = 500;
-    options.trials = {{"task", "What?", "bust", "matt", ""}};
+    ViewedStimulus bust;
+    bust.object = "bust";
+    options.facts.slots = {{"centre", 250, 0, 500, 500}};
+    options.trials = {{"task", "What?", {bust}}};
     OperatorServer server(std::move(options));
-    RunningProgram program({"watch", "--operator-socket", (folder.path() / "view.sock").string()}, x_server_alone,
-                           folder.path() / "said");
+    RunningProgram program({"watch", "--operator-socket", (folder.path() / "view.sock").string()},
+                           x_server_alone, folder.path() / "said");
     Display* const display = XOpenDisplay(nullptr);
     REQUIRE(display);
     Mouse mouse(display);
@@ -126,6 +129,7 @@ TEST_CASE("the window shows gaze where it is, sends a pause at once and asks bef
         server.push(news);
     };
     push(ViewNews::Kind::phase);
+    push(ViewNews::Kind::trial_started);
     push(ViewNews::Kind::flip);
     const SeenScreen seen(folder.path());
     using Place = std::optional<std::pair<double, double>>;

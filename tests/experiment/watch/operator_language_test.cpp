@@ -18,14 +18,12 @@ SessionView some_view() {
     view.trial = 3;
     view.task = "age";
     view.question = "How <b>old</b>?\nSay it \"aloud\" – 好";
-    view.object = "bust";
-    view.material = "matt";
-    view.light_file = "stimuli/bust_matt.exr";
+    view.shown = {{0, "bust", "matt", "stimuli/bust_matt.exr", 0, 15, 12, 3},
+                  {1, "tall", "matt", "", 1, 0, -1, -1}};
     view.done = 3;
     view.failed = 1;
     view.first_trial_s = 21.25;
     view.done_before = 1;
-    view.pose = 12;
     view.refresh = 480;
     view.missed = 4;
     view.missed_in_trial = 2;
@@ -48,9 +46,30 @@ SessionView some_view() {
 }
 
 SessionFacts some_facts() {
-    return {"small", "P01", "/data/s", 10,    120.0, 544, 192, 128,
-            128,     31,    true,      false, 1.0,   0.5, 1.0, {"sleepy", "a \"noise\""},
+    return {"small",
+            "P01",
+            "/data/s",
+            10,
+            120.0,
+            544,
+            192,
+            {{"left", 208, 32, 128, 128}, {"right", 400, 64, 100, 64}},
+            31,
+            true,
+            false,
+            1.0,
+            0.5,
+            1.0,
+            {"sleepy", "a \"noise\""},
             4711.25};
+}
+
+/// A trial that shows one bust.
+ViewedTrial bust_trial() {
+    ViewedStimulus bust;
+    bust.object = "bust";
+    bust.material = "matt";
+    return {"task", "What?", {bust}};
 }
 
 ViewNews news_of(ViewNews::Kind kind, double at_s) {
@@ -86,12 +105,13 @@ TEST_CASE("a state comes out of its line as it went in", "[unit]") {
 TEST_CASE("no state makes a line that is longer than the language allows", "[unit]") {
     SessionView view = some_view();
     const std::string endless(100'000, '\x01');
-    view.task = view.question = view.object = view.material = view.asks = view.answer = endless;
+    view.task = view.question = view.asks = view.answer = endless;
+    view.shown.assign(1000, {0, endless, endless, endless, 1 << 30, 1 << 30, 1 << 30, 1 << 30});
     const std::string line = line_of(view);
     CHECK(line.size() <= longest_view_line);
     REQUIRE(read_view_line(line).view);
     const std::vector<ViewedGaze> gaze(10'000, ViewedGaze{true, ScreenPoint{-1234.56789012345, 1e-300},
-                                                          1 << 30, 1 << 30, -1e-300, INT64_MIN});
+                                                          1 << 30, 1 << 30, 1 << 30, -1e-300, INT64_MIN});
     const std::string points = line_of(std::span(gaze));
     CHECK(points.size() <= longest_view_line);
     CHECK(read_view_line(points).gaze.size() == longest_gaze);
@@ -103,19 +123,20 @@ TEST_CASE("no state makes a line that is longer than the language allows", "[uni
 }
 
 TEST_CASE("gaze comes out of its line as it went in, an eye that was lost too", "[unit]") {
-    const std::vector<ViewedGaze> gaze{{true, ScreenPoint{12.5, -3.0}, 4, 17, 61.25, 8'000'500},
-                                       {false, {}, -1, -1, 61.254, 8'004'500}};
+    const std::vector<ViewedGaze> gaze{{true, ScreenPoint{12.5, -3.0}, 4, 1, 17, 61.25, 8'000'500},
+                                       {false, {}, -1, -1, -1, 61.254, 8'004'500}};
     const ViewLine read = read_view_line(line_of(std::span(gaze)));
     REQUIRE(read.gaze.size() == 2);
     for (std::size_t i = 0; i < 2; ++i) {
         CHECK(read.gaze[i].is_right == gaze[i].is_right);
         CHECK(read.gaze[i].place == gaze[i].place);
         CHECK(read.gaze[i].trial == gaze[i].trial);
+        CHECK(read.gaze[i].shown == gaze[i].shown);
         CHECK(read.gaze[i].pose == gaze[i].pose);
         CHECK(read.gaze[i].at_s == gaze[i].at_s);
         CHECK(read.gaze[i].sampled_us == gaze[i].sampled_us);
     }
-    CHECK(read_view_line(R"({"gaze":[["right",0,0,1.5,2,3,4],["right",0.5,0,1,2,3,4],["right",0],[],7]})")
+    CHECK(read_view_line(R"({"gaze":[["right",0,0,0,1.5,2,3,4],["right",0.5,0,0,1,2,3,4],["right",0],[],7]})")
               .gaze.size() == 1);
 }
 
@@ -137,7 +158,7 @@ TEST_CASE("a camera's image comes out of its line as it went in, or not at all",
 }
 
 TEST_CASE("a point of gaze has the pose that was lit when it came, and none between animations", "[unit]") {
-    ViewBuilder builder({{"task", "What?", "bust", "matt", ""}}, 0);
+    ViewBuilder builder({bust_trial()}, 0);
     const auto placed_at = [&](double at_s) {
         return builder.placed({SessionTime(from_seconds(at_s)), tracker_time(7), false, true, {3.0, 4.0}});
     };
@@ -146,11 +167,14 @@ TEST_CASE("a point of gaze has the pose that was lit when it came, and none betw
     news.phase = SessionPhase::stimulus;
     news.trial = 0;
     builder.apply(news);
+    news.kind = ViewNews::Kind::trial_started;
+    builder.apply(news);
     for (int frame = 0; frame < 5; ++frame) {
         news = news_of(ViewNews::Kind::flip, 2.0 + frame);
         news.pose = 10 + frame;
         builder.apply(news);
     }
+    CHECK(placed_at(3.0).shown == 0);
     CHECK(placed_at(1.999).pose == -1);
     CHECK(placed_at(2.0).pose == 10);
     // News of a flip may come before gaze from the time before it.
@@ -168,6 +192,43 @@ TEST_CASE("a point of gaze has the pose that was lit when it came, and none betw
     CHECK(placed_at(7.0).pose == -1);
 }
 
+TEST_CASE("of several slots gaze is in the one that is lit where it lies", "[unit]") {
+    ViewedTrial trial = bust_trial();
+    trial.shown.push_back(trial.shown.front());
+    trial.shown[1].slot = 1;
+    trial.shown.push_back(trial.shown.front());
+    trial.shown[2].slot = 2; // where the first is, later
+    ViewBuilder builder({trial}, 0,
+                        {{"left", 0, 0, 100, 100}, {"right", 200, 50, 60, 60}, {"again", 0, 0, 100, 100}});
+    ViewNews news = news_of(ViewNews::Kind::trial_started, 1.0);
+    news.trial = 0;
+    builder.apply(news);
+    const auto lit = [&](int shown, double at_s, int pose) {
+        news = news_of(ViewNews::Kind::flip, at_s);
+        news.shown = shown;
+        news.pose = pose;
+        builder.apply(news);
+    };
+    lit(0, 2.0, 5);
+    lit(1, 2.0, 9);
+    lit(0, 3.0, -1);
+    lit(2, 3.0, 7);
+    const auto at = [&](double at_s, double x, double y) {
+        return builder.placed({SessionTime(from_seconds(at_s)), tracker_time(7), true, true, {x, y}});
+    };
+    CHECK(at(2.5, 50.0, 50.0).shown == 0);
+    CHECK(at(2.5, 50.0, 50.0).pose == 5);
+    CHECK(at(2.5, 259.0, 109.0).shown == 1);
+    CHECK(at(2.5, 259.0, 109.0).pose == 9);
+    CHECK(at(2.5, 150.0, 50.0).shown == -1);
+    CHECK(at(2.5, 150.0, 50.0).pose == -1);
+    CHECK(at(3.5, 50.0, 50.0).shown == 2);
+    CHECK(at(3.5, 50.0, 50.0).pose == 7);
+    CHECK(builder.view().is_lit());
+    const SessionFacts facts = some_facts();
+    CHECK(words_of_shown(facts, some_view()) == "left: bust, matt; right: tall, matt");
+}
+
 TEST_CASE("what is no line of the language is nothing, whatever it is", "[unit]") {
     for (const char* const line :
          {"", "{", "[]", "null", "{\"state\":3}", "{\"overt_watch\":99,\"trials\":3}", "GET / HTTP/1.1",
@@ -183,7 +244,7 @@ TEST_CASE("what is no line of the language is nothing, whatever it is", "[unit]"
         R"({"state":{"trial":"x","phase":4,"lost":null,"pose":1e81,"done":1.5,"failed":4294967296}})");
     REQUIRE(odd.view);
     CHECK(odd.view->trial == -1);
-    CHECK(odd.view->pose == -1);
+    CHECK(odd.view->shown.empty());
     CHECK(odd.view->done == 0);
     CHECK(odd.view->failed == 0);
 }
@@ -207,8 +268,7 @@ TEST_CASE("a command is read as it is written, and nothing else is one", "[unit]
 }
 
 TEST_CASE("a view is the sum of its news, and counts stay right where some were dropped", "[unit]") {
-    ViewBuilder all({{"task", "What?", "bust", "matt", ""}, {}}, 0),
-        some({{"task", "What?", "bust", "matt", ""}, {}}, 0);
+    ViewBuilder all({bust_trial(), {}}, 0), some({bust_trial(), {}}, 0);
     std::vector<ViewNews> news;
     news.push_back(news_of(ViewNews::Kind::phase, 1.0));
     news.back().phase = SessionPhase::stimulus;
@@ -227,7 +287,8 @@ TEST_CASE("a view is the sum of its news, and counts stay right where some were 
             some.apply(news[i]);
     CHECK(all.view().samples == 4000);
     CHECK(all.view().lost == 40);
-    CHECK(all.view().object == "bust");
+    REQUIRE(all.view().shown.size() == 1);
+    CHECK(all.view().shown[0].object == "bust");
     CHECK(all.view().phase == "stimulus");
     CHECK(some.view().samples == all.view().samples);
     CHECK(some.view().lost == all.view().lost);
