@@ -45,7 +45,7 @@ std::vector<Key> block() {
          "or less often, by `weights`."},
         {"by", &B::by,
          "Factor by whose levels a blocked or weighted order goes: `task`, a list (`object`, `material`, "
-         "`light`, `motion`, `view`), `stimulus`, or a column of entries."},
+         "`light`, `motion`, `view`, `background`), `stimulus`, or a column of entries."},
         {"levels", &B::levels,
          "Order of the levels of a blocked order: random for each session, fixed as listed, or by the rows "
          "of a Latin square over the observers."},

@@ -7,7 +7,8 @@ std::vector<Key> trials() {
     return {
         {"rule", &T::rule, required(), explanation_of_kinds<TrialRuleKind>()},
         {"of", &T::of, left_out("all lists with more than one entry"),
-         "Factors by whose levels the rule goes: lists (`object`, `material`, `light`, `motion`, `view`) and "
+         "Factors by whose levels the rule goes: lists (`object`, `material`, `light`, `motion`, `view`, "
+         "`background`) and "
          "columns of their entries."},
         {"same", &T::same, left_out("all lists that are not named otherwise"),
          "Factors that all stimuli of a trial have alike."},
@@ -67,7 +68,7 @@ std::vector<Key> draw() {
     using D = DrawSettings;
     return {
         {"of", &D::of, identifier().required(),
-         "List of which entries are drawn: `object`, `material`, `light`, `motion` or `view`."},
+         "List of which entries are drawn: `object`, `material`, `light`, `motion`, `view` or `background`."},
         {"count", &D::count, range(1, 100000).left_out("see `from`"), "How many entries."},
         {"from", &D::from, identifier().left_out("none"),
          "Id of an earlier block that draws of the same list: what it drew is old in this block, all else "
