@@ -114,6 +114,18 @@ void AnswerAsking::offer() {
     state_.ports.panel.offer(offers);
 }
 
+void AnswerAsking::begin_standing_step(std::size_t number, SessionTime since) {
+    const auto asks_an_answer = [](const PlannedStep& step) { return step.sheet >= 0; };
+    const auto here = plan_->steps.begin() + static_cast<std::ptrdiff_t>(number);
+    if (!asks() || is_awaiting_ || std::any_of(here, plan_->steps.end(), asks_an_answer) ||
+        std::none_of(plan_->steps.begin(), here, asks_an_answer))
+        return;
+    go_to(*sheets_.back());
+    state_.ports.panel.offer({});
+    state_.ports.panel.await_answer(since, trial_);
+    is_awaiting_ = true;
+}
+
 /// What the step waits for stands with its stimulus, where the protocol has a place for it.
 void AnswerAsking::put_beside(std::size_t number) {
     const PlannedStep& step = plan_->steps[number];

@@ -31,6 +31,9 @@ class AnswerAsking {
     /// A step during which gaze is recorded begins; inputs are told from `since` on. Not in one that another
     /// key ends: `goes_elsewhere`.
     void begin_watched_step(std::size_t number, SessionTime since, bool goes_elsewhere);
+    /// A screen stands from `since` on that asks nothing. After the last answer what is pressed then is late,
+    /// and is told as that.
+    void begin_standing_step(std::size_t number, SessionTime since);
     /// Keys were waited for otherwise in between.
     void interrupted() noexcept { is_awaiting_ = false; }
     /// Takes what the observer did. Allocates and throws nothing, as all that follow.

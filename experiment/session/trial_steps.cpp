@@ -265,8 +265,13 @@ void TrialRun::stand(Running& running, std::size_t number) {
     begin_row(running, onset);
     // The next screen is asked for in the middle of the last refresh.
     const double max_s = (*step.refreshes - 0.5) / state_.protocol.display.refresh_hz;
-    const OperatorControl::Press press = control_.wait(
-        {.screen = screen, .onset = onset, .max_s = max_s, .await = [](SessionTime) {}, .takes_keys = false});
+    asking_.begin_standing_step(number, onset);
+    const OperatorControl::Press press = control_.wait({.screen = screen,
+                                                        .onset = onset,
+                                                        .max_s = max_s,
+                                                        .await = [](SessionTime) {},
+                                                        .meanwhile = [&] { asking_.look(); },
+                                                        .takes_keys = false});
     running.attempt.outcome.steps.back().ended_by = end_of(press.how, StepEnd::key, StepEnd::time);
 }
 

@@ -215,6 +215,45 @@ tasks = "t"
     }
 }
 
+TEST_CASE("a press while nothing is shown between stimulus and answer has its own time", "[unit]") {
+    Sitting sitting(short_protocol(R"([[task]]
+id = "t"
+question = "Which?"
+steps = [ { show = "centre", for_s = 0.2, until = "answer" }, { blank = 0.5 }, { answer = "which", limit_s = 1 } ]
+[[task.answer]]
+id = "which"
+kind = "choice"
+choices = ["x", "y"]
+keys = ["f", "j"]
+[[block]]
+id = "b"
+tasks = "t"
+)"));
+    // Told when it is asked for, as a window does.
+    sitting.panel.does = [opened = std::optional<SessionTime>(), trial = -2, is_done = false](
+                             ScriptedPanel& panel, SessionTime now) mutable -> std::optional<ObserverInput> {
+        if (std::exchange(trial, panel.trial) != panel.trial)
+            opened.reset(), is_done = false;
+        if (panel.opened)
+            opened = panel.opened;
+        if (is_done || !opened || now < *opened + from_seconds(0.4))
+            return std::nullopt;
+        is_done = true;
+        ObserverInput input{
+            .kind = ObserverInput::Kind::key_down, .at = now, .device = ShortName("keyboard")};
+        input.key = ShortName("j");
+        return input;
+    };
+    CHECK(sitting.run().completed_trials == 2);
+    for (const TrialOutcome& outcome : sitting.log.outcomes) {
+        REQUIRE(outcome.given.size() == 1);
+        const GivenAnswer& given = outcome.given.front();
+        CHECK(given.value == "y");
+        CHECK(to_seconds(*given.response_time()) == Approx(0.4).margin(0.01));
+        CHECK_FALSE(given.screen_onset); // its screen is passed over
+    }
+}
+
 TEST_CASE("a block's feedback comes right after its trials, and its questions after that", "[unit]") {
     Protocol protocol = short_protocol(std::string(asked_at_stimulus) + R"(feedback = "{percent_correct} %"
 [[block]]
