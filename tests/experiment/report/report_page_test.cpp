@@ -11,6 +11,7 @@
 #include "experiment/report/report_page.h"
 #include "experiment/report/surface_files.h"
 #include "tests/experiment/report/made_up_study.h"
+#include "tests/support/map_files.h"
 #include "tests/support/skip.h"
 #include "tests/support/temporary_folder.h"
 
@@ -58,6 +59,26 @@ TEST_CASE("coloured meshes are written of all maps that there are, with an index
                                   "surfaces/map_ball_task_free__object_ball__material_smooth.glb"));
     const std::string index = read_whole_file(folder.path() / "surfaces/index.csv");
     CHECK(std::count(index.begin(), index.end(), '\n') == 1 + 2 * 13);
+}
+
+TEST_CASE("a map over its exported mesh is the same in either format, each in its own units", "[unit]") {
+    const test::TemporaryFolder folder;
+    StudyResults study = test::made_up_study();
+    // A mesh in centimetres, far from the origin of its file.
+    study.objects[0].mm_per_unit = 10.0;
+    study.objects[0].origin = {100.0, -20.0, 3.0};
+    write_surfaces(study, folder.path());
+    const std::string name = "map_ball_task_free__object_ball__material_smooth";
+    const test::ReadMap ply = test::read_coloured_ply((folder.path() / (name + ".ply")).string()),
+                        glb = test::read_glb((folder.path() / (name + ".glb")).string());
+    // A ball of 50 cm: millimetres with +z up, and metres with +y up.
+    CHECK(ply.high().z - ply.low().z == Approx(1000.0).epsilon(1e-4));
+    CHECK(glb.high().y - glb.low().y == Approx(1.0).epsilon(1e-4));
+    REQUIRE(ply.integral() > 0.0);
+    CHECK(glb.integral() == Approx(ply.integral()).epsilon(1e-4));
+    CHECK(ply.legend.find("lengths: mm of the object") != std::string::npos);
+    CHECK(ply.legend.find("origin: 1000 -200 30 mm") != std::string::npos);
+    CHECK(glb.legend.find("0.03 m, with z up") != std::string::npos);
 }
 
 namespace {

@@ -1,6 +1,8 @@
 #include "experiment/record/asc/asc_export.h"
 
+#include <algorithm>
 #include <fstream>
+#include <sstream>
 
 #include <catch2/catch.hpp>
 
@@ -228,6 +230,39 @@ std::vector<long long> times_of(const std::string& text, const std::string& word
 }
 
 } // namespace
+
+TEST_CASE("a loss of data is a message, and each line of an export is one that the format has", "[unit]") {
+    const test::TemporaryFolder root;
+    const SessionHeader header = eye_session_header();
+    const fs::path session = make_session(root.path(), header);
+    {
+        SessionStore store(session / session_file_name, patient());
+        for (const std::int64_t second : {0, 100})
+            store.clock_pair(
+                {at_ms(1000 * second), TrackerTime(std::chrono::seconds(second)), at_ms(1000 * second)});
+        const Trial& trial = header.schedule.trials[0];
+        record_attempt(store, 0, trial, 1000, 200, std::nullopt);
+        store.tracker_item(trial.index, TrackerGap{TrackerGap::Reason::connection,
+                                                   TrackerTime(std::chrono::milliseconds(1950)), 12});
+        store.trial_finished(trial, outcome_at(1000));
+    }
+    export_asc(SessionRecord(session), root.path() / "asc", {});
+    const std::string text = read_whole_file(root.path() / "asc/sub-AB7_ses-01_run-01.asc");
+    constexpr std::string_view begins[] = {"**",           "MSG\t",   "START\t",  "END\t",     "PRESCALER\t",
+                                           "VPRESCALER\t", "PUPIL\t", "EVENTS\t", "SAMPLES\t", "SFIX",
+                                           "EFIX",         "SSACC",   "ESACC",    "SBLINK",    "EBLINK",
+                                           "BUTTON",       "INPUT",   ">>>>>>>"};
+    bool is_told = false;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+        INFO(line);
+        is_told = is_told || (line.starts_with("MSG\t") && line.find("12") != std::string::npos &&
+                              line.find(name_of(TrackerGap::Reason::connection)) != std::string::npos);
+        CHECK((line.empty() || (line.front() >= '0' && line.front() <= '9') ||
+               std::ranges::any_of(begins, [&](std::string_view begin) { return line.starts_with(begin); })));
+    }
+    CHECK(is_told);
+}
 
 TEST_CASE("attempts that follow at once stand one after the other by their times, too", "[unit]") {
     const test::TemporaryFolder root;

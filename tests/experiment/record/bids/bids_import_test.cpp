@@ -71,6 +71,20 @@ TEST_CASE("how an imported recording tracked is what it says itself", "[unit]") 
     CHECK(method_of(" RECCFG ", " OTHER ") == "");
 }
 
+TEST_CASE("a calibration whose targets nobody counted has no type", "[unit]") {
+    const auto type_of = [](const std::string& type) {
+        const test::TemporaryFolder root;
+        AscImportOptions options;
+        options.place = {root.path(), "reading", "P1"};
+        const std::string text =
+            ">>>>>>> CALIBRATION (" + type + ",P-CR) FOR LEFT: <<<<<<<<<\n" + asc_text({});
+        const SessionRecord record(import_asc(write_asc(root.path() / "a.asc", text), options).session);
+        return bids_tracker(record, 1, Eye::left).value("CalibrationType", "none");
+    };
+    CHECK(type_of("HV9") == "HV9");
+    CHECK(type_of("HV0") == "none"); // as a program before this one wrote it
+}
+
 TEST_CASE("a dataset says of the pupil and the tracker what each tracker measures", "[unit]") {
     struct Case {
         std::string name, model, pupil, unit, manufacturer, method;

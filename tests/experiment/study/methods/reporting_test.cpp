@@ -50,6 +50,12 @@ TEST_CASE("what an article has to report is named item by item, with its value o
           "2 observers in 3 sessions; of each are recorded: age, hand");
     CHECK(item_of(items, "fixations, saccades, blinks").value ==
           "Fixations are those that the tracker told.");
+    // Of gaze that nobody's eyes gave there is no tracker to name.
+    StudyResults simulated = results;
+    for (StudySession& session : simulated.sessions)
+        session.setup.gaze.origin = GazeOrigin::simulated;
+    CHECK(item_of(reporting_items(simulated, options), "manufacturer, model").value ==
+          "none: gaze was simulated");
     constexpr const char* scatter = "precision (SD around the motion of the eye, a line through each 0.2 s)";
     for (const char* const missing :
          {"head stabilisation", "room and its light", scatter, "firmware of the tracker",
