@@ -33,12 +33,6 @@ std::map<std::string, std::vector<std::string>> columns_by_table(const SQLite::D
 
 bool is_renamed(const std::string& name) { return todays_name(name) != name; }
 
-/// What earlier programs called the hash of the frames is that of what they are made from.
-bool is_without_pixels(const std::string& table, const std::vector<std::string>& columns) {
-    const auto has = [&](const char* column) { return std::ranges::find(columns, column) != columns.end(); };
-    return table == "stimulus" && has("frames_sha256") && !has("made_from_sha256");
-}
-
 } // namespace
 
 std::string_view todays_name(std::string_view name) {
@@ -61,16 +55,11 @@ std::string todays_names(std::string_view list) {
 
 void show_todays_names(SQLite::Database& database) {
     for (const auto& [table, columns] : columns_by_table(database)) {
-        const bool has_recipes_alone = is_without_pixels(table, columns);
-        if (!is_renamed(table) && std::ranges::none_of(columns, is_renamed) && !has_recipes_alone)
+        if (!is_renamed(table) && std::ranges::none_of(columns, is_renamed))
             continue;
         std::vector<std::string> shown;
-        for (const std::string& column : columns) {
-            if (has_recipes_alone && column == "frames_sha256")
-                shown.emplace_back("'' AS frames_sha256, frames_sha256 AS made_from_sha256");
-            else
-                shown.push_back(fmt::format("\"{}\" AS \"{}\"", column, todays_name(column)));
-        }
+        for (const std::string& column : columns)
+            shown.push_back(fmt::format("\"{}\" AS \"{}\"", column, todays_name(column)));
         database.exec(fmt::format("CREATE TEMP VIEW \"{}\" AS SELECT {} FROM main.\"{}\"", todays_name(table),
                                   fmt::join(shown, ", "), table));
     }

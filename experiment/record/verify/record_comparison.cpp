@@ -198,7 +198,8 @@ class TableComparison {
             if (recorded_.is_same(column, replayed_))
                 continue;
             if (may_be_unknown(table_.name, name) &&
-                (recorded_.text(column).empty() || replayed_.text(column).empty())) {
+                (table_.column_called("made_from_sha256") < 0 || recorded_.text(column).empty() ||
+                 replayed_.text(column).empty())) {
                 ++unknown_;
                 continue;
             }
@@ -275,6 +276,31 @@ auto place_in_session(const Ranked& ranked) {
     return std::tuple(ranked.attempt, table != "session", table != "schedule", ranked.at_ns);
 }
 
+/// Earlier programs wrote the hash of what frames are made from where that of their pixels stands now.
+void compare_what_frames_are_made_from(const SQLite::Database& recorded, const SQLite::Database& replayed,
+                                       std::vector<Ranked>& found) {
+    constexpr const char* made_from = "made_from_sha256";
+    if (has_column(recorded, "stimulus", made_from) || !has_column(replayed, "stimulus", made_from) ||
+        !has_table(recorded, "stimulus"))
+        return;
+    // Both are kept in the order of their indices.
+    Query before(recorded, "SELECT frames_sha256 FROM stimulus");
+    Query now(replayed, "SELECT made_from_sha256 FROM stimulus");
+    for (int row = 1; before.step() && now.step(); ++row) {
+        const std::string a = before.text(), b = now.text();
+        if (a == b)
+            continue;
+        RecordDifference difference;
+        difference.table = "stimulus";
+        difference.row = fmt::format("row {}", row);
+        difference.column = made_from;
+        difference.recorded = a;
+        difference.replayed = b;
+        found.push_back({0, 0, std::move(difference)});
+        return;
+    }
+}
+
 RecordComparison compare(const SQLite::Database& recorded, const SQLite::Database& replayed,
                          const std::optional<RecordCut>& cut) {
     const Attempts attempts = attempts_of(recorded);
@@ -292,6 +318,7 @@ RecordComparison compare(const SQLite::Database& recorded, const SQLite::Databas
         if (table.name == "sample")
             comparison.samples = walk.rows();
     }
+    compare_what_frames_are_made_from(recorded, replayed, found);
     std::stable_sort(found.begin(), found.end(), [](const Ranked& a, const Ranked& b) {
         return place_in_session(a) < place_in_session(b);
     });

@@ -68,7 +68,8 @@ void take_all(SQLite::Database& database, const SQLite::Database& recorded,
         // What one file does not know of frames is not told of in the exports of the other.
         if (const int hash = table.column_called("frames_sha256"); table.name == "stimulus" && hash >= 0) {
             Query known(recorded, "SELECT count(*) FROM stimulus WHERE frames_sha256 <> ''");
-            if (known.step() && known.integer() == 0)
+            if (!has_column(recorded, "stimulus", "made_from_sha256") ||
+                (known.step() && known.integer() == 0))
                 database.exec("UPDATE main.stimulus SET frames_sha256 = '', drawn_by = ''");
         }
         if (cut && table.name == "sitting")
