@@ -14,6 +14,7 @@
 #include "app/cli/interruption.h"
 #include "app/inputs/protocol_file.h"
 #include "app/inputs/session_folders.h"
+#include "app/record/sound_sessions.h"
 #include "experiment/base/counted.h"
 #include "experiment/base/error.h"
 #include "experiment/protocol/files/old_words.h"
@@ -152,6 +153,11 @@ int run_shard(const AnalyzeOptions& options) {
     std::filesystem::create_directories(out.parent_path());
     ExportFolder folder(out, options.overwrite,
                         [](const std::string& file) { return file == shard_file_name; });
+    std::vector<std::filesystem::path> own;
+    for (std::size_t i = 0; i < options.sessions.size(); ++i)
+        if (static_cast<int>(i % static_cast<std::size_t>(which.count)) == which.number - 1)
+            own.push_back(options.sessions[i]);
+    say_broken_seals(own);
     StudyShard shard = shard_of(options.sessions, which, options.study);
     int trials = 0;
     std::int64_t samples = 0;
@@ -208,8 +214,12 @@ int run_analyze(AnalyzeOptions options) {
     const Interruption interruption;
     const bool joins = are_shards(options);
     StudyFolder folder(options.out, options.overwrite);
-    const StudyResults results =
+    const std::vector<std::string> broken =
+        joins ? std::vector<std::string>() : say_broken_seals(options.sessions);
+    StudyResults results =
         joins ? analyzed_shards(options.sessions, options.study) : analyzed(options.sessions, options.study);
+    // Also in the report, and whatever else is made of the results.
+    results.remarks.insert(results.remarks.begin(), broken.begin(), broken.end());
     folder.publish(results, format, options.extras);
     if (options.json)
         fmt::print("{}", study_json(results));

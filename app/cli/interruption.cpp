@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "experiment/base/error.h"
+#include "experiment/base/stop_request.h"
 
 namespace overt {
 namespace {
@@ -23,6 +24,7 @@ void take_note(int) {
 
 Interruption::Interruption() {
     interrupted.store(false, std::memory_order_relaxed);
+    stop_check().store([]() noexcept { return interrupted.load(std::memory_order_relaxed); });
     struct sigaction action {};
     action.sa_handler = take_note;
     sigemptyset(&action.sa_mask);
@@ -35,6 +37,7 @@ Interruption::Interruption() {
 }
 
 Interruption::~Interruption() {
+    stop_check().store(nullptr);
     for (std::size_t i = 0; i < watched.size(); ++i)
         sigaction(watched[i], &before_[i], nullptr);
 }

@@ -1,4 +1,6 @@
 #include "app/cli/progress_bar.h"
+#include "app/cli/terminal_output.h"
+#include "experiment/base/safe_text.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -87,7 +89,8 @@ void ProgressBar::draw_line() {
                     std::string(static_cast<std::size_t>(filled), '='), bar_width, done_, total_, left_);
     if (!remark_.empty())
         line += "  " + remark_;
-    fmt::print(stderr, "\r\033[K{}", first_columns(line, terminal_columns() - 1));
+    const OwnControls own;
+    fmt::print(stderr, "\r\033[K{}", first_columns(printable_text(line), terminal_columns() - 1));
     std::fflush(stderr);
     stands_ = true;
 }

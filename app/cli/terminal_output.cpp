@@ -1,9 +1,12 @@
 #include "app/cli/terminal_output.h"
+#include "experiment/base/safe_text.h"
 
 #include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <string>
+#include <string_view>
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -13,13 +16,17 @@ namespace overt {
 namespace {
 
 std::atomic<bool> is_output_lost = false, is_only_told = false, has_reader_gone = false;
+std::atomic<int> own_controls = 0; ///< how many OwnControls there are
 
 /// The write function of a stream on the file descriptor that `cookie` points to: all is taken, and what does
 /// not arrive is remembered if it was standard output.
 ssize_t write_or_forget(void* cookie, const char* bytes, std::size_t count) {
     const int descriptor = *static_cast<const int*>(cookie);
-    for (std::size_t written = 0; written < count;) {
-        const ssize_t now = ::write(descriptor, bytes + written, count - written);
+    const std::string_view given(bytes, count);
+    // Texts of protocols and sessions come by here, and a terminal would take some of them for commands.
+    const std::string text = own_controls > 0 ? std::string(given) : printable_text(given);
+    for (std::size_t written = 0; written < text.size();) {
+        const ssize_t now = ::write(descriptor, text.data() + written, text.size() - written);
         if (now > 0) {
             written += static_cast<std::size_t>(now);
         } else if (errno != EINTR) {
@@ -65,6 +72,16 @@ bool all_output_arrived() {
     std::fflush(stdout);
     std::fflush(stderr);
     return is_only_told || !is_output_lost;
+}
+
+OwnControls::OwnControls() {
+    std::fflush(stdout);
+    ++own_controls;
+}
+
+OwnControls::~OwnControls() {
+    std::fflush(stdout);
+    --own_controls;
 }
 
 bool output_reader_has_gone() { return has_reader_gone; }

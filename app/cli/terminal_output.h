@@ -13,6 +13,17 @@ void keep_output_from_failing();
 /// count; neither does what comes after a pipe's reader has ended, which has read all that it wanted.
 bool all_output_arrived();
 
+/// While one lives, what is printed may move the cursor and clear lines. At all other times control
+/// characters become visible (printable_text), whatever text they came with; so who prints within puts texts
+/// that are not its own through printable_text().
+class OwnControls {
+  public:
+    OwnControls();
+    ~OwnControls();
+    OwnControls(const OwnControls&) = delete;
+    OwnControls& operator=(const OwnControls&) = delete;
+};
+
 /// Whether it has: for commands that print on and on, which have nobody to print for then.
 bool output_reader_has_gone();
 

@@ -13,6 +13,7 @@
 #include "app/inputs/session_folders.h"
 #include "app/record/export_formats.h"
 #include "app/record/record_commands.h"
+#include "app/record/sound_sessions.h"
 #include "experiment/base/error.h"
 #include "experiment/record/session_schema.h"
 
@@ -100,6 +101,7 @@ int run_export(const ExportOptions& given) {
     options.sessions = sessions_in(given.sessions);
     const auto& [entry, format] = options.formats.at(options.format);
     need_free_folders(options, *entry);
+    say_broken_seals(options.sessions);
     for (const std::filesystem::path& session : options.sessions) {
         SessionRecord record(session);
         if (const auto thresholds = options.events.detection()) {

@@ -6,6 +6,7 @@
 
 #include "experiment/base/content_hash.h"
 #include "experiment/base/error.h"
+#include "experiment/base/path_inside.h"
 #include "experiment/scene/files/mesh_reader.h"
 #include "experiment/stimulus/object.h"
 
@@ -41,7 +42,7 @@ std::vector<const RecordedMap*> maps_of(const SessionHeader& header, const Viewe
 /// Where a map lies, once it is known that the file is the one recorded.
 std::filesystem::path sound_file(const SessionRecord& record, const RecordedMap& map) {
     std::filesystem::path file = record.directory() / map.file;
-    if (!std::filesystem::is_regular_file(file) || hash_of_file(file) != map.sha256)
+    if (!is_file_inside(record.directory(), map.file) || hash_of_file(file) != map.sha256)
         throw not_as_recorded(file, "map");
     return file;
 }
@@ -76,7 +77,7 @@ RecordedSurfaces::Surface& RecordedSurfaces::surface_of(const ViewedObject& view
 void RecordedSurfaces::load_maps(Surface& surface, const ViewedObject& viewed) const {
     const SessionHeader& header = record_->header();
     const RecordedObject& recorded = header.objects[static_cast<std::size_t>(viewed.object)];
-    const std::filesystem::path mesh_file = record_->directory() / recorded.mesh_file;
+    const std::filesystem::path mesh_file = require_file_inside(record_->directory(), recorded.mesh_file);
     surface.mesh = recorded_mesh(mesh_file);
     if (hash_of_mesh(surface.mesh) != recorded.mesh_sha256)
         throw not_as_recorded(mesh_file, "mesh");

@@ -13,6 +13,7 @@
 #include "app/record/timing_text.h"
 #include "experiment/base/error.h"
 #include "experiment/base/json_text.h"
+#include "experiment/base/path_inside.h"
 #include "experiment/base/whole_file.h"
 #include "experiment/record/preview_file.h"
 #include "experiment/record/read/sample_join.h"
@@ -241,8 +242,8 @@ void write_picture(const SessionRecord& record, const TrialRecord& trial, const 
     content.surface = surface;
     content.bounds = header.objects[static_cast<std::size_t>(object)].bounds;
     content.pose = header.poses.pose_of(stimulus.motion, {0});
-    content.frame =
-        read_linear_image(record.directory() / preview_file(header, stimulus), FrameEncoding::srgb);
+    content.frame = read_linear_image(require_file_inside(record.directory(), preview_file(header, stimulus)),
+                                      FrameEncoding::srgb);
     content.gaze_on_surface = gaze;
     content.kernel_sigma = kernel_sigma(header, stimulus);
     content.frame_caption = fmt::format("{}, {}", header.objects[static_cast<std::size_t>(object)].title,

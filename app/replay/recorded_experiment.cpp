@@ -6,6 +6,7 @@
 
 #include "app/inputs/protocol_file.h"
 #include "app/session/recorded_options.h"
+#include "experiment/base/path_inside.h"
 
 namespace overt {
 
@@ -43,7 +44,8 @@ std::optional<RecordDifference> changed_content(const SessionRecord& record) {
                 changed("protocol_file", fmt::format("name {}", file.name), "text", file.sha256, file.text))
             return difference;
     for (const RecordedMap& map : header.maps)
-        if (ContentHash found = hash_of_file(record.directory() / map.file); found != map.sha256)
+        if (ContentHash found = hash_of_file(require_file_inside(record.directory(), map.file));
+            found != map.sha256)
             return RecordDifference{"map",
                                     {},
                                     {},

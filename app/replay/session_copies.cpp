@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "experiment/base/error.h"
+#include "experiment/base/path_inside.h"
 #include "experiment/record/schema_migration.h"
 
 namespace overt {
@@ -19,16 +20,16 @@ void copy_file_to(const fs::path& from, const fs::path& to) {
 }
 
 void copy_session_file(const fs::path& from, const fs::path& to) {
-    copy_file_to(from, to);
-    const fs::path log = from.string() + "-wal";
-    if (fs::exists(log))
-        copy_file_to(log, to.string() + "-wal");
+    copy_file_to(require_file_inside(from.parent_path(), from.filename().string()), to);
+    const std::string log = from.filename().string() + "-wal";
+    if (is_file_inside(from.parent_path(), log))
+        copy_file_to(from.parent_path() / log, to.string() + "-wal");
     migrate_session_file(to, KeptCopy::none);
 }
 
 void take_map_files(const SessionRecord& from, const fs::path& into) {
     for (const RecordedMap& map : from.header().maps)
-        copy_file_to(from.directory() / map.file, into / map.file);
+        copy_file_to(require_file_inside(from.directory(), map.file), into / map.file);
 }
 
 } // namespace overt

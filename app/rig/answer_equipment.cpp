@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "app/cli/terminal_output.h"
 #include "devices/simulated/simulated_answer_recorder.h"
 #include "devices/sound/answer_engine.h"
 #include "devices/sound/port_audio_input.h"
@@ -95,6 +96,7 @@ std::function<void(const AudioLevel&)> AnswerEquipment::meter() const {
         if (now - last < std::chrono::milliseconds(100))
             return;
         last = now;
+        const OwnControls own;
         fmt::print(stderr, "\ranswer [{}] {}", bar_of(level), was_clipped ? "CLIPPED" : "       ");
         std::fflush(stderr);
         was_clipped = false;

@@ -11,6 +11,7 @@
 #include "app/cli/interruption.h"
 #include "app/cli/terminal_output.h"
 #include "app/watch/watched_session.h"
+#include "experiment/base/safe_text.h"
 #include "experiment/watch/view_text.h"
 
 namespace overt {
@@ -89,12 +90,16 @@ winsize terminal_size() {
 }
 
 /// Clears the terminal and has what is typed stand in its last row.
-void begin_screen() { fmt::print("\x1b[2J\x1b[{};1H> ", terminal_size().ws_row); }
+void begin_screen() {
+    const OwnControls own;
+    fmt::print("\x1b[2J\x1b[{};1H> ", terminal_size().ws_row);
+}
 
 /// Draws all rows but the last, and leaves the cursor where the operator types.
 void draw(const ViewText& text, const std::string& says) {
     const winsize size = terminal_size();
-    const std::string screen = screen_of(text, size.ws_col, size.ws_row);
+    const OwnControls own;
+    const std::string screen = printable_text(screen_of(text, size.ws_col, size.ws_row));
     std::string out = "\x1b"
                       "7\x1b[H";
     int rows = 0;
@@ -107,7 +112,7 @@ void draw(const ViewText& text, const std::string& says) {
         out += "\x1b[K\r\n";
     out += fmt::format("{:.{}}\x1b[K\x1b"
                        "8",
-                       says, size.ws_col - 1);
+                       printable_text(says), size.ws_col - 1);
     fmt::print("{}", out);
     std::fflush(stdout);
 }

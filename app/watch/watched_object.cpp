@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "experiment/base/error.h"
+#include "experiment/base/path_inside.h"
 #include "experiment/maps/sight_lines.h"
 #include "experiment/record/read/session_record.h"
 #include "experiment/scene/files/mesh_reader.h"
@@ -29,7 +30,7 @@ Recorded read_object(const std::filesystem::path& session, const std::string& id
         throw InputError(fmt::format("{}: has no mesh in {}", id, session.string()));
     MeshCleaningReport unused;
     return {*found, header.screen_of_view(static_cast<int>(view)), header.poses.angles,
-            import_mesh(session / found->mesh_file, {}, unused)};
+            import_mesh(require_file_inside(session, found->mesh_file), {}, unused)};
 }
 
 } // namespace

@@ -125,7 +125,8 @@ bool is_served(const std::filesystem::path& socket) {
     const int connected = connect_to(SocketAddress(socket));
     if (connected >= 0)
         ::close(connected);
-    return connected >= 0;
+    // A queue that is full is somebody's.
+    return connected >= 0 || errno == EAGAIN;
 }
 
 } // namespace overt

@@ -69,6 +69,16 @@ std::optional<ResponsePress> OperatorPanel::take(const OperatorCommand& command)
             reply(why);
             return std::nullopt;
         }
+    // What is acknowledged is recorded: what would find no room is not taken at all. To end a session, and to
+    // answer what it asks, always is.
+    const bool is_note = command.kind == OperatorCommand::Kind::note;
+    const bool may_wait =
+        is_note || (command.kind == OperatorCommand::Kind::key && command.key != PanelKey::abort);
+    if (may_wait && taken_count_ >= taken_.size() - (is_note ? kept_for_keys : std::size_t{4})) {
+        reply(is_note ? "the note was not taken: too many wait for the trial's end; send it again then"
+                      : "was not taken: too many commands wait for the trial's end");
+        return std::nullopt;
+    }
     if (taken_count_ < taken_.size())
         taken_[taken_count_++] = {command, now, trial_};
     switch (command.kind) {

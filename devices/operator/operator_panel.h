@@ -64,7 +64,9 @@ class OperatorPanel final : public ResponsePanel {
     std::optional<Given> given_;
     std::optional<ResponsePress> next_answer_;
     std::optional<OperatorCommand> held_; ///< until the one before is dealt with
-    std::array<Taken, 32> taken_{};       ///< to be recorded
+    /// To be recorded when the trial is over. What finds no room is refused, notes before keys.
+    static constexpr std::size_t most_taken = 64, kept_for_keys = 16;
+    std::array<Taken, most_taken> taken_{};
     std::size_t taken_count_ = 0;
 };
 

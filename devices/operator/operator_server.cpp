@@ -1,10 +1,13 @@
 #include "devices/operator/operator_server.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <chrono>
+#include <cstdio>
 #include <cstring>
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
 #include <sys/eventfd.h>
@@ -27,6 +30,7 @@ constexpr std::size_t most_waiting_for_gaze = 16384;
 using SteadyClock = std::chrono::steady_clock;
 
 constexpr std::size_t most_views = 4;
+constexpr int longest_queue = 16; ///< of views that are not taken in yet
 constexpr std::size_t most_recent = 100;
 /// Lines that wait for a view that does not read: beyond this, events are left out.
 constexpr std::size_t most_waiting_bytes = 262144;
@@ -34,6 +38,8 @@ constexpr std::chrono::milliseconds between_states{33}, longest_rest{15}, longes
     between_cameras{100};
 /// Even where nothing changes, so that a view can tell a session that stands from one that is gone.
 constexpr std::chrono::milliseconds longest_silence{500};
+/// A view greets as soon as it is connected; who has not by then is none.
+constexpr std::chrono::seconds longest_until_greeting{3};
 
 /// Refuses a place that is taken; a socket that nobody serves is not.
 void check_is_free(const std::filesystem::path& file) {
@@ -47,23 +53,68 @@ void check_is_free(const std::filesystem::path& file) {
         throw InputError(fmt::format("{}: {}: name another with --operator-socket", file.string(), taken));
 }
 
-/// Whoever finds the file can connect: it gets its name when all is ready.
-int open_listener(const std::filesystem::path& file) {
+/// A socket in the file system.
+struct OwnedSocket {
+    int descriptor = -1;
+    dev_t device = 0; ///< with the inode, by which the file is known again
+    ino_t inode = 0;
+};
+
+/// Whether the file is this very socket: what else lies there by now is not ours.
+bool is_still(const std::filesystem::path& file, dev_t device, ino_t inode) {
+    struct stat there {};
+    return ::lstat(file.c_str(), &there) == 0 && S_ISSOCK(there.st_mode) && there.st_dev == device &&
+           there.st_ino == inode;
+}
+
+/// Takes away a socket that nobody serves, as killed sessions leave them, and nothing else.
+void remove_unserved(const std::filesystem::path& file) {
+    struct stat there {};
+    if (::lstat(file.c_str(), &there) == 0 && S_ISSOCK(there.st_mode) && !is_served(file))
+        ::unlink(file.c_str());
+}
+
+/// Whoever finds the file can connect: it gets its name when all is ready. Nothing that lies there is
+/// replaced.
+OwnedSocket open_listener(const std::filesystem::path& file) {
     check_is_free(file);
-    const std::filesystem::path unready = file.string() + ".new";
+    static std::atomic<int> number{0};
+    const std::filesystem::path unready =
+        file.parent_path() / fmt::format(".{:.40}.{}-{}", file.filename().string(), ::getpid(), number++);
     const SocketAddress address(unready);
-    ::unlink(unready.c_str());
-    const int listener = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
-    if (listener < 0 || ::bind(listener, address.address(), address.size()) != 0 ||
-        ::chmod(unready.c_str(), S_IRUSR | S_IWUSR) != 0 || ::listen(listener, 4) != 0 ||
-        ::rename(unready.c_str(), file.c_str()) != 0) {
+    OwnedSocket opened{::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0)};
+    struct stat made {};
+    bool is_bound = false;
+    const auto open = [&] {
+        is_bound =
+            opened.descriptor >= 0 && ::bind(opened.descriptor, address.address(), address.size()) == 0;
+        return is_bound && ::chmod(unready.c_str(), S_IRUSR | S_IWUSR) == 0 &&
+               ::lstat(unready.c_str(), &made) == 0 && ::listen(opened.descriptor, longest_queue) == 0;
+    };
+    bool is_open = open();
+    if (is_open) {
+        remove_unserved(file);
+        is_open = ::renameat2(AT_FDCWD, unready.c_str(), AT_FDCWD, file.c_str(), RENAME_NOREPLACE) == 0;
+    }
+    if (!is_open) {
         const std::string why = std::strerror(errno);
-        ::unlink(unready.c_str());
-        if (listener >= 0)
-            ::close(listener);
+        if (is_bound)
+            ::unlink(unready.c_str());
+        if (opened.descriptor >= 0)
+            ::close(opened.descriptor);
         throw DeviceError(fmt::format("{}: the operator's socket cannot be opened: {}", file.string(), why));
     }
-    return listener;
+    opened.device = made.st_dev;
+    opened.inode = made.st_ino;
+    return opened;
+}
+
+/// Whether the program at the other end runs for this user, or for the system's.
+bool is_of_this_user(int socket) {
+    ucred peer{};
+    socklen_t size = sizeof peer;
+    return ::getsockopt(socket, SOL_SOCKET, SO_PEERCRED, &peer, &size) == 0 &&
+           (peer.uid == ::geteuid() || peer.uid == 0);
 }
 
 /// An event counter that never blocks.
@@ -99,14 +150,24 @@ struct OperatorServer::View {
     std::int64_t left_out = 0; ///< lines of events
     bool is_gone = false;
     SteadyClock::time_point state_told{};
+    SteadyClock::time_point came = SteadyClock::now();
 };
 
 void check_socket_place(const std::filesystem::path& socket) { const SocketAddress address(socket); }
 
 OperatorServer::OperatorServer(Options options)
-    : options_(std::move(options)), listener_(open_listener(options_.socket)), woken_(open_counter()),
-      news_(options_.ring_capacity),
+    : options_(std::move(options)), woken_(open_counter()), news_(options_.ring_capacity),
       builder_(std::move(options_.trials), options_.completed, options_.facts.slots) {
+    OwnedSocket opened;
+    try {
+        opened = open_listener(options_.socket);
+    } catch (...) {
+        ::close(woken_);
+        throw;
+    }
+    listener_ = opened.descriptor;
+    device_ = opened.device;
+    inode_ = opened.inode;
     thread_ = std::jthread([this](const std::stop_token& stop) { serve(stop); });
 }
 
@@ -117,7 +178,8 @@ OperatorServer::~OperatorServer() {
         ::close(view.socket);
     ::close(listener_);
     ::close(woken_);
-    ::unlink(options_.socket.c_str());
+    if (is_still(options_.socket, device_, inode_))
+        ::unlink(options_.socket.c_str());
 }
 
 void OperatorServer::push_gaze(const GazeNews& gaze) noexcept {
@@ -147,8 +209,11 @@ void OperatorServer::serve(const std::stop_token& stop) {
         tell_state(false);
         take_gaze();
         take_camera();
-        for (View& view : views_)
+        for (View& view : views_) {
             send_waiting(view);
+            if (!view.is_greeted && !view.is_gone && SteadyClock::now() - view.came > longest_until_greeting)
+                cut_off(view, "has not greeted");
+        }
         std::erase_if(views_, [](const View& view) {
             if (view.is_gone)
                 ::close(view.socket);
@@ -259,6 +324,20 @@ void OperatorServer::accept_view() {
     const int socket = ::accept4(listener_, nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC);
     if (socket < 0)
         return;
+    if (!is_of_this_user(socket)) {
+        ::close(socket);
+        if (options_.tell)
+            options_.tell("operator's view: a program of another user was turned away");
+        return;
+    }
+    // Who has not greeted makes room for who may.
+    if (views_.size() == most_views) {
+        const auto silent = std::ranges::find(views_, false, &View::is_greeted);
+        if (silent != views_.end()) {
+            ::close(silent->socket);
+            views_.erase(silent);
+        }
+    }
     if (views_.size() == most_views) {
         ::close(socket);
         if (options_.tell)

@@ -15,6 +15,8 @@
 #include <thread>
 #include <vector>
 
+#include <sys/types.h>
+
 #include "experiment/base/spsc_ring.h"
 #include "experiment/ports/setup_screen.h"
 #include "experiment/watch/operator_command.h"
@@ -44,8 +46,9 @@ class OperatorServer {
         std::function<void(const std::string&)> tell = {};
     };
 
-    /// Opens the socket, for this user alone. One that nobody serves any more is replaced. Throws InputError
-    /// if another session serves it, and DeviceError if it cannot be opened.
+    /// Opens the socket, for programs of this user alone. One that nobody serves any more is replaced, and
+    /// nothing else that lies there ever is. Throws InputError if another session serves it, and DeviceError
+    /// if it cannot be opened.
     explicit OperatorServer(Options options);
     /// Tells the views what is left and that it is over, for at most a second, and removes the
     /// socket.
@@ -84,6 +87,8 @@ class OperatorServer {
 
     Options options_;
     int listener_ = -1;
+    dev_t device_ = 0; ///< with the inode, of the socket's file
+    ino_t inode_ = 0;
     int woken_ = -1; ///< an event counter
     SpscRing<ViewNews> news_;
     SpscRing<GazeNews> gaze_{4096};

@@ -39,7 +39,9 @@ int connect_to(const SocketAddress& address) {
         throw DeviceError(fmt::format("no socket can be opened: {}", std::strerror(errno)));
     if (::connect(socket, address.address(), address.size()) == 0)
         return socket;
+    const int why = errno;
     ::close(socket);
+    errno = why;
     return -1;
 }
 

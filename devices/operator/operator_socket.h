@@ -26,7 +26,8 @@ class SocketAddress {
     sockaddr_un address_{};
 };
 
-/// A socket that is connected to it, without waiting in reads and writes; -1 if nobody serves it.
+/// A socket that is connected to it, without waiting in reads and writes; -1 with errno's word why:
+/// ECONNREFUSED or ENOENT if nobody serves it, EAGAIN if whoever does has too many waiting already.
 int connect_to(const SocketAddress& address);
 
 } // namespace overt

@@ -57,7 +57,8 @@ class Diagnostics {
     bool has_errors() const { return error_count() > 0; }
 
     /// As a compiler prints them: `file:line:column: error: message`, the line quoted with a caret under the
-    /// column, the hint; at last how many errors and warnings there are. Ends with a newline; empty if nothing was found.
+    /// column, the hint; at last how many errors and warnings there are. Ends with a newline; empty if
+    /// nothing was found.
     std::string print() const;
 
     /// For `--json`: {"errors", "warnings", "findings": [{"severity", "file", "line", "column", "message",

@@ -1,11 +1,14 @@
 #include "experiment/base/partial_directory.h"
 
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
+#include <random>
+#include <string>
+#include <string_view>
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "experiment/base/error.h"
@@ -27,6 +30,26 @@ void sync_around(const fs::path& directory) {
                                       std::strerror(reason)));
 }
 
+/// Makes a folder of a name that is free, in place of the six X at the end of `name`; else errno says why
+/// not. Others may do in it what they may in the folder around it, as far as the user's umask lets them; its
+/// group is inherited where the folder's is.
+bool make_folder(std::string& name, const fs::path& parent) {
+    constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789";
+    constexpr int most_tries = 1000;
+    std::error_code error;
+    const auto of_parent = static_cast<mode_t>(fs::status(parent, error).permissions() & fs::perms::all);
+    std::random_device random;
+    for (int i = 0; i < most_tries; ++i) {
+        for (std::size_t at = name.size() - 6; at < name.size(); ++at)
+            name[at] = letters[random() % letters.size()];
+        if (::mkdir(name.c_str(), (error ? 0777 : of_parent) | 0700) == 0)
+            return true;
+        if (errno != EEXIST)
+            return false;
+    }
+    return false;
+}
+
 } // namespace
 
 PartialDirectory::PartialDirectory(const fs::path& final_path) : final_path_(fs::absolute(final_path)) {
@@ -36,12 +59,10 @@ PartialDirectory::PartialDirectory(const fs::path& final_path) : final_path_(fs:
     std::error_code error;
     fs::create_directories(parent, error);
     std::string name = (parent / fmt::format(".{}.partial-XXXXXX", final_path_.filename().string())).string();
-    if (error || ::mkdtemp(name.data()) == nullptr)
+    if (error || !make_folder(name, parent))
         throw RecordError(fmt::format("{}: a directory cannot be made there: {}. Check the permissions.",
                                       parent.string(), error ? error.message() : std::strerror(errno)));
     path_ = name;
-    // mkdtemp lets in its owner alone; the others get what the folder around it gives them.
-    fs::permissions(path_, fs::status(parent).permissions() & fs::perms::all, error);
 }
 
 void PartialDirectory::publish() {

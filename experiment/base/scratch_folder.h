@@ -14,8 +14,8 @@ namespace overt {
 /// Made anew, and removed with all that is in it.
 class ScratchFolder {
   public:
-    /// `prefix`: how its name begins; `parent`: where it is made. Throws RecordError if there is no room or no
-    /// right.
+    /// `prefix`: how its name begins; `parent`: where it is made. Throws RecordError if there is no room or
+    /// no right.
     explicit ScratchFolder(const std::string& prefix,
                            const std::filesystem::path& parent = std::filesystem::temp_directory_path()) {
         std::string name = (parent / (prefix + "-XXXXXX")).string();

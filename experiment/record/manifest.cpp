@@ -122,7 +122,9 @@ SessionManifest manifest_from(const std::string& text, const fs::path& file) {
 SessionManifest read_manifest(const fs::path& folder) {
     const fs::path file = folder / manifest_file_name;
     int error = 0;
-    const std::optional<std::string> text = read_whole_file(file, most_text_bytes, error);
+    std::optional<std::string> text;
+    if (is_file_inside(folder, manifest_file_name))
+        text = read_whole_file(file, most_text_bytes, error);
     if (!text)
         throw RecordError(fmt::format("{}: is not there, or cannot be read", file.string()));
     return manifest_from(*text, file);
@@ -133,16 +135,18 @@ std::vector<std::string> files_of_session(const fs::path& folder, bool with_sess
     for (auto entry = fs::recursive_directory_iterator(folder); entry != fs::recursive_directory_iterator();
          ++entry) {
         const std::string name = entry->path().filename().string();
-        const bool is_export = entry.depth() == 0 && entry->is_directory() && name.starts_with("export_");
+        const fs::file_type type = entry->symlink_status().type();
+        const bool is_folder = type == fs::file_type::directory;
+        const bool is_export = entry.depth() == 0 && is_folder && name.starts_with("export_");
         // Records of further trackers have manifests of their own.
-        const bool is_further = entry.depth() == 0 && entry->is_directory() && name == further_records_folder;
+        const bool is_further = entry.depth() == 0 && is_folder && name == further_records_folder;
         if (name.starts_with('.') || is_export || is_further) {
             entry.disable_recursion_pending();
             continue;
         }
-        const std::string path = fs::relative(entry->path(), folder).generic_string();
+        const std::string path = entry->path().lexically_relative(folder).generic_string();
         const std::string session_file = session_file_name;
-        if (!entry->is_regular_file() || path == manifest_file_name || path == session_file + "-wal" ||
+        if (type != fs::file_type::regular || path == manifest_file_name || path == session_file + "-wal" ||
             path == session_file + "-shm" || path == session_file + "-journal" ||
             (path == session_file && !with_session_file))
             continue;

@@ -48,7 +48,8 @@ SessionManifest manifest_from(const std::string& text, const std::filesystem::pa
 SessionManifest read_manifest(const std::filesystem::path& folder);
 
 /// All files of a session's folder that a manifest names, with relative paths, sorted: not itself, no hidden
-/// file, no folder of an export, nothing that belongs to session.sqlite; session.sqlite only if wanted.
+/// file, no link, nothing that is no file, no folder of an export, nothing that belongs to session.sqlite;
+/// session.sqlite only if wanted.
 std::vector<std::string> files_of_session(const std::filesystem::path& folder, bool with_session_file);
 
 /// Writes the manifest of a folder that is being made: all files but session.sqlite, which is about to

@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "experiment/base/error.h"
+#include "experiment/base/path_inside.h"
 #include "experiment/observer_label.h"
 #include "experiment/record/session_schema.h"
 
@@ -190,8 +191,10 @@ fs::path further_record(const fs::path& session, const std::string& tracker_id) 
 std::vector<std::string> further_trackers_of(const fs::path& session) {
     std::vector<std::string> ids;
     std::error_code none;
+    if (fs::is_symlink(session / further_records_folder, none))
+        return ids;
     for (const auto& entry : fs::directory_iterator(session / further_records_folder, none))
-        if (fs::exists(entry.path() / session_file_name, none))
+        if (!entry.is_symlink(none) && is_file_inside(entry.path(), session_file_name))
             ids.push_back(entry.path().filename().string());
     std::sort(ids.begin(), ids.end());
     return ids;

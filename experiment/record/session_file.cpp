@@ -6,9 +6,11 @@
 #include <sqlite3.h>
 
 #include "experiment/base/error.h"
+#include "experiment/base/path_inside.h"
 #include "experiment/record/old_names.h"
 #include "experiment/record/session_schema.h"
 #include "experiment/record/sql.h"
+#include "experiment/record/strangers_file.h"
 
 namespace overt {
 namespace {
@@ -38,9 +40,11 @@ SQLite::Database open_for_reading(const std::filesystem::path& file, SessionFile
     // Readers wait while a writer folds its file.
     database.setBusyTimeout(2'000);
     check_identity(database, file);
+    require_plain_schema(database, file);
     if (use == SessionFileUse::read &&
         pragma(database, "PRAGMA user_version") < first_version_with_todays_names)
         show_todays_names(database);
+    guard_reader(database, file);
     return database;
 }
 
@@ -49,8 +53,22 @@ SQLite::Database open_for_writing(const std::filesystem::path& file) {
     database.setBusyTimeout(writer_patience_ms);
     // Rows go from the log into the file only where that is meant (file_hash.h).
     sqlite3_db_config(database.getHandle(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
+    guard_writer(database);
     check_identity(database, file);
+    require_plain_schema(database, file);
     return database;
+}
+
+/// SQLite follows links, and opens whatever lies where its own files may be.
+void require_own_files(const std::filesystem::path& file) {
+    const std::filesystem::path folder = file.parent_path();
+    const std::string name = file.filename().string();
+    for (const char* const of_database : {"", "-wal", "-shm", "-journal"}) {
+        const std::string why = why_no_file_inside(folder, name + of_database);
+        if (!why.empty() && why != "is missing")
+            throw RecordError(fmt::format("{}{}: {}. Nothing outside of a session's folder is read.",
+                                          file.string(), of_database, why));
+    }
 }
 
 } // namespace
@@ -63,6 +81,7 @@ SQLite::Database open_session_file(const std::filesystem::path& file, SessionFil
             throw InputError(missing);
         throw RecordError(missing);
     }
+    require_own_files(file);
     try {
         try {
             return use == SessionFileUse::write ? open_for_writing(file) : open_for_reading(file, use);

@@ -28,6 +28,11 @@ std::string_view remedy_for(int error_code) {
     case SQLITE_READONLY:
     case SQLITE_PERM:
         return "Check the permissions of the file and of its directory";
+    case SQLITE_INTERRUPT:
+        return "The program was asked to end, or a statement went on far longer than this file's rows can "
+               "take";
+    case SQLITE_AUTH:
+        return "The file asks for what no session needs: it is not read further";
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
         return "Another program is writing to it: close that first";

@@ -31,14 +31,6 @@ inline std::string shown_size_words(const StudyObject& object) {
                              object.mm_per_unit.value_or(1.0));
 }
 
-/// A cell of a comma-separated table, in quotes (RFC 4180).
-inline std::string in_quotes(std::string_view text) {
-    std::string cell = "\"";
-    for (const char c : text)
-        cell += c == '"' ? std::string("\"\"") : std::string(1, c);
-    return cell + '"';
-}
-
 /// Letters and digits, each other sign as an underscore; names that are alike then are numbered.
 class FileNames {
   public:

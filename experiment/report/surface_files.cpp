@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "experiment/base/parallel.h"
+#include "experiment/base/safe_text.h"
 #include "experiment/base/whole_file.h"
 #include "experiment/report/map_names.h"
 #include "experiment/surface/colour_scale.h"
@@ -156,9 +157,10 @@ int write_surfaces(const StudyResults& results, const std::filesystem::path& fol
     for (const SurfaceFile& file : files) {
         for (const MeshFormat& format : mesh_formats) {
             const double per_value = value_scale(file, format);
-            index += fmt::format("{}.{},{},{},{},{},{} of the object,{},{:.9g},{:.9g}\n", file.name,
-                                 format.ending, file.kind, in_quotes(file.object->id), in_quotes(file.title),
-                                 quantity_in(file, format), format.unit, name_of(file.colours),
+            index += fmt::format("{},{},{},{},{},{} of the object,{},{:.9g},{:.9g}\n",
+                                 csv_cell(fmt::format("{}.{}", file.name, format.ending)), file.kind,
+                                 csv_cell(file.object->id), csv_cell(file.title),
+                                 csv_cell(quantity_in(file, format)), format.unit, name_of(file.colours),
                                  per_value * file.low, per_value * file.high);
         }
     }

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "experiment/base/safe_text.h"
 #include "experiment/base/whole_file.h"
 #include "experiment/report/map_names.h"
 #include "experiment/study/study_maps.h"
@@ -47,9 +48,10 @@ int write_volumes(const StudyResults& results, const std::filesystem::path& fold
                    fmt::format("{}; shown {}", meaning, shown_size_words(object)));
         write_cube_table(folder / fmt::format("{}.cube", name), voxels, bounds, most, table_side, title,
                          meaning);
-        index += fmt::format("{},{},{},{:.6g},{:.9g},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f}\n", name,
-                             in_quotes(object.id), in_quotes(title), sigma_mm, most, bounds.min.x,
-                             bounds.min.y, bounds.min.z, bounds.max.x, bounds.max.y, bounds.max.z);
+        index +=
+            fmt::format("{},{},{},{:.6g},{:.9g},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f}\n", csv_cell(name),
+                        csv_cell(object.id), csv_cell(title), sigma_mm, most, bounds.min.x, bounds.min.y,
+                        bounds.min.z, bounds.max.x, bounds.max.y, bounds.max.z);
         ++written;
     }
     write_whole_file(folder / "index.csv", index);

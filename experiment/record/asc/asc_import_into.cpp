@@ -96,14 +96,17 @@ void copy_files(const fs::path& from, const fs::path& to) {
          ++entry) {
         const std::string name = entry->path().filename().string();
         const bool is_of_database = name.starts_with(session_file_name);
-        if (entry->is_directory() && (name.starts_with("export_") || name.starts_with("."))) {
+        if (entry->symlink_status().type() == fs::file_type::directory &&
+            (name.starts_with("export_") || name.starts_with("."))) {
             entry.disable_recursion_pending();
             continue;
         }
-        const fs::path target = to / fs::relative(entry->path(), from);
-        if (entry->is_directory())
+        const fs::path target = to / entry->path().lexically_relative(from);
+        // Links, pipes and devices stay where they are: what they lead to is none of the session.
+        const fs::file_type type = entry->symlink_status().type();
+        if (type == fs::file_type::directory)
             fs::create_directories(target);
-        else if (entry->is_regular_file() && !is_of_database)
+        else if (type == fs::file_type::regular && !is_of_database)
             fs::copy_file(entry->path(), target);
     }
 }

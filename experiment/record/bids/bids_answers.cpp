@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include "experiment/base/content_hash.h"
 #include "experiment/base/error.h"
 #include "experiment/base/output_file.h"
+#include "experiment/base/path_inside.h"
 
 namespace fs = std::filesystem;
 
@@ -28,7 +30,13 @@ void copy_bids_answers(const SessionRecord& record, int run, const BidsNames& na
         const std::string file = fmt::format("{}_trial-{:03}_attempt-{}_answer.wav", names.run_stem(run),
                                              trial.trial.index + 1, trial.attempt);
         std::error_code error;
-        fs::copy_file(record.directory() / answer->file, folder / file, error);
+        const fs::path spoken = require_file_inside(record.directory(), answer->file);
+        if (hash_of_file(spoken) != answer->sha256)
+            throw RecordError(
+                fmt::format("{}: is not the answer that was recorded. Export without the answers, or "
+                            "see with `overt verify` what was changed.",
+                            spoken.string()));
+        fs::copy_file(spoken, folder / file, error);
         if (error)
             throw RecordError(
                 fmt::format("{}: cannot be copied to {}: {}. Export without the answers, or see "

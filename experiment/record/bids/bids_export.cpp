@@ -1,5 +1,6 @@
 #include "experiment/record/bids/bids_export.h"
 
+#include <algorithm>
 #include <iterator>
 #include <map>
 #include <optional>
@@ -10,11 +11,13 @@
 #include "experiment/base/content_hash.h"
 #include "experiment/base/error.h"
 #include "experiment/base/partial_directory.h"
+#include "experiment/base/path_inside.h"
 #include "experiment/record/bids/bids_answers.h"
 #include "experiment/record/bids/bids_dataset.h"
 #include "experiment/record/bids/bids_events.h"
 #include "experiment/record/bids/bids_gaze.h"
 #include "experiment/record/bids/bids_participants.h"
+#include "experiment/record/manifest.h"
 #include "experiment/record/preview_file.h"
 #include "experiment/record/session_lock.h"
 
@@ -27,7 +30,14 @@ namespace {
 class Stimuli {
   public:
     Stimuli(const SessionRecord& record, fs::path staged, fs::path dataset, const BidsNames& names)
-        : record_(record), staged_(std::move(staged)), dataset_(std::move(dataset)), task_(names.task) {}
+        : record_(record), staged_(std::move(staged)), dataset_(std::move(dataset)), task_(names.task) {
+        try {
+            for (const SessionManifest::File& file : read_manifest(record.directory()).files)
+                listed_[file.path] = file.sha256;
+        } catch (const RecordError&) {
+            // Sessions of the first formats have none.
+        }
+    }
 
     /// Its path under "stimuli", or empty.
     const std::string& file_of(const Stimulus& stimulus) {
@@ -35,12 +45,22 @@ class Stimuli {
         return known != files_.end() ? known->second : files_[stimulus] = put(stimulus);
     }
 
+    std::vector<std::string> remarks; ///< on what was left out
+
   private:
-    std::string put(const Stimulus& stimulus) const {
-        const fs::path from = record_.directory() / preview_file(record_.header(), stimulus);
-        if (!fs::is_regular_file(from))
+    std::string put(const Stimulus& stimulus) {
+        const std::string recorded = preview_file(record_.header(), stimulus);
+        const fs::path from = record_.directory() / recorded;
+        const std::string why = why_no_file_inside(record_.directory(), recorded);
+        const ContentHash hash = why.empty() ? hash_of_file(from) : ContentHash();
+        const auto listed = listed_.find(recorded);
+        const bool is_listed = listed_.empty() || (listed != listed_.end() && listed->second == hash);
+        if (!why.empty() || !is_listed) {
+            if (why != "is missing")
+                remarks.push_back(fmt::format("{} was left out: it {}", recorded,
+                                              why.empty() ? "is not the file that the manifest names" : why));
             return {};
-        const std::string hash = hash_of_file(from);
+        }
         std::string name = fmt::format("{}/{}", task_, from.filename().string());
         // Another session may have shown something else under this name.
         if (const fs::path there = dataset_ / "stimuli" / name;
@@ -62,6 +82,7 @@ class Stimuli {
     const fs::path staged_, dataset_;
     const std::string task_;
     std::map<Stimulus, std::string> files_;
+    std::map<std::string, ContentHash> listed_; ///< by the manifest
 };
 
 } // namespace
@@ -120,6 +141,7 @@ BidsExportCounts export_bids(const SessionRecord& record, const LookupFor& looku
         if (options.progress)
             options.progress(counts.runs, static_cast<int>(runs.size()));
     }
+    std::ranges::move(stimuli.remarks, std::back_inserter(counts.remarks));
     const auto finish = [&](const fs::path& folder) {
         describe_bids_dataset(folder, record.header());
         return add_bids_participant(folder, record);

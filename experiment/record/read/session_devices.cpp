@@ -6,7 +6,7 @@ namespace overt {
 std::vector<RecordedButton> SessionRecord::button_changes() const {
     return reading_session(file_, [&] {
         return read_later_rows(
-            *database_, "button_change",
+            database(), "button_change",
             "SELECT sitting, at_ns, uncertainty_ns, COALESCE(trial, -1), attempt_id, box, "
             "used_by = 'operator', button, name, is_down, device_us, meaning FROM button_change ORDER BY id",
             [](Query& row) {
@@ -25,7 +25,7 @@ std::vector<RecordedButton> SessionRecord::button_changes() const {
 std::vector<RecordedKeyPress> SessionRecord::key_presses() const {
     return reading_session(file_, [&] {
         return read_later_rows(
-            *database_, "key_press",
+            database(), "key_press",
             "SELECT sitting, at_ns, uncertainty_ns, COALESCE(trial, -1), attempt_id, device, name, code, "
             "modifiers, text, screen, meaning FROM key_press ORDER BY id",
             [](Query& row) {
@@ -44,7 +44,7 @@ std::vector<RecordedKeyPress> SessionRecord::key_presses() const {
 
 std::vector<RecordedMarker> SessionRecord::markers() const {
     return reading_session(file_, [&] {
-        return read_later_rows(*database_, "marker",
+        return read_later_rows(database(), "marker",
                                "SELECT sitting, at_ns, COALESCE(trial, -1), attempt_id, output, text, code, "
                                "is_sent, not_before_ns, not_after_ns, planned_refresh, "
                                "shown_refresh FROM marker ORDER BY id",

@@ -68,6 +68,8 @@ struct SessionRecord::FindingEvents {
     std::optional<ChosenThresholds> everywhere;
     std::mutex mutex; ///< of what follows
     std::map<int, FoundEvents> found;
+    std::mutex clock_mutex;
+    std::map<int, std::optional<ClockMap>> clock_maps; ///< by sitting, once asked for
 };
 
 std::string sentence_on(const SessionRecord::EventOrigin& origin) {
@@ -77,8 +79,10 @@ std::string sentence_on(const SessionRecord::EventOrigin& origin) {
     if (origin.from == From::tracker)
         return "Fixations, saccades and blinks are those of the eye tracker itself.";
     if (origin.from == From::no_angles)
-        return "Fixations, saccades and blinks were not looked for, because angles are unknown: the session says "
-               "neither how large its screen is and how far away it was, nor the tracker's pixels per degree. "
+        return "Fixations, saccades and blinks were not looked for, because angles are unknown: the session "
+               "says "
+               "neither how large its screen is and how far away it was, nor the tracker's pixels per "
+               "degree. "
                "Import the recording again with --screen-mm and --distance-mm.";
     return fmt::format("Fixations, saccades and blinks were found {}, by the detector of {}, version {}: {}.",
                        origin.from == From::recording ? "while the session was recorded"
@@ -102,6 +106,17 @@ void SessionRecord::detect_events(const ChosenThresholds& chosen) {
 void SessionRecord::detect_events_as(const SessionRecord& other) {
     finding_ = other.finding_;
     event_origins_.clear();
+}
+
+// Each trial asks for it, and it is made of all readings of the sitting.
+std::optional<ClockMap> SessionRecord::clock_map(int sitting) const {
+    const std::scoped_lock lock(finding_->clock_mutex);
+    const auto known = finding_->clock_maps.find(sitting);
+    if (known != finding_->clock_maps.end())
+        return known->second;
+    const std::vector<ClockPair> pairs = clock_pairs(sitting);
+    return finding_->clock_maps[sitting] =
+               pairs.empty() ? std::nullopt : std::optional<ClockMap>(ClockMap(pairs));
 }
 
 void SessionRecord::make_ready_to_find() { finding_ = std::make_shared<FindingEvents>(); }
@@ -159,7 +174,7 @@ const SessionRecord::FoundEvents& SessionRecord::found_events(int sitting, bool 
     if (known == finding_->found.end()) {
         FoundEvents found;
         const std::optional<EventDetection> noted = reading_session(file_, [&] {
-            return has_table(*database_, "event_detection") ? read_event_detection(*database_, sitting)
+            return has_table(database(), "event_detection") ? read_event_detection(database(), sitting)
                                                             : std::nullopt;
         });
         const std::optional<EventSettings> as_noted = noted ? settings_of(*noted) : std::nullopt;
@@ -218,8 +233,8 @@ void SessionRecord::read_gaze_events(const TrialRecord& trial,
 void SessionRecord::read_gaze_events_of(std::int64_t trial_id,
                                         const std::function<void(const GazeEvent&)>& take) const {
     reading_session(file_, [&] {
-        if (has_table(*database_, "gaze_event"))
-            overt::read_gaze_events(*database_, trial_id, take);
+        if (has_table(database(), "gaze_event"))
+            overt::read_gaze_events(database(), trial_id, take);
     });
 }
 
@@ -252,7 +267,7 @@ SessionRecord::EventOrigin SessionRecord::find_event_origin(int sitting) const {
     using From = EventOrigin::From;
     const bool is_imported = gaze_source(sitting).has_value();
     const auto has_rows = [&](const char* sql) {
-        Query row(*database_, sql);
+        Query row(database(), sql);
         row.bind(1, sitting);
         return row.step() && row.integer() != 0;
     };
@@ -261,10 +276,10 @@ SessionRecord::EventOrigin SessionRecord::find_event_origin(int sitting) const {
             has_rows("SELECT EXISTS (SELECT * FROM sample JOIN trial USING (trial_id) WHERE sitting = ?)");
         if (finding_->everywhere && has_samples)
             return {From::reading, {}};
-        if (has_table(*database_, "event_detection"))
-            if (const auto detection = read_event_detection(*database_, sitting))
+        if (has_table(database(), "event_detection"))
+            if (const auto detection = read_event_detection(database(), sitting))
                 return {is_imported ? From::reading : From::recording, *detection};
-        if (has_table(*database_, "gaze_event") &&
+        if (has_table(database(), "gaze_event") &&
             has_rows("SELECT EXISTS (SELECT * FROM gaze_event JOIN trial USING (trial_id) WHERE sitting = ? "
                      "AND kind IN ('fixation', 'saccade', 'blink'))"))
             return {From::tracker, {}};

@@ -77,16 +77,16 @@ RecordedAnswer read_answer(Query& row, int trial) {
 std::vector<FlipRecord> SessionRecord::flips(const TrialRecord& trial) const {
     std::vector<FlipRecord> rows = reading_session(file_, [&] {
         return read_rows(
-            *database_,
+            database(),
             fmt::format("SELECT refresh_in_trial, refresh, planned, shown, pose, requested_ns, swapped_ns, "
                         "vertical_blank_ns, source, missed, {}, {} FROM flip WHERE trial_id = ? ORDER BY n",
-                        has_column(*database_, "flip", "uncertainty_ns") ? "uncertainty_ns" : "0",
-                        has_column(*database_, "flip", "step") ? "step" : "0"),
+                        has_column(database(), "flip", "uncertainty_ns") ? "uncertainty_ns" : "0",
+                        has_column(database(), "flip", "step") ? "step" : "0"),
             [&](Query& row) { return read_flip(row, trial.trial.index); }, trial.id);
     });
     const int frame_count = header_.animation_of(trial.trial.stimulus).frame_count;
     if (trial.place > 0)
-        take_slot_flips(*database_, trial, rows);
+        take_slot_flips(database(), trial, rows);
     for (const FlipRecord& flip : rows) {
         const auto is_frame = [&](AnimationFrameIndex frame) {
             return frame == no_frame || (frame.value >= 0 && frame.value < frame_count);
@@ -106,7 +106,7 @@ std::vector<FlipRecord> SessionRecord::flips(const TrialRecord& trial) const {
 }
 
 std::vector<SteeredFlip> SessionRecord::steered_flips(const TrialRecord& trial) const {
-    return reading_session(file_, [&] { return read_steered_flips(*database_, trial); });
+    return reading_session(file_, [&] { return read_steered_flips(database(), trial); });
 }
 
 std::vector<GazeSample> SessionRecord::samples(const TrialRecord& trial) const {
@@ -131,7 +131,7 @@ void SessionRecord::read_samples_of(std::int64_t trial_id, std::size_t most,
                                     const std::function<void(std::span<const GazeSample>)>& take) const {
     reading_session(file_, [&] {
         std::vector<GazeSample> piece;
-        Query row(*database_,
+        Query row(database(),
                   "SELECT tracker_us, eye, x_px, y_px, pupil_area FROM sample WHERE trial_id = ? ORDER BY n");
         row.bind(1, trial_id);
         while (row.step()) {
@@ -149,7 +149,7 @@ void SessionRecord::read_samples_of(std::int64_t trial_id, std::size_t most,
 std::optional<std::pair<TrackerTime, TrackerTime>>
 SessionRecord::sample_span(const TrialRecord& trial) const {
     return reading_session(file_, [&]() -> std::optional<std::pair<TrackerTime, TrackerTime>> {
-        Query row(*database_, "SELECT COUNT(*), COALESCE(MIN(tracker_us), 0), COALESCE(MAX(tracker_us), 0) "
+        Query row(database(), "SELECT COUNT(*), COALESCE(MIN(tracker_us), 0), COALESCE(MAX(tracker_us), 0) "
                               "FROM sample WHERE trial_id = ?");
         row.bind(1, trial.id);
         if (!row.step() || row.integer() == 0)
@@ -162,7 +162,7 @@ SessionRecord::sample_span(const TrialRecord& trial) const {
 SessionRecord::Eyes SessionRecord::eyes(int sitting) const {
     return reading_session(file_, [&] {
         Query row(
-            *database_,
+            database(),
             "SELECT COALESCE(MAX(eye = 0), 0), COALESCE(MAX(eye <> 0), 0) FROM sample WHERE ABS(trial_id) "
             "IN (SELECT trial_id FROM trial WHERE sitting = ?)");
         row.bind(1, sitting);
@@ -176,7 +176,7 @@ SessionRecord::Eyes SessionRecord::eyes(int sitting) const {
 std::optional<RecordedAnswer> SessionRecord::answer_recording(const TrialRecord& trial) const {
     return reading_session(file_, [&] {
         const std::vector<RecordedAnswer> answers = read_later_rows(
-            *database_, "answer_recording",
+            database(), "answer_recording",
             "SELECT file, sha256, device, sample_rate_hz, measured_rate_hz, bits, input_latency_ns, samples, "
             "onset_sample, onset_uncertainty_ns, overruns, lost_samples, peak_dbfs, noise_dbfs, "
             "clipped_samples, fault, voice_onset_ns, voice_end_ns FROM answer_recording WHERE trial_id = ?",

@@ -52,8 +52,8 @@ SessionRecord::SessionRecord(const std::filesystem::path& session)
       database_(std::make_unique<SQLite::Database>(open_session_file(file_, SessionFileUse::read))) {
     make_ready_to_find();
     reading_session(file_, [&] {
-        header_ = read_session_header(*database_);
-        trials_ = read_trials(*database_);
+        header_ = read_session_header(database());
+        trials_ = read_trials(database());
         for (TrialRecord& trial : trials_) {
             const auto planned = static_cast<std::size_t>(trial.trial.index);
             if (trial.trial.index >= 0 && planned < header_.schedule.trials.size()) {
@@ -68,6 +68,14 @@ SessionRecord::SessionRecord(const std::filesystem::path& session)
     check_header(header_, file_);
     check_indices(header_, trials_, file_);
 }
+const SQLite::Database& SessionRecord::database() const {
+    if (!database_)
+        database_ = std::make_unique<SQLite::Database>(open_session_file(file_, SessionFileUse::read));
+    return *database_;
+}
+
+void SessionRecord::rest() const noexcept { database_.reset(); }
+
 SessionRecord::~SessionRecord() = default;
 SessionRecord::SessionRecord(SessionRecord&&) noexcept = default;
 SessionRecord& SessionRecord::operator=(SessionRecord&&) noexcept = default;
@@ -125,7 +133,7 @@ std::vector<RecordedEvent> SessionRecord::events() const {
 
 void SessionRecord::read_events(const std::function<void(const RecordedEvent&)>& take) const {
     reading_session(file_, [&] {
-        for (Query row(*database_, "SELECT sitting, at_ns, trial, kind, detail FROM event ORDER BY id");
+        for (Query row(database(), "SELECT sitting, at_ns, trial, kind, detail FROM event ORDER BY id");
              row.step();)
             take(
                 {row.small(), row.session_time(), row.optional_small().value_or(-1), row.text(), row.text()});
@@ -134,7 +142,7 @@ void SessionRecord::read_events(const std::function<void(const RecordedEvent&)>&
 
 SessionTime SessionRecord::last_time() const {
     return reading_session(file_, [&] {
-        Query row(*database_,
+        Query row(database(),
                   "SELECT MAX((SELECT COALESCE(MAX(at_ns), 0) FROM event), "
                   "(SELECT COALESCE(MAX(MAX(started_ns, COALESCE(responded_ns, 0))), 0) FROM trial), "
                   "(SELECT COALESCE(MAX(after_ns), 0) FROM clock_pair), "
@@ -142,11 +150,11 @@ SessionTime SessionRecord::last_time() const {
         row.step();
         SessionTime last = row.session_time();
         for (const SessionTime of_box : read_later_rows(
-                 *database_, "box_clock_pair", "SELECT COALESCE(MAX(after_ns), 0) FROM box_clock_pair",
+                 database(), "box_clock_pair", "SELECT COALESCE(MAX(after_ns), 0) FROM box_clock_pair",
                  [](Query& box) { return box.session_time(); }))
             last = std::max(last, of_box);
         for (const SessionTime of_key :
-             read_later_rows(*database_, "key_press", "SELECT COALESCE(MAX(at_ns), 0) FROM key_press",
+             read_later_rows(database(), "key_press", "SELECT COALESCE(MAX(at_ns), 0) FROM key_press",
                              [](Query& key) { return key.session_time(); }))
             last = std::max(last, of_key);
         return last;
@@ -167,7 +175,7 @@ bool SessionRecord::is_complete() const {
 std::vector<std::string> SessionRecord::damages() const {
     std::vector<std::string> damages;
     try {
-        for (Query row(*database_, "PRAGMA integrity_check"); row.step();)
+        for (Query row(database(), "PRAGMA integrity_check"); row.step();)
             if (const std::string finding = row.text(); finding != "ok")
                 damages.push_back(fmt::format("{}: {}", file_.string(), finding));
     } catch (const SQLite::Exception& reason) {

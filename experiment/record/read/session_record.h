@@ -293,7 +293,12 @@ class SessionRecord {
     /// Reads the whole file and gives a sentence for each thing that is wrong with it; empty if it is sound.
     std::vector<std::string> damages() const;
 
+    /// Lets go of the file until something is read again: each session that is open holds descriptors, of
+    /// which a program has some hundred. No read may be under way.
+    void rest() const noexcept;
+
   private:
+    const SQLite::Database& database() const;
     std::optional<KnownInterval> refresh_interval(int sitting) const;
     EventOrigin find_event_origin(int sitting) const;
     struct FindingEvents;
@@ -314,7 +319,7 @@ class SessionRecord {
 
     std::filesystem::path directory_;
     std::filesystem::path file_;
-    std::unique_ptr<SQLite::Database> database_;
+    mutable std::unique_ptr<SQLite::Database> database_; ///< null while nothing is read: see rest()
     SessionHeader header_;
     std::vector<TrialRecord> trials_;
     mutable std::map<int, std::optional<KnownInterval>> intervals_; ///< by sitting, once asked for

@@ -19,7 +19,7 @@ RecordedBox::Use use_from(const std::string& word) {
 std::vector<RecordedOption> SessionRecord::run_options(int sitting) const {
     return reading_session(file_, [&] {
         return read_later_rows(
-            *database_, "run_option", "SELECT name, value FROM run_option WHERE sitting = ?1 ORDER BY n",
+            database(), "run_option", "SELECT name, value FROM run_option WHERE sitting = ?1 ORDER BY n",
             [](Query& row) {
                 std::string name = row.text();
                 return RecordedOption{std::move(name), row.text()};
@@ -31,7 +31,7 @@ std::vector<RecordedOption> SessionRecord::run_options(int sitting) const {
 std::vector<RecordedConsent> SessionRecord::consents() const {
     return reading_session(file_, [&] {
         return read_later_rows(
-            *database_, "consent",
+            database(), "consent",
             "SELECT observer, accepted, at_ns, at_utc, text_sha256 FROM consent ORDER BY n", [](Query& row) {
                 return RecordedConsent{row.text(), row.integer() != 0, row.session_time(), row.text(),
                                        row.text()};
@@ -42,11 +42,11 @@ std::vector<RecordedConsent> SessionRecord::consents() const {
 std::vector<RecordedObserverField> SessionRecord::observer_fields() const {
     return reading_session(file_, [&] {
         const char* const sql =
-            has_table(*database_, "observer_form")
+            has_table(database(), "observer_form")
                 ? "SELECT f.id, title, value, COALESCE(asked, 'begin'), at_ns FROM observer_field f "
                   "LEFT JOIN observer_form o ON o.field = f.id ORDER BY n"
                 : "SELECT id, title, value, 'begin', NULL FROM observer_field ORDER BY n";
-        return read_later_rows(*database_, "observer_field", sql, [](Query& row) {
+        return read_later_rows(database(), "observer_field", sql, [](Query& row) {
             RecordedObserverField field;
             row.read(field.id, field.title, field.value, field.asked, field.at);
             return field;
@@ -56,13 +56,13 @@ std::vector<RecordedObserverField> SessionRecord::observer_fields() const {
 
 std::optional<GazeSource> SessionRecord::gaze_source(int sitting) const {
     return reading_session(file_, [&] {
-        return has_table(*database_, "gaze_source") ? read_gaze_source(*database_, sitting) : std::nullopt;
+        return has_table(database(), "gaze_source") ? read_gaze_source(database(), sitting) : std::nullopt;
     });
 }
 
 std::string SessionRecord::started_utc(int sitting) const {
     return reading_session(file_, [&] {
-        Query row(*database_, "SELECT started_utc FROM sitting WHERE sitting = ?");
+        Query row(database(), "SELECT started_utc FROM sitting WHERE sitting = ?");
         row.bind(1, sitting);
         return row.step() ? row.text() : std::string();
     });
@@ -71,7 +71,7 @@ std::string SessionRecord::started_utc(int sitting) const {
 std::vector<ClockPair> SessionRecord::clock_pairs(int sitting) const {
     return reading_session(file_, [&] {
         return read_rows(
-            *database_,
+            database(),
             "SELECT before_ns, tracker_us, after_ns FROM clock_pair WHERE sitting = ? ORDER BY id",
             [](Query& row) {
                 return ClockPair{row.session_time(), row.tracker_time(), row.session_time()};
@@ -82,14 +82,9 @@ std::vector<ClockPair> SessionRecord::clock_pairs(int sitting) const {
 
 std::vector<RecordedCalibration> SessionRecord::calibrations(int sitting) const {
     return reading_session(file_, [&] {
-        return has_table(*database_, "calibration") ? read_calibrations(*database_, sitting)
+        return has_table(database(), "calibration") ? read_calibrations(database(), sitting)
                                                     : std::vector<RecordedCalibration>();
     });
-}
-
-std::optional<ClockMap> SessionRecord::clock_map(int sitting) const {
-    const std::vector<ClockPair> pairs = clock_pairs(sitting);
-    return pairs.empty() ? std::nullopt : std::optional<ClockMap>(ClockMap(pairs));
 }
 
 std::optional<ClockMap> SessionRecord::clock_map(const TrialRecord& trial) const {
@@ -102,7 +97,7 @@ std::optional<ClockMap> SessionRecord::clock_map(const TrialRecord& trial) const
 std::vector<std::pair<int, RecordedBox>> SessionRecord::display_boxes() const {
     return reading_session(file_, [&] {
         return read_later_rows(
-            *database_, "display_box",
+            database(), "display_box",
             "SELECT sitting, use, port, product, serial_number, firmware_date, mode, gamma_table, "
             "COALESCE(settled_after_ns, 0), COALESCE(video_rate_hz, 0.0) FROM display_box ORDER BY sitting",
             [](Query& row) {
@@ -117,7 +112,7 @@ std::vector<std::pair<int, RecordedBox>> SessionRecord::display_boxes() const {
 std::vector<BoxClockPair> SessionRecord::box_clock_readings(int sitting) const {
     return reading_session(file_, [&] {
         return read_later_rows(
-            *database_, "box_clock_pair",
+            database(), "box_clock_pair",
             "SELECT before_ns, box_us, after_ns FROM box_clock_pair WHERE sitting = ? ORDER BY id",
             [](Query& row) {
                 return BoxClockPair{row.session_time(), BoxTime(BoxClock::duration(row.integer())),
@@ -129,8 +124,8 @@ std::vector<BoxClockPair> SessionRecord::box_clock_readings(int sitting) const {
 
 std::vector<std::pair<int, std::string>> SessionRecord::resumptions() const {
     return reading_session(file_, [&] {
-        const bool tells_policy = has_column(*database_, "sitting", "resumed");
-        return read_rows(*database_,
+        const bool tells_policy = has_column(database(), "sitting", "resumed");
+        return read_rows(database(),
                          tells_policy
                              ? "SELECT sitting, resumed FROM sitting WHERE sitting > 1 ORDER BY sitting"
                              : "SELECT sitting, NULL FROM sitting WHERE sitting > 1 ORDER BY sitting",
@@ -143,14 +138,14 @@ std::vector<std::pair<int, std::string>> SessionRecord::resumptions() const {
 
 std::vector<int> SessionRecord::skipped_trials() const {
     return reading_session(file_, [&] {
-        return read_later_rows(*database_, "given_up", "SELECT trial FROM given_up ORDER BY trial",
+        return read_later_rows(database(), "given_up", "SELECT trial FROM given_up ORDER BY trial",
                                [](Query& row) { return row.small(); });
     });
 }
 
 bool SessionRecord::closed_in_order(int sitting) const {
     return reading_session(file_, [&] {
-        Query row(*database_, "SELECT closed FROM sitting WHERE sitting = ?1");
+        Query row(database(), "SELECT closed FROM sitting WHERE sitting = ?1");
         row.bind(1, sitting);
         return row.step() && row.integer() != 0;
     });
@@ -158,7 +153,7 @@ bool SessionRecord::closed_in_order(int sitting) const {
 
 bool SessionRecord::closed_in_order() const {
     return reading_session(file_, [&] {
-        Query row(*database_, "SELECT closed FROM sitting ORDER BY sitting DESC LIMIT 1");
+        Query row(database(), "SELECT closed FROM sitting ORDER BY sitting DESC LIMIT 1");
         return row.step() && row.integer() != 0;
     });
 }

@@ -133,7 +133,8 @@ PupilWords pupil_words(const SessionRecord& record, std::optional<int> sitting) 
         if (measure == most->first)
             continue;
         PupilWords other = pupil_words(measure);
-        other.meaning.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(other.meaning.front())));
+        other.meaning.front() =
+            static_cast<char>(std::tolower(static_cast<unsigned char>(other.meaning.front())));
         words.meaning += fmt::format("; in {} {} {}", numbers.size() == 1 ? "trial" : "trials",
                                      fmt::join(numbers, ", "), other.meaning);
         if (other.unit != words.unit)

@@ -9,6 +9,7 @@
 #include "experiment/base/error.h"
 #include "experiment/base/json_text.h"
 #include "experiment/base/number_text.h"
+#include "experiment/base/safe_text.h"
 
 namespace overt {
 namespace {
@@ -34,21 +35,6 @@ std::string escaped(std::string_view text) {
         }
     }
     return cell;
-}
-
-/// Blanks at the ends are quoted, too: some readers take them away otherwise.
-std::string quoted(std::string_view text) {
-    const bool is_plain =
-        text.find_first_of(",\"\r\n") == std::string_view::npos && text.front() != ' ' && text.back() != ' ';
-    if (is_plain)
-        return std::string(text);
-    std::string cell = "\"";
-    for (const char c : text) {
-        if (c == '"')
-            cell += '"';
-        cell += c;
-    }
-    return cell + '"';
 }
 
 std::string_view separator_of(TableFormat format) {
@@ -101,9 +87,9 @@ std::string text_cell(std::string_view text, TableFormat format) {
         return std::string(missing_in(format));
     switch (format) {
     case TableFormat::tsv:
-        return escaped(text);
+        return escaped(without_formula(text));
     case TableFormat::csv:
-        return quoted(text);
+        return csv_cell(text);
     case TableFormat::jsonl:
         break;
     }

@@ -48,9 +48,10 @@ struct Table {
 
 /// How cells become lines, each with a newline at its end. Missing values and empty texts are n/a or null.
 enum class TableFormat : std::uint8_t {
-    tsv,   ///< tabs between cells; in texts tab, newline, carriage return and backslash become \t, \n, \r and
-           ///< \\.
-    csv,   ///< commas between cells; texts with a comma, quote or line break stand in quotes (RFC 4180)
+    tsv, ///< tabs between cells; in texts tab, newline, carriage return and backslash become \t, \n, \r and
+         ///< \\.
+    csv, ///< commas between cells; texts with a comma, quote or line break stand in quotes (RFC 4180)
+    // In both, a text that a spreadsheet would take for a formula has an apostrophe before it (safe_text.h).
     jsonl, ///< each row a JSON object with the columns' names; numbers are numbers
 };
 

@@ -1,6 +1,7 @@
 #include "experiment/record/verify/seal_check.h"
 
 #include <algorithm>
+#include <charconv>
 #include <map>
 #include <set>
 #include <tuple>
@@ -154,12 +155,12 @@ class SealCheck {
                 [&] { compare(seal, sealed); });
     }
 
-    std::int64_t latest_seal_of(const std::string& table, SealedRows rows) const {
-        for (auto seal = seals_.rbegin(); seal != seals_.rend(); ++seal)
-            for (const TableSeal& other : seal->tables)
-                if (other.name == table && other.rows == rows)
-                    return seal->number;
-        return 0;
+    std::int64_t latest_seal_of(const std::string& table, SealedRows rows) {
+        if (latest_.empty())
+            for (const Seal& seal : seals_)
+                for (const TableSeal& sealed : seal.tables)
+                    latest_[{sealed.name, sealed.rows}] = seal.number;
+        return latest_[{table, rows}];
     }
 
     /// The file's own names for tables and columns that a seal may know by the names of an earlier format.
@@ -175,6 +176,10 @@ class SealCheck {
             return report(sealed.name, seal.trial_id, "", "the table is gone");
         SealedTable table = *known;
         table.columns = names_here(sealed.columns);
+        if (!has_columns(*known, table.columns))
+            return report("sealed_table", seal.trial_id,
+                          fmt::format("seal = {}, name = {}", seal.number, sealed.name),
+                          "names columns that the table does not have");
         const RowChoice rows = sealed_choice(table, sealed.rows);
         const RowDigest now = digest_rows(database_, rows, sealed.after_id, sealed.to_id);
         if (now.sha256 == sealed.sha256 && now.rows == sealed.row_count)
@@ -188,14 +193,36 @@ class SealCheck {
         report(sealed.name, trial_id, row ? key_of(rows, sealed, *row) : "",
                row ? "is not as it was sealed" : "has rows that are not as they were sealed");
         if (row && sealed.rows == SealedRows::new_ones)
-            findings_.damages.back().trial = trial_of(sealed, findings_.damages.back().row);
+            findings_.damages.back().trial = trial_of(table, findings_.damages.back().row);
     }
 
-    /// The trial that a row outside of the tables of trials names, such as an event.
-    std::optional<int> trial_of(const TableSeal& sealed, const std::string& key) const {
-        if (!has_column(database_, sealed.name.c_str(), "trial"))
+    /// What a seal says is text of the file: it becomes part of a statement only where it is names of columns
+    /// that are there.
+    static bool has_columns(const SealedTable& table, std::string_view sealed) {
+        std::set<std::string_view> there;
+        const auto each = [](std::string_view list, const auto& take) {
+            while (!list.empty()) {
+                const std::string_view name = list.substr(0, list.find(", "));
+                take(name);
+                list.remove_prefix(std::min(list.size(), name.size() + 2));
+            }
+        };
+        each(table.columns, [&](std::string_view name) { there.insert(name); });
+        bool all = !sealed.empty();
+        each(sealed, [&](std::string_view name) { all = all && there.contains(name); });
+        return all;
+    }
+
+    /// The trial that a row outside of the tables of trials names, such as an event. `key`: "id = 12".
+    std::optional<int> trial_of(const SealedTable& table, std::string_view key) const {
+        std::int64_t id = 0;
+        const std::string_view number = key.substr(std::min(key.size(), key.rfind(' ') + 1));
+        const auto read = std::from_chars(number.data(), number.data() + number.size(), id);
+        if (read.ec != std::errc() || read.ptr != number.data() + number.size() ||
+            !has_column(database_, table.name.c_str(), "trial"))
             return std::nullopt;
-        Query row(database_, fmt::format("SELECT trial FROM \"{}\" WHERE {}", sealed.name, key).c_str());
+        Query row(database_, fmt::format("SELECT trial FROM \"{}\" WHERE id = ?", table.name).c_str());
+        row.bind(1, id);
         return row.step() ? row.optional_small() : std::nullopt;
     }
 
@@ -262,6 +289,7 @@ class SealCheck {
     std::map<std::int64_t, std::pair<int, int>> trials_; ///< trial and attempt by trial_id
     std::vector<Seal> seals_;
     std::vector<SealedTable> tables_;
+    std::map<std::pair<std::string, SealedRows>, std::int64_t> latest_; ///< number of the latest seal of rows
     std::set<std::int64_t> sealed_trials_;
     std::map<std::string, std::int64_t> sealed_to_;
     std::set<std::string> has_outside_seal_;

@@ -10,6 +10,7 @@
 
 #include "experiment/base/error.h"
 #include "experiment/base/folder_lock.h"
+#include "experiment/base/path_inside.h"
 #include "experiment/base/utf8_text.h"
 #include "experiment/record/file_hash.h"
 #include "experiment/record/manifest.h"
@@ -88,6 +89,8 @@ class SessionVerification {
     void look_at_log() {
         // While it is written its end cannot be told from damage.
         if (result_.state == Verification::State::running)
+            return;
+        if (!is_file_inside(folder_, log_name_))
             return;
         const std::optional<LogFinding> found = look_through_log(folder_ / log_name_);
         if (found && found->kind == LogFinding::Kind::damaged)
@@ -228,6 +231,7 @@ class SessionVerification {
                 continue; // it has gone on since
             look_at_file(file);
         }
+        look_for_links();
         for (const std::string& name : files_of_session(folder_, false)) {
             if (known.contains(name))
                 continue;
@@ -244,11 +248,23 @@ class SessionVerification {
                                        "overt run … --resume finishes it");
     }
 
+    /// What lies in the folder and is none of its files; nothing follows it.
+    void look_for_links() {
+        for (const auto& entry : fs::recursive_directory_iterator(folder_)) {
+            const fs::file_type type = entry.symlink_status().type();
+            if (type == fs::file_type::regular || type == fs::file_type::directory)
+                continue;
+            result_.notes.push_back(fmt::format("{}: is {}, and is neither read nor copied",
+                                                entry.path().lexically_relative(folder_).generic_string(),
+                                                type == fs::file_type::symlink ? "a link" : "no file"));
+        }
+    }
+
     void look_at_file(const SessionManifest::File& file) {
         const fs::path path = folder_ / file.path;
         std::error_code error;
-        if (!fs::is_regular_file(path, error))
-            return damage(file.path, "is missing");
+        if (const std::string why = why_no_file_inside(folder_, file.path); !why.empty())
+            return damage(file.path, why);
         ++result_.files;
         result_.bytes += static_cast<std::int64_t>(fs::file_size(path, error));
         if (fs::file_size(path, error) != file.bytes)
@@ -282,6 +298,27 @@ class SessionVerification {
 std::string_view name_of(Verification::State state) {
     constexpr std::string_view names[] = {"closed", "interrupted", "running"};
     return names[static_cast<int>(state)];
+}
+
+std::vector<std::string> broken_seals(const fs::path& session) {
+    std::vector<std::string> sentences;
+    const fs::path folder = session.filename() == session_file_name ? session.parent_path() : session;
+    try {
+        const SQLite::Database database =
+            open_session_file(folder / session_file_name, SessionFileUse::as_it_is);
+        SQLite::Statement(database, "BEGIN").exec(); // one state of it, also while it is written
+        Query version(database, "PRAGMA user_version");
+        if (!version.step() || version.small() < first_version_with_seals)
+            return sentences;
+        Query closed(database, "SELECT closed FROM sitting ORDER BY sitting DESC LIMIT 1");
+        const bool is_closed = closed.step() && closed.integer() == 1;
+        for (const Damage& damage : check_seals(database, is_closed).damages)
+            sentences.push_back(to_text(damage));
+    } catch (const Error&) {
+    } catch (const SQLite::Exception& error) {
+        sentences.push_back(fmt::format("{}: cannot be read: {}", session_file_name, error.what()));
+    }
+    return sentences;
 }
 
 Verification verify_session(const fs::path& folder) {

@@ -29,4 +29,9 @@ std::string_view name_of(Verification::State state);
 /// program.
 Verification verify_session(const std::filesystem::path& folder);
 
+/// What is not as it was sealed among the rows of a session, a sentence for each; nothing else of the session is
+/// looked at, and nothing said of what has no seals: sessions of early formats, and rows of a trial that runs.
+/// What cannot be opened has none: reading it says why. From any thread.
+std::vector<std::string> broken_seals(const std::filesystem::path& session);
+
 } // namespace overt

@@ -34,8 +34,8 @@ std::optional<ChosenByProcedure> chosen_by_procedure(std::string_view words) {
 }
 
 /// Of a match, those of the stimulus that is matched: the first in another slot.
-std::vector<std::pair<std::string, std::string>>
-levels_beside(const GivenAnswer& match, const Trial& trial, std::span<const AnsweredStimulus> shown) {
+std::vector<std::pair<std::string, std::string>> levels_beside(const GivenAnswer& match, const Trial& trial,
+                                                               std::span<const AnsweredStimulus> shown) {
     std::vector<AnsweredStimulus> reference;
     for (std::size_t i = 0; i < shown.size() && reference.empty(); ++i)
         if (trial.shown(i).slot != match.slot)

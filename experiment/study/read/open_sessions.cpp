@@ -22,6 +22,9 @@ std::string folder_name(const std::filesystem::path& session) {
     return path.filename().string();
 }
 
+/// Each holds up to three descriptors, of which a process may have as few as 64.
+constexpr std::size_t most_open_files = 8;
+
 /// What two records of one session have in common, wherever they lie, and however far each has got.
 std::string identity_of(const SessionHeader& header) {
     return fmt::format("{} {} {} {} {} {}", header.schedule.observer.label, header.session_number,
@@ -92,6 +95,8 @@ std::vector<OpenSession> open_sessions(std::span<const std::filesystem::path> se
         one.presentations = one.record().presentations();
         doubles.add(one.record());
         one.validations = validations_of(one.record());
+        one.is_one_of_many = sessions.size() * readers > most_open_files;
+        one.rest();
     }
     doubles.refuse();
     return open;

@@ -25,6 +25,14 @@ struct OpenSession {
     std::map<ViewedObject, int> objects;          ///< of the study, by the session's own indices
     std::vector<TrialRecord> presentations;       ///< of its record: the units of a study
     const SessionRecord& record() const { return *readers.front(); }
+    bool is_one_of_many = false; ///< too many for all of them to keep their files open
+    /// To be called when its readers have done a piece of work: one of many lets go of its files until the
+    /// next.
+    void rest() const {
+        for (const std::unique_ptr<SessionRecord>& reader : readers)
+            if (is_one_of_many)
+                reader->rest();
+    }
 };
 
 /// Each with so many readers that all of them together keep the processors busy. `detect_events`: as in

@@ -11,6 +11,7 @@
 
 #include "experiment/base/error.h"
 #include "experiment/base/parallel.h"
+#include "experiment/base/path_inside.h"
 #include "experiment/maps/coordinate_maps.h"
 #include "experiment/record/no_stimulus.h"
 #include "experiment/record/preview_file.h"
@@ -67,6 +68,7 @@ class StudyReader {
                 throw InputError(fmt::format("{}: this session has changed since it was read: read it again",
                                              read_[i].session.string()));
             results().sessions[i].events = read_[i].events;
+            open_[i].rest();
         }
         for (int object = 0; object < static_cast<int>(study_.surfaces.size()); ++object) {
             find_exposure(object, load_surface(object));
@@ -94,6 +96,7 @@ class StudyReader {
             results().sessions[i].events = record.event_origins();
             read_.push_back({open_[i].path, state_of(record), results().sessions[i].events,
                              std::vector<ReadTrial>(open_[i].presentations.size())});
+            open_[i].rest();
         }
     }
 
@@ -118,6 +121,7 @@ class StudyReader {
                 open_[index].objects[{object, view}] = object_of(index, {object, view});
         }
         results().sessions.push_back(describe_session(open_[index], path));
+        open_[index].rest();
     }
 
     /// Gives sessions the observer that the options take theirs for.
@@ -188,6 +192,8 @@ class StudyReader {
                 const std::scoped_lock lock(progress_mutex);
                 progress_(what, ++done, trials);
             }
+            if (open.is_one_of_many)
+                record.rest();
         });
     }
 
@@ -216,7 +222,7 @@ class StudyReader {
                 const auto pictures = static_cast<int>(key.second.size());
                 const std::filesystem::path file = record.directory() / light_file(header, stimulus.stimulus);
                 if (open_[session].objects.at(viewed(stimulus.stimulus)) != index || light.contains(key) ||
-                    !std::filesystem::exists(file))
+                    !is_file_inside(record.directory(), light_file(header, stimulus.stimulus)))
                     continue;
                 try {
                     light.emplace(
@@ -432,6 +438,7 @@ class StudyReader {
                     if (std::ranges::find(files, file) == files.end())
                         files.push_back(std::move(file));
             }
+            open.rest();
         }
         if (std::ranges::all_of(areas, &std::vector<ScreenArea>::empty))
             areas.clear();
