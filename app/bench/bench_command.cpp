@@ -45,6 +45,11 @@ constexpr Benchmark benchmarks[] = {
     {"procedures",
      "procedures that choose levels, and fits of answers, against known answers and simulated observers",
      bench_procedures},
+    {"growth",
+     "run, export, analyze, verify and replay over 30, 300 and 3,000 trials and 10, 100 and 1,000 sessions, "
+     "their "
+     "time, memory and exponents",
+     bench_growth},
     {"watch", "the operator's view, from a sample to its surface point and to its mark in the window",
      bench_watch}};
 
@@ -102,6 +107,8 @@ void add_bench(CLI::App& app, ChosenCommand& chosen) {
         ->type_name("S")
         ->check(CLI::Range(0.5, 3600.0))
         ->capture_default_str();
+    command.add_flag("--quick", options.is_quick,
+                     "growth: over 4 to 16 trials and 2 to 8 sessions, to see that it goes; no targets");
     add_threshold_options(command, options.thresholds);
     add_context_option(command, options.context);
     add_json_flag(command, options.json);

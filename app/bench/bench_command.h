@@ -45,6 +45,8 @@ BenchFigures bench_tracker(const BenchOptions& options);
 BenchFigures bench_gaze_step(const BenchOptions& options);
 /// Procedures that choose levels, and fits of answers, against known answers and simulated observers.
 BenchFigures bench_procedures(const BenchOptions& options);
+/// Time and memory of whole commands as sessions have more trials, and studies more sessions; the exponents.
+BenchFigures bench_growth(const BenchOptions& options);
 /// The operator's view: from a sample to its surface point, and to its mark in the window.
 BenchFigures bench_watch(const BenchOptions& options);
 

@@ -27,6 +27,7 @@ struct BenchOptions {
     double seconds = 60.0;                    ///< tracker, watch: of real time
     ChosenThresholds thresholds;              ///< events: those that are not left to the gaze
     ContextChoice context;
+    bool is_quick = false; ///< growth: over a few trials and sessions only
     bool json = false;
 };
 int run_bench(const BenchOptions& options);

@@ -3,9 +3,9 @@
 #include <cstring>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "experiment/base/error.h"
+#include "experiment/base/hidden_name.h"
 #include "experiment/base/whole_file.h"
 
 namespace overt {
@@ -13,7 +13,7 @@ namespace overt {
 namespace {
 
 std::filesystem::path hidden_name(const std::filesystem::path& path) {
-    return path.parent_path() / fmt::format(".{}.partial-{}", path.filename().string(), ::getpid());
+    return path.parent_path() / fmt::format(".{}{}0", path.filename().string(), hidden_infix());
 }
 
 void write_hidden(const TextFile& file) {
@@ -41,6 +41,8 @@ void check_can_write(const std::vector<TextFile>& files, bool force) {
 
 void write_file_set(const std::vector<TextFile>& files, bool force) {
     check_can_write(files, force);
+    for (const TextFile& file : files)
+        remove_abandoned_files(std::filesystem::absolute(file.path).parent_path());
     std::size_t written = 0;
     try {
         for (; written < files.size(); ++written)

@@ -32,14 +32,16 @@ std::string map_name(const std::string& object, const ViewedObject& viewed, std:
     return fmt::format("maps/{}/{}pose_{:02}.exr", object, view, pose.value);
 }
 
-void add_prepared_maps(SessionHeader& header, const RecordedObject& object, const ViewedObject& viewed,
-                       const StimulusLibrary& library) {
+/// `folder`: id of the object under which the maps are kept, which is another's of the same mesh where there
+/// is one.
+void add_prepared_maps(SessionHeader& header, const RecordedObject& object, const std::string& folder,
+                       const ViewedObject& viewed, const StimulusLibrary& library) {
     const auto kind = library.cache().has_given_maps(viewed.object) ? RecordedMap::Kind::coordinates
                                                                     : RecordedMap::Kind::triangles;
     for (int pose = 0; pose < library.cache().poses().count(); ++pose) {
         header.maps.push_back({viewed,
                                {pose},
-                               map_name(object.id, viewed, object.cameras.size(), {pose}),
+                               map_name(folder, viewed, object.cameras.size(), {pose}),
                                hash_of_file(library.cache().map_file(viewed, {pose})),
                                RecordedMap::Made::prepared,
                                kind});
@@ -50,6 +52,12 @@ void describe_objects(SessionHeader& header, const Protocol& protocol, std::span
                       const StimulusLibrary& library, bool with_prepared_maps) {
     for (std::size_t i = 0; i < objects.size(); ++i) {
         const Object& object = objects[i];
+        // One mesh is one file, and so are its maps, however many objects are of it.
+        const auto first = std::ranges::find_if(objects, [&](const Object& other) {
+            return &other == &object || (object.has_mesh() && other.mesh_hash == object.mesh_hash &&
+                                         other.origin == object.origin);
+        });
+        const std::string& folder = first->id;
         RecordedObject recorded;
         recorded.id = object.id;
         recorded.title = protocol.objects[i].title;
@@ -69,10 +77,10 @@ void describe_objects(SessionHeader& header, const Protocol& protocol, std::span
             recorded.bounds = scene.bounds;
             recorded.axis_point = scene.bounds.centre();
             if (with_prepared_maps || has_given_maps)
-                add_prepared_maps(header, recorded, viewed, library);
+                add_prepared_maps(header, recorded, folder, viewed, library);
         }
         if (object.has_mesh())
-            recorded.mesh_file = fmt::format("meshes/{}.ply", object.id);
+            recorded.mesh_file = fmt::format("meshes/{}.ply", folder);
         header.objects.push_back(std::move(recorded));
     }
 }
@@ -171,11 +179,14 @@ void put_all_files(const SessionDirectory& directory, const SessionHeader& heade
         if (!objects[i].has_mesh())
             continue;
         const std::filesystem::path file = directory.path() / header.objects[i].mesh_file;
+        if (std::filesystem::exists(file))
+            continue;
         std::filesystem::create_directories(file.parent_path());
         write_ply(file, objects[i].mesh);
     }
     for (const RecordedMap& map : header.maps)
-        copy_into(library.cache().map_file(map.viewed, map.pose), directory.path() / map.file);
+        if (!std::filesystem::exists(directory.path() / map.file))
+            copy_into(library.cache().map_file(map.viewed, map.pose), directory.path() / map.file);
     for (const RecordedStimulus& stimulus : header.stimuli) {
         // Without a surface there is nothing to ask of it.
         if (header.camera_of(stimulus.stimulus).vertical_fov.value > 0.0) {

@@ -120,6 +120,16 @@ SessionResult run_sitting(const Protocol& protocol, const RunOptions& options, c
             session.run(attempt_ended, plan.resumed ? plan.resumed->history : SessionHistory());
         watched.end();
         return result;
+    } catch (const Error&) {
+        record.rescue_tracker_files();
+        // Such as frames that have gone from the cache: what is said of them does not name the session.
+        if (!again)
+            fmt::print(
+                stderr,
+                "session: {}: it ends here. What was recorded is kept; once what is said below is put right, "
+                "overt run … --resume goes on with it.\n",
+                record.folder().string());
+        throw;
     } catch (...) {
         record.rescue_tracker_files();
         throw;

@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "experiment/base/error.h"
+#include "experiment/base/hidden_name.h"
 
 namespace fs = std::filesystem;
 
@@ -58,7 +59,9 @@ PartialDirectory::PartialDirectory(const fs::path& final_path) : final_path_(fs:
     const fs::path parent = final_path_.parent_path();
     std::error_code error;
     fs::create_directories(parent, error);
-    std::string name = (parent / fmt::format(".{}.partial-XXXXXX", final_path_.filename().string())).string();
+    remove_abandoned_folders(final_path_);
+    std::string name =
+        (parent / fmt::format(".{}{}XXXXXX", final_path_.filename().string(), hidden_infix())).string();
     if (error || !make_folder(name, parent))
         throw RecordError(fmt::format("{}: a directory cannot be made there: {}. Check the permissions.",
                                       parent.string(), error ? error.message() : std::strerror(errno)));

@@ -6,8 +6,8 @@
 namespace overt {
 
 /// Lies hidden beside its final place, under another name, until publish(). Without publish() it removes
-/// itself. A program that is killed leaves a hidden directory ".NAME.partial-XXXXXX" that no other program
-/// reads.
+/// itself. A program that is killed leaves a hidden directory ".NAME.partial-…" (hidden_name.h) that no other
+/// program reads, and that the next one to make something of this name removes.
 class PartialDirectory {
   public:
     /// Makes the folders around it, too. Throws RecordError.

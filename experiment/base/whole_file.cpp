@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
-#include <charconv>
-#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <optional>
@@ -17,37 +15,16 @@
 #include <unistd.h>
 
 #include "experiment/base/error.h"
+#include "experiment/base/hidden_name.h"
 
 namespace overt {
 
 namespace {
 
-/// What a hidden name has between the file's own and the process that writes it.
-std::string infix() {
-    char host[65] = "";
-    ::gethostname(host, sizeof host - 1);
-    return fmt::format(".partial-{}-", host);
-}
-
 /// Of no other thread, process or machine that writes there now.
 std::filesystem::path hidden_name(const std::filesystem::path& path) {
     static std::atomic<int> number{0};
-    return path.parent_path() /
-           fmt::format(".{}{}{}-{}", path.filename().string(), infix(), ::getpid(), number++);
-}
-
-/// The process of this machine that hid a file under this name; nothing if none did.
-std::optional<::pid_t> writer_of(std::string_view name) {
-    const std::string between = infix();
-    const std::size_t at = name.rfind(between);
-    if (!name.starts_with('.') || at == std::string_view::npos)
-        return std::nullopt;
-    ::pid_t writer = 0;
-    const char* const end = name.data() + name.size();
-    const auto [rest, error] = std::from_chars(name.data() + at + between.size(), end, writer);
-    if (error != std::errc() || writer <= 0 || rest == end || *rest != '-')
-        return std::nullopt;
-    return writer;
+    return path.parent_path() / fmt::format(".{}{}{}", path.filename().string(), hidden_infix(), number++);
 }
 
 /// errno of what went wrong, or 0.
@@ -134,9 +111,8 @@ int remove_abandoned_files(const std::filesystem::path& folder) {
     int removed = 0;
     std::error_code ignored;
     for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
-        const std::optional<::pid_t> writer = writer_of(entry.path().filename().string());
-        const bool is_over = writer && ::kill(*writer, 0) != 0 && errno == ESRCH;
-        if (is_over && std::filesystem::remove(entry.path(), ignored))
+        if (!entry.is_directory(ignored) && is_abandoned_name(entry.path().filename().string()) &&
+            std::filesystem::remove(entry.path(), ignored))
             ++removed;
     }
     return removed;

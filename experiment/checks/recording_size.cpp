@@ -1,6 +1,7 @@
 #include "experiment/checks/recording_size.h"
 
 #include <algorithm>
+#include <set>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -69,9 +70,11 @@ RecordingSize recording_size(const Protocol& protocol, std::span<const Object> o
     for (const Animation& motion : protocol.motions)
         size.pictures += per_object * (picture_bytes * object_count +
                                        light_bytes * mapped * static_cast<double>(motion.pictures().size()));
+    std::set<const Mesh*> meshes; // each is kept once
     for (const Object& object : objects)
-        size.meshes += bytes_per_vertex * static_cast<double>(object.mesh->positions.size()) +
-                       bytes_per_triangle * static_cast<double>(object.mesh->triangles.size());
+        if (meshes.insert(&*object.mesh).second)
+            size.meshes += bytes_per_vertex * static_cast<double>(object.mesh->positions.size()) +
+                           bytes_per_triangle * static_cast<double>(object.mesh->triangles.size());
     if (protocol.answers.record != AnswerUse::none)
         size.answers =
             trials * std::clamp(answer_s, protocol.screens.response_min_s, protocol.screens.response_max_s) *

@@ -1,6 +1,7 @@
 /// The socket of the operator's view, and the panel behind it.
 #include <catch2/catch.hpp>
 
+#include <fmt/format.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -10,6 +11,8 @@
 #include "devices/operator/operator_server.h"
 #include "devices/operator/operator_socket.h"
 #include "experiment/base/error.h"
+#include "experiment/ports/event_kinds.h"
+#include "experiment/ports/session_log.h"
 #include "tests/support/temporary_folder.h"
 
 using namespace overt;
@@ -47,6 +50,19 @@ ViewNews numbered(std::int64_t samples) {
     news.samples = samples;
     return news;
 }
+
+/// Counts what the panel writes down.
+class NotedEvents final : public SessionLog {
+  public:
+    int notes = 0, others = 0;
+    void flip(const FlipRecord&) noexcept override {}
+    void missed(const MissedRefresh&) noexcept override {}
+    void sample(int, const GazeSample&) noexcept override {}
+    void clock_pair(const ClockPair&) noexcept override {}
+    void event(const SessionEvent& event) override { ++(event.kind == operator_note_event ? notes : others); }
+    void trial_started(const Trial&, SessionTime) override {}
+    void trial_finished(const Trial&, const TrialOutcome&) override {}
+};
 
 /// Until the press comes, which another thread brings.
 std::optional<ResponsePress> awaited_press(OperatorPanel& panel) {
@@ -322,4 +338,80 @@ TEST_CASE("a view of a session that is over waits as it is asked to, and keeps w
     CHECK(std::chrono::steady_clock::now() - began >= 90ms);
     CHECK(client.view().is_over);
     CHECK(client.facts().protocol == "small");
+}
+
+TEST_CASE("nothing that is no socket of the server's is removed or replaced, nor a socket that is busy",
+          "[unit]") {
+    const TemporaryFolder folder;
+    const std::filesystem::path socket = folder.path() / "view.sock";
+    folder.file("view.sock.new", "somebody's");
+    {
+        const OperatorServer server(options_at(socket));
+        CHECK(std::filesystem::exists(folder.path() / "view.sock.new"));
+        // Somebody puts a file of that name there while the session runs.
+        std::filesystem::remove(socket);
+        folder.file("view.sock", "words");
+    }
+    CHECK(std::filesystem::exists(socket));
+    CHECK(std::filesystem::exists(folder.path() / "view.sock.new"));
+
+    const std::filesystem::path busy = folder.path() / "busy.sock";
+    const SocketAddress address(busy);
+    const int listener = ::socket(AF_UNIX, SOCK_STREAM, 0);
+    REQUIRE(::bind(listener, address.address(), address.size()) == 0);
+    REQUIRE(::listen(listener, 0) == 0);
+    std::vector<int> waiting;
+    for (int one = 0; (one = connect_to(address)) >= 0;)
+        waiting.push_back(one);
+    CHECK(is_served(busy));
+    CHECK_THROWS_WITH(OperatorServer(options_at(busy)),
+                      Catch::Contains("another session serves this socket"));
+    for (const int one : waiting)
+        ::close(one);
+    ::close(listener);
+}
+
+TEST_CASE("programs that connect and never greet keep no view out", "[unit]") {
+    const TemporaryFolder folder;
+    const OperatorServer server(options_at(folder.path() / "view.sock"));
+    std::vector<int> silent;
+    for (int i = 0; i < 12; ++i)
+        silent.push_back(connect_to(SocketAddress(folder.path() / "view.sock")));
+    std::this_thread::sleep_for(100ms);
+    const OperatorClient client(folder.path() / "view.sock");
+    CHECK(client.facts().protocol == "small");
+    for (const int one : silent)
+        ::close(one);
+}
+
+TEST_CASE("each note that is acknowledged is recorded, and one that finds no room is refused", "[unit]") {
+    const TemporaryFolder folder;
+    OperatorServer server(options_at(folder.path() / "view.sock"));
+    StandingClock clock;
+    SilentPanel silent;
+    OperatorPanel panel(server, clock, silent);
+    OperatorClient client(folder.path() / "view.sock");
+    panel.entered(SessionPhase::stimulus, 2);
+    constexpr int sent = 90;
+    int acknowledged = 0, refused = 0;
+    for (int i = 0; i < sent; ++i)
+        client.send(operator_command(fmt::format("note number {}", i)).value());
+    for (int tries = 0; tries < 2000 && acknowledged + refused < sent; ++tries) {
+        CHECK(!panel.poll());
+        client.read(5ms);
+        for (const ViewedEvent& event : client.take_events()) {
+            acknowledged += event.detail.find("goes into the record") != std::string::npos;
+            refused += event.detail.find("was not taken") != std::string::npos;
+        }
+    }
+    CHECK(acknowledged + refused == sent);
+    CHECK(acknowledged > 32);
+    CHECK(refused > 0);
+    // A key still finds room, and is recorded, too.
+    client.send(operator_command("pause").value());
+    CHECK(awaited_press(panel).value().key == ResponsePress::Key::pause);
+    NotedEvents log;
+    panel.write_down(log);
+    CHECK(log.notes == acknowledged);
+    CHECK(log.others == 1);
 }

@@ -60,7 +60,8 @@ inline SessionHeader example_header() {
                         {},     {}};
     header.objects = {bust, vase};
     header.materials = {{"gold", "Gold"}, {"silver", "Silver"}};
-    header.stimuli = {{{0, 0}, "rendered", std::string(64, 'c')}, {{1, 1}, "given: a/##.exr", ""}};
+    header.stimuli = {{{0, 0}, "rendered", std::string(64, 'c'), std::string(64, 'f'), "llvmpipe"},
+                      {{1, 1}, "given: a/##.exr", ""}};
     header.maps = {{{0},
                     {2},
                     "maps/bust_02.exr",

@@ -80,6 +80,8 @@ TEST_CASE("a session's header comes back from the disk in every field", "[unit]"
     CHECK(out.stimuli[1].stimulus == in.stimuli[1].stimulus);
     CHECK(out.stimuli[1].source == in.stimuli[1].source);
     CHECK(out.stimuli[0].frames_sha256 == in.stimuli[0].frames_sha256);
+    CHECK(out.stimuli[0].made_from_sha256 == in.stimuli[0].made_from_sha256);
+    CHECK(out.stimuli[0].drawn_by == in.stimuli[0].drawn_by);
     REQUIRE(out.maps.size() == 2);
     for (std::size_t i = 0; i < 2; ++i) {
         CHECK(out.maps[i].viewed == in.maps[i].viewed);
