@@ -31,12 +31,12 @@ namespace {
 namespace fs = std::filesystem;
 
 /// What a command took, all its threads together.
-struct Taken {
+struct CommandCost {
     double processor_s = 0.0, peak_mb = 0.0;
 };
 
 /// Runs `overt arguments…` to its end. Throws Error with what it said if it fails.
-Taken run_command(const std::vector<std::string>& arguments, const fs::path& folder) {
+CommandCost run_command(const std::vector<std::string>& arguments, const fs::path& folder) {
     const fs::path said = folder / "said.txt";
     std::vector<std::string> words{fs::read_symlink("/proc/self/exe").string()};
     words.insert(words.end(), arguments.begin(), arguments.end());
@@ -166,13 +166,13 @@ struct Growth {
     std::string command;
     std::string of; ///< "trials" or "sessions"
     std::vector<int> sizes;
-    std::vector<Taken> taken;
+    std::vector<CommandCost> taken;
 };
 
 /// By how much the logarithm grows from the last size but one to the last, for each of that of the size: 1 is
 /// in proportion. What a command takes with nothing to do, as far as the first size shows, is taken out
 /// first.
-double exponent(const Growth& growth, double Taken::*what) {
+double exponent(const Growth& growth, double CommandCost::*what) {
     const std::size_t last = growth.sizes.size() - 1;
     const auto value = [&](std::size_t i) { return growth.taken[i].*what; };
     const double per_piece = (value(1) - value(0)) / (growth.sizes[1] - growth.sizes[0]);
@@ -267,7 +267,8 @@ BenchFigures bench_growth(const BenchOptions& options) {
             figures.push_back(
                 {fmt::format("{}, {}: memory", name, growth.sizes[i]), growth.taken[i].peak_mb, "MB"});
         }
-        const double time = exponent(growth, &Taken::processor_s), memory = exponent(growth, &Taken::peak_mb);
+        const double time = exponent(growth, &CommandCost::processor_s),
+                     memory = exponent(growth, &CommandCost::peak_mb);
         const std::string of_time = name + ": exponent of processor time",
                           of_memory = name + ": exponent of memory";
         // A few trials say nothing of growth: the quick ones show that it can be measured.
