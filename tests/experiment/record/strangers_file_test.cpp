@@ -2,6 +2,7 @@
 #include "experiment/record/strangers_file.h"
 
 #include <catch2/catch.hpp>
+#include <sqlite3.h>
 
 #include "experiment/base/error.h"
 #include "experiment/base/stop_request.h"
