@@ -27,14 +27,14 @@ LinearImage picture(float first) {
     return image;
 }
 
-const FrameIdentity gold{"key of gold", {-12.5}}, silver{"key of silver", {-12.5}},
-    turned{"key of gold", {0.1}};
+const FrameIdentity gold{"key of gold", {.angle = {-12.5}}}, silver{"key of silver", {.angle = {-12.5}}},
+    turned{"key of gold", {.angle = {0.1}}};
 
 fs::path written(const test::TemporaryFolder& folder, const std::string& name, const FrameIdentity& identity,
                  float first) {
     fs::path file = folder.path() / name;
     write_cached_frame(file, picture(first), identity,
-                       {{"overt:angle_deg", fmt::format("{}", identity.angle.value)}});
+                       {{"overt:angle_deg", fmt::format("{}", identity.object.angle.value)}});
     return file;
 }
 
