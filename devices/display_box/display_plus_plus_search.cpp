@@ -99,7 +99,7 @@ std::vector<AskedPort> ask_for_display_boxes(std::span<const SerialPortInfo> can
                                              const TransportOpener& open, Clock& clock,
                                              const DisplayPlusPlusSettings& settings) {
     if (port)
-        return {ask_at({*port, {}, {}, {}, {}, {}}, open, clock, settings)};
+        return {ask_at({.path = *port}, open, clock, settings)};
     std::vector<AskedPort> all;
     const auto ask_those = [&](auto&& belongs) {
         for (const SerialPortInfo& candidate : candidates)
@@ -129,7 +129,7 @@ std::optional<std::string> recover_display(std::span<const SerialPortInfo> candi
     for (const SerialPortInfo& candidate : candidates)
         if (may_be_a_box(candidate) && candidate.path != record->port)
             ports.push_back(candidate);
-    ports.insert(ports.begin(), SerialPortInfo{record->port, {}, {}, {}, {}, {}});
+    ports.insert(ports.begin(), SerialPortInfo{.path = record->port});
     std::string refusals;
     for (const SerialPortInfo& port : ports) {
         for (const auto& box : ask_all({&port, 1}, open, clock, settings, refusals)) {

@@ -11,7 +11,7 @@ namespace overt {
 
 namespace {
 
-constexpr OrderLimit::Kind kinds[] = {OrderLimit::Kind::longest_run, OrderLimit::Kind::least_distance};
+constexpr OrderLimit::Kind limit_kinds[] = {OrderLimit::Kind::longest_run, OrderLimit::Kind::least_distance};
 
 /// Keys that limit one factor each; all others are limited by name, in a table.
 template <class Settings> struct OwnLimit {
@@ -151,7 +151,7 @@ void add_block(OrderChain& chain, const Protocol& protocol, const Factors& facto
         for (const Factor& factor : factors.all()) {
             if (!can_be_limited(factor))
                 continue;
-            for (const OrderLimit::Kind kind : kinds) {
+            for (const OrderLimit::Kind kind : limit_kinds) {
                 const LimitSetting limit = limit_in(protocol, plan.block, factor, kind);
                 // A distance of 1 is what any order has.
                 const int least = kind == OrderLimit::Kind::longest_run ? 1 : 2;

@@ -17,10 +17,10 @@ struct Word {
     std::string_view old_word, word;
 };
 /// Names of sections and keys.
-constexpr Word names[] = {{"sculpture", "object"},
-                          {"sculptures", "objects"},
-                          {"max_sculpture_run", "max_object_run"},
-                          {"min_sculpture_distance", "min_object_distance"}};
+constexpr Word old_names[] = {{"sculpture", "object"},
+                              {"sculptures", "objects"},
+                              {"max_sculpture_run", "max_object_run"},
+                              {"min_sculpture_distance", "min_object_distance"}};
 
 /// Values of a key that begin with a word of overt's own.
 struct ValueWord {
@@ -41,8 +41,8 @@ class Reword {
                 twice.insert(entry.key);
         std::erase_if(table, [&](const TomlEntry& entry) { return twice.contains(entry.key); });
         for (TomlEntry& entry : table) {
-            const auto found = std::ranges::find(names, entry.key, &Word::old_word);
-            if (found != std::end(names)) {
+            const auto found = std::ranges::find(old_names, entry.key, &Word::old_word);
+            if (found != std::end(old_names)) {
                 count(entry.key_place);
                 entry.key = found->word;
             }
@@ -64,8 +64,9 @@ class Reword {
   private:
     /// Reports an entry that stands there under the word of today, too.
     bool is_there_twice(const TomlEntry& entry, const TomlTable& table) {
-        const auto found = std::ranges::find(names, entry.key, &Word::old_word);
-        if (found == std::end(names) || std::ranges::find(table, found->word, &TomlEntry::key) == table.end())
+        const auto found = std::ranges::find(old_names, entry.key, &Word::old_word);
+        if (found == std::end(old_names) ||
+            std::ranges::find(table, found->word, &TomlEntry::key) == table.end())
             return false;
         diagnostics_.error(file_, entry.key_place,
                            fmt::format("\"{}\" is the earlier word for \"{}\", which is written, too",

@@ -19,12 +19,12 @@ namespace fs = std::filesystem;
 namespace {
 
 fs::path write_cut(const fs::path& file, bool tells_resolution = true, bool has_events = true) {
-    const PlantedGaze planted =
+    const PlantedGaze gaze =
         plant_gaze({.rate_hz = 500.0, .duration_s = 20.0, .noise_deg = 0.02}, ScreenGeometry{});
     PlantedAsc around{.tells_resolution = tells_resolution, .has_events = has_events};
     for (int at_ms = 400; at_ms < 19'000; at_ms += 900)
         around.trial_ids_ms.push_back(at_ms);
-    return write_planted_asc(file, planted, around);
+    return write_planted_asc(file, gaze, around);
 }
 
 int fixations_in(const fs::path& table) {

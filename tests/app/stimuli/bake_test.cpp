@@ -303,7 +303,7 @@ TEST_CASE("shards share out all units once, and evenly by cost", "[unit]") {
     RandomStream random(3, "units");
     double all = 0.0, dearest = 0.0;
     for (int i = 0; i < 97; ++i) {
-        units.push_back({{i / 30, i % 30 / 10}, {Degrees{1.0 * (i % 10)}, {}}, random.uniform(1.0, 20.0)});
+        units.push_back({{i / 30, i % 30 / 10}, {{Degrees{1.0 * (i % 10)}}, {}}, random.uniform(1.0, 20.0)});
         all += units.back().cost;
         dearest = std::max(dearest, units.back().cost);
     }

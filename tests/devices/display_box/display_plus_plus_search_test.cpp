@@ -29,7 +29,7 @@ struct MachineWithPorts {
         auto& box = boxes[port] = std::make_unique<InMemoryBitsBox>(clock);
         box->far.port = port;
         box->model.serial_number = serial_number;
-        ports.push_back({port, vendor, std::uint16_t{1}, "", "", ""});
+        ports.push_back({port, vendor, std::uint16_t{1}, "", "", "", {}});
         return *box;
     }
     void add_mute(const std::string& port, std::uint16_t vendor, std::uint16_t product) {
