@@ -108,7 +108,7 @@ void add_bench(CLI::App& app, ChosenCommand& chosen) {
         ->check(CLI::Range(0.5, 3600.0))
         ->capture_default_str();
     command.add_flag("--quick", options.is_quick,
-                     "growth: over 4 to 16 trials and 2 to 8 sessions, to see that it goes; no targets");
+                     "growth: over 2 to 6 trials and 2 to 4 sessions, to see that it goes; no targets");
     add_threshold_options(command, options.thresholds);
     add_context_option(command, options.context);
     add_json_flag(command, options.json);

@@ -187,8 +187,8 @@ double exponent(const Growth& growth, double CommandCost::*what) {
 class GrowthBench {
   public:
     GrowthBench(bool is_quick, const fs::path& folder)
-        : trials_(is_quick ? std::vector<int>{4, 8, 16} : std::vector<int>{30, 300, 3000}),
-          sessions_(is_quick ? std::vector<int>{2, 4, 8} : std::vector<int>{10, 100, 1000}), folder_(folder) {
+        : trials_(is_quick ? std::vector<int>{2, 4, 6} : std::vector<int>{30, 300, 3000}),
+          sessions_(is_quick ? std::vector<int>{2, 3, 4} : std::vector<int>{10, 100, 1000}), folder_(folder) {
     }
 
     std::vector<Growth> measure() {
