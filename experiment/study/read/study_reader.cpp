@@ -240,6 +240,12 @@ class StudyReader {
 
     static const LightScores* light_of(const LightOfStimuli& light, const SessionHeader& header,
                                        const TrialRecord& trial) {
+        // Of what was set to match the light was another at each level.
+        const bool is_set = std::ranges::any_of(trial.outcome.given, [&](const GivenAnswer& given) {
+            return !given.levels.empty() && given.slot == trial.trial.slot;
+        });
+        if (is_set)
+            return nullptr;
         const RecordedStimulus* const stimulus = stimulus_of(header, header.in_slot(trial.trial.shown(0)));
         const auto found = stimulus ? light.find(light_key(header, *stimulus)) : light.end();
         return found == light.end() ? nullptr : &found->second;
@@ -313,18 +319,31 @@ class StudyReader {
         return lookup;
     }
 
+    /// Adds how long a presentation showed each pose as the observer turned it.
+    static void add_turned_seconds(const SessionRecord& record, const TrialRecord& trial,
+                                   std::vector<double>& seconds) {
+        const double refresh_s = 1.0 / record.header().display.refresh_hz;
+        for (const FlipRecord& flip : record.flips(trial))
+            if (flip.shown != no_frame && static_cast<std::size_t>(flip.pose.value) < seconds.size())
+                seconds[static_cast<std::size_t>(flip.pose.value)] += refresh_s;
+    }
+
     /// How long a presentation of an object shows each pose as planned, by PoseIndex: the mean over the
-    /// trials that count, and over all motions if there is none.
+    /// trials that count, and over all motions if there is none. What observers turned counts as they did.
     std::vector<double> seconds_shown(int index) const {
         const SessionHeader& header =
             open_[shown_in_[static_cast<std::size_t>(index)].first].record().header();
         std::vector<double> trials(header.animations.size(), 0.0);
+        std::vector<double> as_turned(header.poses.angles.size(), 0.0);
         // Sessions of one object have the same poses; motions have their numbers in the session.
         for (std::size_t session = 0; session < open_.size(); ++session) {
             for (const TrialRecord& trial : open_[session].presentations) {
                 const auto motion = static_cast<std::size_t>(trial.trial.stimulus.motion);
-                if (is_of(session, trial, index) && motion < trials.size())
-                    trials[motion] += 1.0;
+                if (!is_of(session, trial, index) || motion >= trials.size())
+                    continue;
+                trials[motion] += 1.0;
+                if (header.animations[motion].kind == MotionKind::observer)
+                    add_turned_seconds(open_[session].record(), trial, as_turned);
             }
         }
         double all = std::accumulate(trials.begin(), trials.end(), 0.0);
@@ -333,7 +352,13 @@ class StudyReader {
             all = static_cast<double>(trials.size());
         }
         std::vector<double> seconds(header.poses.angles.size(), 0.0);
+        for (std::size_t pose = 0; pose < seconds.size(); ++pose)
+            seconds[pose] = as_turned[pose] / all;
+        const bool is_any_turned =
+            std::ranges::any_of(as_turned, [](double turned_s) { return turned_s > 0.0; });
         for (std::size_t motion = 0; motion < trials.size(); ++motion) {
+            if (is_any_turned && header.animations[motion].kind == MotionKind::observer)
+                continue;
             const std::vector<double> of_motion =
                 seconds_of_poses(header.animations[motion], header.poses, static_cast<int>(motion));
             for (std::size_t pose = 0; pose < seconds.size(); ++pose)
