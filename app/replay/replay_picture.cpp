@@ -16,6 +16,7 @@
 #include "app/replay/stimuli_again.h"
 #include "experiment/base/error.h"
 #include "experiment/base/json_text.h"
+#include "experiment/record/read/shown_levels.h"
 #include "render/image/text_layout.h"
 
 namespace overt {
@@ -49,14 +50,13 @@ class TrialPictures {
         : record_(record),
           trial_(chosen_presentation(record, attempt_at(record, *options.trial), options.slot)),
           surfaces_(record), frames_(record, trial_, lookup_of(record, trial_, surfaces_)),
-          experiment_(recorded_experiment(record, options.files, cache_folder())),
+          levels_(record, trial_), experiment_(recorded_experiment(record, options.files, cache_folder())),
           stimuli_(experiment_, cache_folder(),
                    options.context ? options.context : context_of(record.header())) {
         const std::string why_not = stimuli_.prepare(record, experiment_.protocol);
         if (!why_not.empty())
             throw InputError(why_not);
         const Stimulus stimulus = record.header().in_slot(trial_.trial.shown(0));
-        pages_ = stimuli_.library().page_of_frame(stimulus);
         for (const RecordedStimulus& recorded : record.header().stimuli)
             if (recorded.stimulus == stimulus &&
                 !recorded.is_same_as({stimulus,
@@ -75,9 +75,13 @@ class TrialPictures {
 
     LinearImage draw(const ShownFrame& shown) const {
         LinearImage frame(image_px());
-        if (shown.lit)
-            frame = stimuli_.library().page(record_.header().in_slot(trial_.trial.shown(0)),
-                                            pages_[static_cast<std::size_t>(shown.lit->frame.value)]);
+        if (shown.lit) {
+            const Stimulus stimulus =
+                record_.header().in_slot({levels_.at(shown.lit->refresh), trial_.trial.slot});
+            const std::vector<int> pages = stimuli_.library().page_of_frame(stimulus);
+            frame =
+                stimuli_.library().page(stimulus, pages[static_cast<std::size_t>(shown.lit->frame.value)]);
+        }
         return with_gaze(frame, shown, record_.header().display.background);
     }
 
@@ -94,9 +98,9 @@ class TrialPictures {
     const TrialRecord trial_;
     RecordedSurfaces surfaces_;
     ShownFrames frames_;
+    ShownLevels levels_;
     Experiment experiment_;
     mutable StimuliAgain stimuli_;
-    std::vector<int> pages_;
 };
 
 void require_room_for(const fs::path& file, bool overwrite) {

@@ -5,16 +5,17 @@
 #include <fmt/format.h>
 
 #include "experiment/base/error.h"
+#include "experiment/design/match_levels.h"
 #include "experiment/ports/event_kinds.h"
 
 namespace overt {
 
 namespace {
 
-std::vector<Stimulus> distinct_stimuli(const Schedule& schedule) {
+std::vector<Stimulus> distinct_stimuli(const Protocol& protocol, const Schedule& schedule) {
     std::vector<Stimulus> stimuli;
     for (const Trial& trial : schedule.trials) {
-        for (const PlacedStimulus& shown : trial.all_shown())
+        for (const PlacedStimulus& shown : loaded_for(protocol, trial))
             if (std::find(stimuli.begin(), stimuli.end(), shown.stimulus) == stimuli.end())
                 stimuli.push_back(shown.stimulus);
     }
@@ -58,7 +59,7 @@ std::vector<PageVerification> verify_pages(PagePresenter& presenter, const Frame
 void record_verification(PagePresenter& presenter, const FrameSource& pages, const Protocol& protocol,
                          const Schedule& schedule, const Clock& clock, SessionLog& log,
                          const StimulusProgress& progress) {
-    const std::vector<Stimulus> stimuli = distinct_stimuli(schedule);
+    const std::vector<Stimulus> stimuli = distinct_stimuli(protocol, schedule);
     // In the first slot: the others have the same bytes.
     const ScreenGeometry geometry = slot_geometry(protocol, protocol.slots.front());
     std::string first_difference;
