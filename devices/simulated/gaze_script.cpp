@@ -154,7 +154,7 @@ struct Composer {
         ScriptedFixation next;
         if (shown.size() > 1)
             next.shown = choose_shown();
-        const auto& [targets, screen, plan, turn, slot, weight] = shown[next.shown];
+        const auto& [targets, screen, plan, turn, seen, slot, weight] = shown[next.shown];
         const Departure before = departure_of(last, shown[next.shown]);
         const double duration_s =
             log_normal_within(random, settings.fixation_median_s, settings.fixation_log_sd,
@@ -190,6 +190,8 @@ PursuedTurn::PursuedTurn(const ObservedScene& scene, int motion)
     const Animation& animation = scene.animation_of(motion);
     for (int step = 0; step < animation.steps_per_period(); ++step)
         angles_.push_back(animation.object_in(animation.frame_at_step(step)));
+    if (animation.kind == MotionKind::observer)
+        only_step_ = animation.by_observer.nearest(animation.angle);
 }
 
 std::vector<PursuedTurn> turns_of(const ObservedScene& scene) {
@@ -200,6 +202,8 @@ std::vector<PursuedTurn> turns_of(const ObservedScene& scene) {
 }
 
 ObjectPose PursuedTurn::angle_at(SessionDuration since_lit) const noexcept {
+    if (only_step_)
+        return angle_of_step(*only_step_);
     const double steps = to_seconds(since_lit) / to_seconds(frame_period_) - 0.5;
     const double place = std::clamp(steps, 0.0, steps_ - 1.0);
     const int before = static_cast<int>(place);
@@ -208,6 +212,8 @@ ObjectPose PursuedTurn::angle_at(SessionDuration since_lit) const noexcept {
 }
 
 int PursuedTurn::step_at(SessionDuration since_lit) const noexcept {
+    if (only_step_)
+        return *only_step_;
     const auto step = static_cast<int>(since_lit / frame_period_);
     return std::clamp(step, 0, steps_ - 1);
 }
@@ -250,7 +256,8 @@ ScreenPoint place_of(const ScriptedFixation& fixation, SessionDuration since_ons
     if (!fixation.target)
         return fixation.place;
     const ObservedPresentation& on = shown[fixation.shown];
-    const ObjectPose angle = on.turn->angle_at(since_onset - fixation.light_delay);
+    const SessionDuration since_lit = since_onset - fixation.light_delay;
+    const ObjectPose angle = on.seen ? on.seen->angle_at(since_lit) : on.turn->angle_at(since_lit);
     return on.screen.screen_from_image(
         on.targets->project(fixation.target->position, on.targets->world_from_object(angle)));
 }

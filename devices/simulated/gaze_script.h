@@ -30,7 +30,8 @@ struct ObserverSettings {
 
 /// The smooth turn that the eye pursues: the animation's steps joined by straight lines, so that halfway
 /// through the time for which a frame is lit the eye is at that frame's angle. Between two such instants the
-/// eye is at most half a step from what is lit.
+/// eye is at most half a step from what is lit. Where the observer turns the object, nobody knows how
+/// beforehand: until it is seen, it stands as the motion's angle says.
 class PursuedTurn {
   public:
     explicit PursuedTurn(const ObservedScene& scene, int motion = 0);
@@ -51,6 +52,15 @@ class PursuedTurn {
     SessionDuration frame_period_;
     int steps_ = 0; ///< shown in one presentation
     int motion_ = 0;
+    std::optional<int> only_step_; ///< of what the observer turns
+};
+
+/// How an object was turned that the observer turns: the eye goes with what is lit.
+class SeenTurn {
+  public:
+    virtual ~SeenTurn() = default;
+    /// As PursuedTurn::angle_at().
+    virtual ObjectPose angle_at(SessionDuration since_lit) const noexcept = 0;
 };
 
 /// Of all motions of a scene.
@@ -71,6 +81,7 @@ struct ObservedPresentation {
     ScreenGeometry screen;                ///< with the image where it is shown
     GazePlan plan;
     const PursuedTurn* turn = nullptr; ///< with `targets`, never null
+    const SeenTurn* seen = nullptr;    ///< of what the observer turns; else null
     int slot = 0;                      ///< index into the protocol's
     double weight = 1.0;               ///< how often a fixation is on it, beside the others' weights
 };

@@ -34,6 +34,7 @@ SimulatedObserver::Presentation::Presentation(const ObservedScene& scene, const 
     : script(scene, settings) {
     // One for each refresh; a missed refresh takes its place in the count.
     shown.reserve(std::max<std::size_t>(1, scene.slots.size()));
+    turned.resize(shown.capacity());
     flips.reserve(static_cast<std::size_t>(scene.longest_s() * scene.refresh_hz) + 64);
     beside.reserve(flips.capacity() * (shown.capacity() - 1));
 }
@@ -71,9 +72,17 @@ void SimulatedObserver::presentation_begins(const Trial& trial, int show) noexce
         const auto [stimulus, slot] = trial.shown(i);
         GazePlan plan = gaze_plan(scene_, seed_, trial.task, stimulus);
         favour_area(plan, favour);
+        const Motion& motion = motions_[static_cast<std::size_t>(stimulus.motion)];
+        const bool is_turned = scene_.animation_of(stimulus.motion).kind == MotionKind::observer;
+        FlippedTurn* const seen =
+            is_turned && i < presentation.turned.size() ? &presentation.turned[i] : nullptr;
+        if (seen) {
+            seen->of = &presentation;
+            seen->shown = i;
+            seen->angle_of_frame = &motion.angle_of_frame;
+        }
         presentation.shown.push_back({targets_[scene_.index_of({stimulus, slot})].get(),
-                                      scene_.screen_of_slot(slot), plan,
-                                      &motions_[static_cast<std::size_t>(stimulus.motion)].turn, slot,
+                                      scene_.screen_of_slot(slot), plan, &motion.turn, seen, slot,
                                       weight_of(slot, favour, count)});
     }
     presentation.script.compose(scene_, presentation.shown, settings_, seed_,
@@ -95,6 +104,17 @@ void SimulatedObserver::slot_flipped(const SlotFlip& flip) noexcept {
     if (presentation.beside.size() - expected < presentation.shown.size() - 1 &&
         presentation.beside.size() < presentation.beside.capacity())
         presentation.beside.push_back(flip.shown);
+}
+
+/// Before the first flip, and where there was no room for more, as it stands in the motion.
+ObjectPose SimulatedObserver::FlippedTurn::angle_at(SessionDuration since_lit) const noexcept {
+    const ObservedPresentation& on = of->shown[shown];
+    if (of->flips.empty())
+        return on.turn->angle_at(since_lit);
+    const SessionTime blank = std::max(of->onset() + since_lit, of->onset());
+    const AnimationFrameIndex frame = of->frame_of(shown, of->flip_at(blank));
+    return frame == no_frame ? on.turn->angle_at(since_lit)
+                             : (*angle_of_frame)[static_cast<std::size_t>(frame.value)];
 }
 
 AnimationFrameIndex SimulatedObserver::Presentation::frame_of(std::size_t of_shown, std::size_t flip) const {

@@ -96,10 +96,19 @@ class SimulatedObserver final : public PresentationListener {
         SessionTime vertical_blank;
         AnimationFrameIndex frame;
     };
+    struct Presentation;
+    /// Of one of the things that a presentation shows, by its flips.
+    struct FlippedTurn final : SeenTurn {
+        const Presentation* of = nullptr;
+        std::size_t shown = 0;
+        const std::vector<ObjectPose>* angle_of_frame = nullptr;
+        ObjectPose angle_at(SessionDuration since_lit) const noexcept override;
+    };
     struct Presentation {
         Presentation(const ObservedScene& scene, const ObserverSettings& settings);
         int trial = -1;
         std::vector<ObservedPresentation> shown;
+        std::vector<FlippedTurn> turned; ///< as `shown`; with room for all
         GazeScript script;
         std::vector<SeenFlip> flips;
         /// What the others of `shown` had at each of them, flip by flip.
