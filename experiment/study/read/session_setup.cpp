@@ -96,6 +96,14 @@ DisplaySetup display_of(const SessionHeader& header) {
 
 /// Such as "the object stood turned by 25 deg and the light turned to and fro …, for 2 s".
 std::string motion_in_words(const Animation& motion) {
+    if (motion.kind == MotionKind::observer) {
+        const ObserverTurn& by = motion.by_observer;
+        return fmt::format(
+            "the observer turned the object about the vertical, {}, from pose to pose {} deg apart",
+            by.is_whole() ? std::string("all round")
+                          : fmt::format("from {} to {} deg", by.from.value, by.to.value),
+            by.step.value);
+    }
     const bool turns = motion.kind == MotionKind::turn && motion.amplitude.value != 0.0;
     const bool light_turns = motion.light_amplitude.value != 0.0;
     std::string words = turns
@@ -130,7 +138,7 @@ StimulusSetup stimuli_of(const SessionHeader& header) {
     stimuli.playback = header.animations.front().playback;
     stimuli.duration_s = header.animations.front().duration_s;
     const Animation& first = header.animations.front();
-    if (header.animations.size() > 1 || first.kind == MotionKind::still || first.angle.value != 0.0 ||
+    if (header.animations.size() > 1 || first.kind != MotionKind::turn || first.angle.value != 0.0 ||
         first.light_amplitude.value != 0.0) {
         for (const Animation& motion : header.animations)
             stimuli.motions.push_back(motion_in_words(motion));
