@@ -20,6 +20,14 @@ std::vector<std::pair<std::string, std::string>> answer_variables(const std::vec
             if (const std::optional<Degrees> deviation = given.gauge->deviation())
                 variables.emplace_back(name + "_deviation_deg", fmt::format("{:.3f}", deviation->value));
         }
+        for (const MatchSetting& set : given.settings) {
+            std::string along = name + "_" + set.along;
+            std::ranges::replace(along, ' ', '_');
+            variables.emplace_back(along + "_start", fmt::format("{:.10g}", set.start));
+            variables.emplace_back(along, given.is_missed ? "n/a" : fmt::format("{:.10g}", set.final));
+            if (set.reference)
+                variables.emplace_back(along + "_reference", fmt::format("{:.10g}", *set.reference));
+        }
         if (given.is_correct)
             variables.emplace_back(name + "_correct", *given.is_correct ? "1" : "0");
     }

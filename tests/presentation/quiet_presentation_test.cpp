@@ -2,12 +2,15 @@
 /// that may make it wait.
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <fstream>
 #include <memory>
 #include <mutex>
 #include <stdexcept>
 
+#include "devices/simulated/simulated_keys.h"
 #include "devices/simulated/simulated_response_panel.h"
+#include "experiment/answers/answer_kinds.h"
 #include "experiment/record/read/session_record.h"
 #include "experiment/record/session_schema.h"
 #include "experiment/session/session.h"
@@ -83,21 +86,27 @@ std::vector<StepSettings> waiting_steps() {
 }
 
 /// Three trials of the paper's animation, 960 refreshes each, with everything that a simulated session has.
-void run_quietly(const DisplayFaults& faults, const std::vector<StepSettings>& steps = {}) {
+void run_quietly(const DisplayFaults& faults, const std::vector<StepSettings>& steps = {},
+                 void (*change)(Protocol&) = nullptr) {
     const test::TemporaryFolder root;
     const Mesh mesh = test::bust();
-    VirtualClock clock;
-    SimulatedObserver observer(test::scene_with(mesh), 31);
-    SimulatedEyeTracker tracker(clock, observer, 31);
-    SimulatedResponsePanel panel(clock, observer);
-    VirtualRefresh refresh(clock, 120.0, faults);
-    NotingPresenter presenter(refresh);
     Protocol protocol;
     protocol.tasks = {{"free", "Look."}, {"clothes", "Which clothes?"}};
     for (Task& task : protocol.tasks)
         task.steps = steps;
     protocol.objects.resize(1);
     protocol.materials.resize(1);
+    if (change)
+        change(protocol);
+    VirtualClock clock;
+    ObservedScene scene = test::scene_with(mesh);
+    scene.animations[0] = protocol.motions.front();
+    SimulatedObserver observer(std::move(scene), 31);
+    SimulatedEyeTracker tracker(clock, observer, 31);
+    const SimulatedAnswers answers(protocol, 31);
+    SimulatedResponsePanel panel(clock, observer, {}, &answers);
+    VirtualRefresh refresh(clock, 120.0, faults);
+    NotingPresenter presenter(refresh);
     Schedule schedule;
     schedule.trials = {{0, 0, {}}, {1, 1, {}}, {2, 0, {}}};
     SessionHeader header = testing::example_header();
@@ -123,6 +132,12 @@ void run_quietly(const DisplayFaults& faults, const std::vector<StepSettings>& s
     // All of it was written down nevertheless.
     const SessionRecord record(session);
     for (const TrialRecord& trial : record.trials()) {
+        if (change) { // it is a refresh's, and something was moved
+            const std::vector<SteeredFlip> moved = record.steered_flips(trial);
+            CHECK(moved.size() == record.flips(trial).size());
+            CHECK(std::ranges::any_of(moved,
+                                      [](const SteeredFlip& flip) { return flip.input_at.has_value(); }));
+        }
         std::vector<int> rows(960);
         for (const FlipRecord& flip : record.flips(trial))
             if (flip.refresh_in_trial < 960)
@@ -135,7 +150,40 @@ void run_quietly(const DisplayFaults& faults, const std::vector<StepSettings>& s
     CHECK((faults.is_clean() ? presenter.flips == 3 * 960 : presenter.flips < 3 * 960));
 }
 
+/// The stimulus is turned by held keys and set along three levels by others, and stays for its time.
+void turned_and_set(Protocol& protocol) {
+    MotionSettings& motion = protocol.motions.front();
+    motion.id = "explore";
+    motion.kind = MotionKind::observer;
+    motion.by_observer.with = TurnedWith::keys;
+    motion.by_observer.keys = {"a", "d"};
+    motion.by_observer.step = Degrees{6.0};
+    motion.frame_count = motion.by_observer.pose_count();
+    protocol.materials.resize(3);
+    for (std::size_t i = 0; i < 3; ++i)
+        protocol.materials[i].columns = {{"roughness", std::to_string(i), static_cast<double>(i)}};
+    for (Task& task : protocol.tasks) {
+        TaskAnswer& match = task.answers.emplace_back();
+        match.id = "gloss";
+        match.kind = kind_called<AnswerKind>("match");
+        match.slot = protocol.slots.front().id;
+        match.along = {"roughness"};
+        match.start.from = MatchStart::From::low;
+        match.ends_stimulus = false;
+        match.truth.offset = 2.0;
+        StepSettings& show = task.steps.emplace_back();
+        show.kind = StepKind::show;
+        show.slots = {match.slot};
+        show.duration = StepDuration{StepDuration::Law::fixed, {8.0}, 0.0, 0.0, 0.0};
+        show.ends_by_answer = true;
+    }
+}
+
 } // namespace
+
+TEST_CASE("nor do they while the observer turns the object and sets its material", "[unit]") {
+    run_quietly({}, {}, turned_and_set);
+}
 
 TEST_CASE("960 refreshes with tracker, observer and log allocate, lock, open and throw nothing", "[unit]") {
     run_quietly({});

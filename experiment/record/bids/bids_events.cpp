@@ -44,6 +44,8 @@ auto of_ended(auto of) {
     return [of](const BidsEvent& row) { return of_maybe(row.ended, of); };
 }
 
+constexpr int setting_decimals_of_event = 9;
+
 /// Of an answer that was given by keys, the mouse or a box, or missed.
 auto of_given(auto of) {
     return [of](const BidsEvent& row) { return of_maybe(row.given, of); };
@@ -62,6 +64,39 @@ auto true_angle(Degrees Attitude::*angle) {
     return of_gauge([angle](const GaugeAnswer& gauge) {
         return gauge.truth ? std::optional(*gauge.truth.*angle) : std::nullopt;
     });
+}
+
+/// What was set to match: a number of the first column, or of the second.
+auto of_setting(std::size_t axis, auto number) {
+    return [axis, number](const BidsEvent& row) -> std::optional<Fixed> {
+        if (!row.given || row.given->settings.size() <= axis)
+            return std::nullopt;
+        const std::optional<double> value = number(row.given->settings[axis]);
+        return value ? std::optional(Fixed{*value, setting_decimals_of_event}) : std::nullopt;
+    };
+}
+
+/// Of sessions in which something was set to match.
+std::vector<RowLayout<BidsEvent>::Column> setting_columns(bool has_second) {
+    std::vector<RowLayout<BidsEvent>::Column> columns;
+    for (std::size_t axis = 0; axis < (has_second ? 2u : 1u); ++axis) {
+        const std::string name = axis == 0 ? "setting" : "second_setting";
+        const std::string of = axis == 0 ? "along the first column" : "along the second column";
+        columns.push_back(
+            {{name, fmt::format("Level that was set to match, {}; n/a: it was not accepted", of)},
+             [axis](const BidsEvent& row) {
+                 const bool is_given =
+                     row.given && !row.given->is_missed && row.given->settings.size() > axis;
+                 return Fixed{is_given ? std::optional(row.given->settings[axis].final) : std::nullopt,
+                              setting_decimals_of_event};
+             }});
+        columns.push_back(
+            {{name + "_start", fmt::format("Level that it began with, {}", of)},
+             of_setting(axis, [](const MatchSetting& set) { return std::optional(set.start); })});
+        columns.push_back({{name + "_reference", fmt::format("Level of the stimulus beside it, {}", of)},
+                           of_setting(axis, [](const MatchSetting& set) { return set.reference; })});
+    }
+    return columns;
 }
 
 /// Of sessions whose protocols name places on surfaces.
@@ -109,7 +144,8 @@ std::vector<RowLayout<BidsEvent>::Column> answer_columns() {
 
 /// `header` must outlive it.
 RowLayout<BidsEvent> events_layout(const SessionHeader& header, SessionTime zero,
-                                   const std::optional<ClockMap>& clock_map, bool has_given_answers) {
+                                   const std::optional<ClockMap>& clock_map, bool has_given_answers,
+                                   std::size_t settings) {
     Levels tasks, blocks;
     for (const RecordedTask& task : header.tasks)
         tasks.emplace_back(task.id, task.question.empty() ? task.id : plain_line_of(task.question));
@@ -210,6 +246,8 @@ RowLayout<BidsEvent> events_layout(const SessionHeader& header, SessionTime zero
     });
     if (has_given_answers)
         layout.add<BidsEvent>(answer_columns());
+    if (settings > 0)
+        layout.add<BidsEvent>(setting_columns(settings > 1));
     if (!header.points.empty())
         layout.add<BidsEvent>(gauge_columns());
     if (const SharedColumns shared(header); shared.has_slots)
@@ -360,8 +398,12 @@ void write_bids_events(const SessionRecord& record, int run, std::optional<Sessi
     const std::optional<ClockMap> clock_map = record.clock_map(run);
     const bool has_given_answers = std::ranges::any_of(
         record.trials(), [](const TrialRecord& trial) { return !trial.outcome.given.empty(); });
+    std::size_t settings = 0; ///< columns that were set along, at most
+    for (const TrialRecord& trial : record.trials())
+        for (const GivenAnswer& given : trial.outcome.given)
+            settings = std::max(settings, given.settings.size());
     const RowLayout<BidsEvent> layout =
-        events_layout(header, zero.value_or(SessionTime()), clock_map, has_given_answers);
+        events_layout(header, zero.value_or(SessionTime()), clock_map, has_given_answers, settings);
     TableWriter writer(stem.string() + ".tsv", layout.table(), TableFormat::tsv, Packing::none,
                        TableWriter::Header::names);
     std::vector<BidsEvent> events;
