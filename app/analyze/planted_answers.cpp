@@ -250,6 +250,37 @@ void plant_scales(StudyAnswers& answers, const Protocol& protocol) {
     }
 }
 
+/// What an effect holds for, as factors and levels.
+std::vector<std::pair<std::string, std::string>> conditions_of(const SimulatedEffect& effect) {
+    std::vector<std::pair<std::string, std::string>> conditions;
+    for (std::size_t list = 0; list < stimulus_lists.size(); ++list)
+        if (!effect.entries[list].empty())
+            conditions.emplace_back(stimulus_lists[list].name, effect.entries[list]);
+    for (const NamedWord& level : effect.where)
+        conditions.emplace_back(level.name, level.text);
+    return conditions;
+}
+
+/// The slope that matches of a row have on average: of all trials, where no effect changes it, and of those
+/// of a level, where effects hold for levels of the same factor only.
+std::optional<double> planted_match_slope(const AnswerMatchLineRow& row, const Protocol& protocol) {
+    const TaskAnswer* const asked = asked_of(protocol, row.of.task, row.of.answer);
+    if (!asked)
+        return std::nullopt;
+    double slope = asked->truth.gain;
+    for (const SimulatedEffect& effect : protocol.simulated_effects) {
+        if (effect.answer != row.of.answer || (!effect.task.empty() && effect.task != row.of.task) ||
+            effect.answer_slope == 1.0)
+            continue;
+        const auto conditions = conditions_of(effect);
+        if (row.column.empty() || conditions.size() != 1 || conditions.front().first != row.column)
+            return std::nullopt;
+        if (conditions.front().second == row.level)
+            slope *= effect.answer_slope;
+    }
+    return slope * (1.0 - asked->truth.start_bias);
+}
+
 } // namespace
 
 void add_planted_answers(StudyResults& results, const Protocol& protocol, const ObserverSeeds& seeds,
@@ -261,6 +292,8 @@ void add_planted_answers(StudyResults& results, const Protocol& protocol, const 
     plant_ratings(results.answers, *weighed);
     plant_differences(results.answers, *weighed);
     plant_scales(results.answers, protocol);
+    for (AnswerMatchLineRow& row : results.answers.match_lines)
+        row.planted = planted_match_slope(row, protocol);
     for (GazeChoiceRow& row : results.answers.gaze_choices)
         if (const TaskAnswer* const asked = asked_of(protocol, row.of.task, row.of.answer);
             asked && asked->truth.look_share && row.area.empty() && row.measure == "dwell share")
