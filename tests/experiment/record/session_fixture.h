@@ -41,11 +41,12 @@ inline SessionHeader example_header() {
     screen.image_origin_px = {144, 44};
     screen.image_px = {512, 511};
     header.display = {screen, 100.0, std::chrono::microseconds(1500), "mono++", 0.125};
-    header.animations = {{.frame_count = 3,
-                          .frame_rate_hz = 25.0,
-                          .amplitude = Degrees{12.5},
-                          .playback = Playback::ping_pong,
-                          .duration_s = 2.52}};
+    Animation& motion = header.animations.front();
+    motion.frame_count = 3;
+    motion.frame_rate_hz = 25.0;
+    motion.amplitude = Degrees{12.5};
+    motion.playback = Playback::ping_pong;
+    motion.duration_s = 2.52;
     header.poses = {{{{-12.5}}, {{0.1}}, {{12.5}}}, {{PoseIndex{0}, PoseIndex{1}, PoseIndex{2}}}};
     header.tasks = {{"free", "Look around"}, {"age", "How old?\tSay it."}};
     RecordedObject bust{"bust",

@@ -2,6 +2,7 @@
 #include <deque>
 
 #include "experiment/design/match_levels.h"
+#include "experiment/protocol/all_stimuli.h"
 #include "tests/experiment/record/plain_session.h"
 
 using namespace overt;
