@@ -14,6 +14,14 @@ namespace overt {
 
 namespace {
 
+/// The angles that something as large as an image has in the middle of the screen.
+glm::dvec2 slot_size_deg(const ScreenGeometry& screen) {
+    const glm::dvec2 half_mm =
+        0.5 * glm::dvec2(screen.image_px) * screen.screen_mm / glm::dvec2(screen.screen_px);
+    return {to_degrees({2.0 * std::atan(half_mm.x / screen.viewing_distance_mm)}).value,
+            to_degrees({2.0 * std::atan(half_mm.y / screen.viewing_distance_mm)}).value};
+}
+
 /// What the display makes of a frame rate that it only comes near to; nothing where it is exact.
 std::string difference_of_rates(const DesignReport& report, const AnimationFacts& animation) {
     const double asked = animation.motion.frame_rate_hz;
@@ -213,9 +221,14 @@ void add_overview(std::string& text, const DesignReport& report) {
     for (const DesignReport::SlotFacts& slot : report.slot_places) {
         const glm::ivec2 first = slot.screen.image_origin_px, last = first + slot.screen.image_px - 1;
         const glm::dvec2 middle = slot.screen.middle_deg();
-        places.push_back(fmt::format("{}: {}; columns {} to {}, rows {} to {}", slot.id,
-                                     from_the_middle(middle.x, middle.y), first.x, last.x, first.y, last.y));
+        const glm::dvec2 size = slot_size_deg(slot.screen);
+        places.push_back(fmt::format("{}: {:.2f} x {:.2f} deg, {}; columns {} to {}, rows {} to {}", slot.id,
+                                     size.x, size.y, from_the_middle(middle.x, middle.y), first.x, last.x,
+                                     first.y, last.y));
     }
+    const bool has_sizes = std::ranges::any_of(report.slot_places, [&](const DesignReport::SlotFacts& slot) {
+        return slot.screen.image_px != report.slot_places.front().screen.image_px;
+    });
     if (!places.empty())
         add_facts(text, "Slots", places);
     if (const auto& light = report.display.characterisation) {
@@ -227,9 +240,11 @@ void add_overview(std::string& text, const DesignReport& report) {
         add_facts(text, "Light", lines);
     }
     std::vector<std::string> stimulus{
-        fmt::format("{} x {} px: {:.2f} x {:.2f} deg, {:.1f} px per degree at the screen's middle",
+        fmt::format("{} x {} px: {:.2f} x {:.2f} deg, {:.1f} px per degree at the screen's middle{}",
                     report.view.width_px, report.view.height_px, angles.image_width_deg,
-                    angles.image_height_deg, angles.px_per_deg),
+                    angles.image_height_deg, angles.px_per_deg,
+                    has_sizes ? fmt::format("; this and the next is in \"{}\"", report.slot_places.front().id)
+                              : ""),
         fmt::format("rendered under {:.2f} deg", angles.camera_fov_deg)};
     if (report.slot_places.empty() &&
         std::hypot(angles.image_right_deg, angles.image_up_deg) > 2.0 / angles.px_per_deg)

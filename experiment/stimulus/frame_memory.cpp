@@ -27,11 +27,14 @@ ScreenColumns changed_columns(const DisplaySettings& display, int left_px, int w
 }
 
 double page_bytes(const Protocol& protocol) {
-    const ScreenGeometry geometry = screen_geometry_of(protocol);
-    const ScreenColumns columns =
-        changed_columns(protocol.display, geometry.image_origin_px.x, geometry.image_px.x);
-    return static_cast<double>(columns.end - columns.begin) * geometry.image_px.y *
-           (keeps_16_bits(protocol.display) ? 8.0 : 4.0);
+    int columns = 0, rows = 0;
+    for (const Slot& slot : protocol.slots) {
+        const ScreenGeometry at = slot_geometry(protocol, slot);
+        const ScreenColumns changed = changed_columns(protocol.display, at.image_origin_px.x, at.image_px.x);
+        columns = std::max(columns, changed.end - changed.begin);
+        rows = std::max(rows, at.image_px.y);
+    }
+    return static_cast<double>(columns) * rows * (keeps_16_bits(protocol.display) ? 8.0 : 4.0);
 }
 
 int pages_of(const Protocol& protocol, const Stimulus& stimulus) {

@@ -23,7 +23,8 @@ int pair_reach_px(const DisplaySettings& display);
 /// pixels are joined, and as far as the filter reaches.
 ScreenColumns changed_columns(const DisplaySettings& display, int left_px, int width_px);
 
-/// Of one page: 4 bytes a pixel, or 8 with 16 bits a channel.
+/// Of one page, which takes what the largest slot needs in columns and in rows: 4 bytes a pixel, or 8 with 16
+/// bits a channel.
 double page_bytes(const Protocol& protocol);
 
 /// Pages of a stimulus: one for each picture of its motion, or for each frame that is ready-made.
