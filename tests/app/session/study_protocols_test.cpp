@@ -1,0 +1,144 @@
+/// The protocols of published studies that come with the program, shortened: that they run, and that what
+/// they are about is in the record.
+#include <catch2/catch.hpp>
+
+#include <map>
+#include <set>
+
+#include "experiment/record/read/session_record.h"
+#include "tests/app/session/interrupted_run.h"
+#include "tests/support/tsv_file.h"
+
+using namespace overt;
+using namespace overt::test;
+
+namespace {
+
+/// The protocol as it is shipped, with fewer samples and shorter shows.
+std::string shortened(const std::string& name) {
+    const std::string text =
+        text_of(std::filesystem::path(OVERT_SOURCE_DIR) / "protocols" / (name + ".toml"));
+    return text + "\n[screens]\ntask_min_s = 0.1\n[bake]\nquality = \"live\"\n";
+}
+
+/// Runs it without drawing what nobody sees, verifies the record, and gives the tables' folder.
+std::filesystem::path run_study(const SmallExperiment& experiment,
+                                const std::vector<std::string>& more = {}) {
+    const ProgramRun check = experiment.overt({"check", experiment.protocol().string(), "--observer", "P01"});
+    INFO(check.err);
+    REQUIRE(check.exit_code == 0);
+    std::vector<std::string> arguments =
+        run_arguments(experiment, "P01", {"--virtual-time", "--no-pictures"});
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ProgramRun run = experiment.overt(arguments);
+    INFO(run.out << run.err);
+    REQUIRE(run.exit_code == 0);
+    REQUIRE(experiment.overt({"verify", experiment.session().string()}).exit_code == 0);
+    const std::filesystem::path tables = experiment.folder().path() / "tables";
+    const ProgramRun exported =
+        experiment.overt({"export", experiment.session().string(), "--out", tables.string()});
+    INFO(exported.err);
+    REQUIRE(exported.exit_code == 0);
+    return tables;
+}
+
+} // namespace
+
+TEST_CASE("nine qualities are judged of each material, in an order drawn for each trial", "[session]") {
+    const SmallExperiment experiment(shortened("nine_qualities"));
+    const std::filesystem::path tables = run_study(experiment, {"--trials", "3"});
+    const SessionRecord record(experiment.session());
+    std::set<std::vector<std::string>> orders;
+    for (const TrialRecord& trial : record.trials()) {
+        if (!trial.counts)
+            continue;
+        std::vector<std::string> order;
+        std::set<std::string> items;
+        for (const GivenAnswer& given : trial.outcome.given) {
+            CHECK(given.id == "quality");
+            CHECK_FALSE(given.is_missed);
+            CHECK((given.number && *given.number >= 1.0 && *given.number <= 7.0));
+            order.push_back(given.item);
+            items.insert(given.item);
+        }
+        CHECK(items.size() == 9);
+        orders.insert(order);
+    }
+    CHECK(orders.size() == 3);
+    const TsvFile given(tables / "given_answers.tsv");
+    REQUIRE(given.size() == 27);
+    CHECK((given.text(0, "class") == "metal" || given.text(0, "class") == "earth"));
+}
+
+TEST_CASE("shapes that were learned are old in the test, and gaze on the middle begins their trials",
+          "[session]") {
+    const SmallExperiment experiment(with(shortened("learn_and_recognise"), "for_s = 3 }", "for_s = 0.3 }"));
+    const std::filesystem::path tables = run_study(experiment);
+    const SessionRecord record(experiment.session());
+    CHECK(record.is_complete());
+    std::set<int> learned;
+    std::map<std::string, int> seen;
+    for (const TrialRecord& trial : record.trials()) {
+        if (!trial.counts)
+            continue;
+        const bool is_test =
+            record.header().tasks[static_cast<std::size_t>(trial.trial.task)].id == "recognise";
+        if (!is_test) {
+            learned.insert(trial.trial.stimulus.object);
+            CHECK(trial.trial.stimulus.motion == 0);
+            const AttemptStep& fixation = trial.outcome.steps.front();
+            CHECK((fixation.ended_by == StepEnd::gaze || fixation.ended_by == StepEnd::patience));
+            continue;
+        }
+        CHECK(trial.trial.stimulus.motion == 1);
+        ++seen[trial.trial.correct];
+        CHECK((trial.trial.correct == "old") == learned.contains(trial.trial.stimulus.object));
+        REQUIRE(!trial.outcome.given.empty());
+        const GivenAnswer& memory = trial.outcome.given.front();
+        if (!memory.is_missed)
+            CHECK(memory.is_correct == (memory.value == trial.trial.correct));
+    }
+    CHECK(learned.size() == 4);
+    CHECK(seen == std::map<std::string, int>{{"new", 4}, {"old", 4}});
+    // Gaze falls on parts of the shapes.
+    const TsvFile samples(tables / "samples.tsv");
+    std::set<std::string> parts;
+    for (std::size_t i = 0; i < samples.size(); ++i)
+        if (samples.has(i, "part"))
+            parts.insert(samples.text(i, "part"));
+    CHECK(parts.contains("trunk"));
+}
+
+TEST_CASE("of two small choices one has the material of the large sample, under another light", "[session]") {
+    const SmallExperiment experiment(
+        with(shortened("delayed_match"), "blank = [0.5, 2.0, 8.0]", "blank = [0.5, 0.6]"));
+    const std::filesystem::path tables = run_study(experiment, {"--trials", "4"});
+    const SessionRecord record(experiment.session());
+    const std::vector<RecordedSlot>& slots = record.header().slots;
+    REQUIRE(slots.size() == 3);
+    CHECK(slots[0].size_px.x > slots[1].size_px.x);
+    CHECK(slots[1].size_px == slots[2].size_px);
+    int trials = 0;
+    for (const TrialRecord& trial : record.trials()) {
+        if (!trial.counts)
+            continue;
+        ++trials;
+        const Trial& of = trial.trial;
+        REQUIRE(of.shown_count() == 3);
+        std::string same;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const PlacedStimulus shown = of.shown(i);
+            if (shown.slot > 0 && shown.stimulus.material == of.shown(0).stimulus.material) {
+                same = slots[static_cast<std::size_t>(shown.slot)].id;
+                CHECK(shown.stimulus.light != of.shown(0).stimulus.light);
+            }
+        }
+        CHECK(same == of.correct);
+        // Each slot for its step alone: the sample is over when the choices come.
+        const TrialRecord sample = trial.seen_in(0), choice = trial.seen_in(1);
+        CHECK(sample.outcome.shown_refreshes == 60);
+        CHECK(sample.outcome.presentation_end + from_seconds(0.45) < choice.outcome.presentation_onset);
+    }
+    CHECK(trials == 4);
+    CHECK(TsvFile(tables / "presentations.tsv").size() == 12);
+}
