@@ -1,5 +1,8 @@
 #include "experiment/record/session_schema.h"
 
+#include <string>
+#include <vector>
+
 #include <SQLiteCpp/Database.h>
 
 #include "experiment/record/header_tables.h"
@@ -329,7 +332,27 @@ void make_session_tables(SQLite::Database& database) {
                 list.name));
 }
 
+namespace {
+
+/// The lists that stimuli were not made of when the tables were: their stimuli have the first entry.
+void add_later_lists(SQLite::Database& database) {
+    std::vector<std::string> tables;
+    for (Query row(database, "SELECT name FROM sqlite_schema WHERE type = 'table'"); row.step();)
+        tables.push_back(row.text());
+    const auto has = [&](const std::string& table, std::size_t list) {
+        return has_column(database, table.c_str(), std::string(stimulus_lists[list].name).c_str());
+    };
+    for (const std::string& table : tables)
+        for (std::size_t list = 2; list < stimulus_lists.size(); ++list)
+            if (has(table, 0) && has(table, 1) && !has(table, list))
+                database.exec(fmt::format("ALTER TABLE \"{}\" ADD COLUMN {} INTEGER NOT NULL DEFAULT 0",
+                                          table, stimulus_lists[list].name));
+}
+
+} // namespace
+
 void complete_session_tables(SQLite::Database& database) {
+    add_later_lists(database);
     database.exec(ledger_tables_sql);
     database.exec(with_stimulus_columns(slot_tables_sql));
     database.exec(answer_tables_sql);
