@@ -51,6 +51,7 @@ LSL_CALL std::int32_t lsl_resolve_byprop(Info** buffer, std::uint32_t size, cons
         }
     return static_cast<std::int32_t>(count);
 }
+#endif
 LSL_CALL std::int32_t lsl_resolve_all(Info** buffer, std::uint32_t size, double) {
     const std::scoped_lock lock(fake_lsl()->mutex);
     std::uint32_t count = 0;
@@ -61,7 +62,6 @@ LSL_CALL std::int32_t lsl_resolve_all(Info** buffer, std::uint32_t size, double)
         }
     return static_cast<std::int32_t>(count);
 }
-#endif
 LSL_CALL Info* lsl_create_streaminfo(const char* name, const char* type, std::int32_t channels,
                                      double rate_hz, std::int32_t format, const char* source) {
     auto stream = std::make_shared<FakeStream>();
