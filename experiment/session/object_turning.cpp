@@ -137,7 +137,7 @@ bool ObjectTurning::take(const ObserverInput& input) noexcept {
             break;
         case Kind::wheel:
         case Kind::dial:
-            has_moved = input.kind == Kind::dial || turned.by_mouse();
+            has_moved = input.kind == Kind::dial ? turned.by_keys() : turned.by_mouse();
             if (has_moved)
                 turned.turn(turned.by().step.value * input.steps, input.at);
             break;

@@ -152,12 +152,13 @@ TEST_CASE("what cannot be set is an error at its place", "[unit]") {
     CHECK_THAT(fault(with("keys = [\"enter\", \"j\"]\n"), "", ""),
                Contains("the key \"enter\" answers two things"));
     CHECK_THAT(fault(with(""), "until = \"answer\"", "for_s = 1"), Contains("nothing is shown while"));
-    CHECK_THAT(fault(with(""), "columns = { base = \"silver\" }\n", ""),
-               Contains("which is meant nobody can tell") || Contains("roughness"));
+    CHECK_THAT(fault(with(""), "columns = { base = \"silver\" }\nseries = { roughness = [0.05, 0.3] }",
+                     "series = { roughness = [0.1, 0.3] }"),
+               Contains("2 materials have roughness 0.1: which is meant nobody can tell"));
     CHECK_THAT(fault(with("shows = { light = \"moon\" }\n"), "", ""), Contains("there is no light \"moon\""));
-    CHECK_THAT(fault(with(""), "id = \"match\"", "id = \"match\"") +
-                   fault(with(""), "name = \"match\"", "name = \"match\"\n[display]\nframe_store_mb = 1"),
-               Contains("frame store"));
+    // Two pictures fit, and three levels do not.
+    CHECK_THAT(fault(with(""), "name = \"match\"", "name = \"match\"\n[display]\nframe_store_mb = 2.5"),
+               Contains("what can be set in a trial of task t takes"));
 }
 
 TEST_CASE("two columns need each value of the one with each of the other", "[unit]") {
