@@ -49,6 +49,7 @@ std::optional<Protocol> read_text(std::string_view text, const std::filesystem::
         check_sizes(examination);
         check_output(examination);
         check_motions(examination);
+        check_motion_kinds(examination);
         check_screens(examination);
         check_ids(examination);
         check_blocks(examination);

@@ -8,6 +8,7 @@
 #include "experiment/base/counted.h"
 #include "experiment/checks/design_report.h"
 #include "experiment/colour/characterisation_text.h"
+#include "experiment/motion_words.h"
 #include "experiment/protocol/keys/protocol_keys.h"
 
 namespace overt {
@@ -133,6 +134,14 @@ void add_rotations(std::string& text, const DesignReport& report) {
     }
 }
 
+/// What a motion does in all its frames, as a noun.
+std::string_view swings_of(const Animation& motion) {
+    return motion.kind == MotionKind::turn || motion.kind == MotionKind::triangle ||
+                   motion.kind == MotionKind::trapezoid || motion.kind == MotionKind::still
+               ? "swings to and fro"
+               : "rounds";
+}
+
 /// How object and light move, in words.
 std::string movement_of(const Animation& motion) {
     if (motion.kind == MotionKind::observer) {
@@ -146,30 +155,32 @@ std::string movement_of(const Animation& motion) {
                            by.is_whole() ? std::string("all round")
                                          : fmt::format("from {} to {} deg", by.from.value, by.to.value));
     }
-    const double light = motion.light_amplitude.value;
-    std::string words = motion.kind == MotionKind::still
-                            ? fmt::format("still at {} deg", motion.angle.value)
-                            : fmt::format("{} deg to each side", motion.amplitude.value);
+    std::string words = motion.kind == MotionKind::still ? fmt::format("still at {} deg", motion.angle.value)
+                                                         : way_of(motion);
     if (motion.kind == MotionKind::turn && motion.angle.value != 0.0)
         words += fmt::format(" of {}", motion.angle.value);
-    if (light != 0.0)
-        words += fmt::format(", the light {} deg to each side", light);
+    else if (motion.kind != MotionKind::still && motion.angle.value != 0.0)
+        words += fmt::format(", from {} deg", motion.angle.value);
+    if (motion.axis || motion.pivot)
+        words += ", about an axis of its own";
+    if (const std::string light = way_of_light(motion); !light.empty())
+        words += fmt::format(", the light {}", light);
     return words;
 }
 
 void add_motion(std::string& text, const DesignReport& report, const AnimationFacts& animation) {
     const bool is_one_of_several = report.motions.size() > 1;
-    const bool moves = animation.distinct_poses > 1 || animation.motion.light_amplitude.value != 0.0;
+    const bool moves = animation.distinct_poses > 1 || animation.motion.moves();
     add_facts(text, is_one_of_several ? "Motion" : "Animation",
               {fmt::format("{}{} ({}), {}, {}", is_one_of_several ? animation.id + ": " : "",
                            counted(animation.frames, "frame"), name_of(animation.motion.playback),
                            counted(animation.distinct_poses, "distinct pose"), movement_of(animation.motion)),
                animation.motion.kind == MotionKind::observer
                    ? fmt::format("shown: {:.3f} s, in the poses that it is turned to", animation.duration_s)
-               : moves ? fmt::format("shown: {} at {:.6g} Hz = {:.3f} s = {:.4g} swings to and fro",
+               : moves ? fmt::format("shown: {} at {:.6g} Hz = {:.3f} s = {:.4g} {}",
                                      counted(animation.shown_frames, "frame"),
                                      animation.shown_frames / animation.duration_s, animation.duration_s,
-                                     animation.periods)
+                                     animation.periods, swings_of(animation.motion))
                        : fmt::format("shown: {:.3f} s", animation.duration_s),
                fmt::format("each frame is lit for {} at {} Hz: {} refreshes{}",
                            counted(animation.refreshes_per_frame, "refresh", "refreshes"),

@@ -82,9 +82,6 @@ void check_motion(ProtocolExamination& examination, std::size_t index) {
                                       refresh_hz / std::ceil(refresh_hz / motion.frame_rate_hz))
                         : fmt::format("{} Hz would do; or frame_rate_hz = {:.6g}", above, refresh_hz));
     }
-    if (motion.kind == MotionKind::still && examination.is_written(key("amplitude_deg")))
-        examination.warning({key("amplitude_deg"), key("kind")},
-                            "\"amplitude_deg\" has no effect on a motion of kind \"still\"");
     const double frames = motion.duration_s * motion.frame_rate_hz;
     const double whole = std::max(1.0, std::round(frames));
     if (std::abs(frames - whole) > 1e-6 * whole) {

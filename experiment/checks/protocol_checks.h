@@ -15,6 +15,7 @@ void check_sizes(ProtocolExamination& examination);
 /// What the video signal can carry, and where on the screen.
 void check_output(ProtocolExamination& examination);
 void check_motions(ProtocolExamination& examination);
+void check_motion_kinds(ProtocolExamination& examination); ///< what each kind asks of its keys
 void check_screens(ProtocolExamination& examination);
 void check_schedule(ProtocolExamination& examination);
 /// Limits that are written in [schedule] and do not hold in a block, because of its order.

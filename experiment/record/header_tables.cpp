@@ -6,6 +6,7 @@ template <> inline constexpr std::array<const char*, 2> stored_words<ClockKind>{
 template <> inline constexpr std::array<const char*, 2> stored_words<Eye>{"left", "right"};
 template <> inline constexpr std::array<const char*, 2> stored_words<Playback>{"cycle", "ping-pong"};
 template <> inline constexpr std::array<const char*, 2> stored_words<WhenLate>{"drop", "stretch"};
+template <> inline constexpr std::array<const char*, 2> stored_words<MotionEase>{"none", "minimum-jerk"};
 
 namespace {
 
@@ -128,6 +129,11 @@ constexpr RowColumn<Animation> animation_columns[] = {
     column<&Animation::by_observer, &ObserverTurn::from>("from_deg", "likewise, the angle of the first", "0"),
     column<&Animation::by_observer, &ObserverTurn::to>(
         "to_deg", "likewise, how far it can be turned; 360 after the first: all round", "360"),
+    column<&Animation::turns>("turns", "of `turntable` and `orbit`: while the frames go by once", "1"),
+    column<&Animation::rest_share>("rest_share", "of `trapezoid`: of its time, at both ends together",
+                                   "0.25"),
+    column<&Animation::ease>("ease", "of `triangle` and `trapezoid`: `none` or `minimum-jerk`", "'none'"),
+    column<&Animation::approach>("approach", "of `approach`: how far, in the unit of the mesh", "0"),
     column<&Animation::light_turns>("light_turns", "full turns of the light while the frames go by once",
                                     "0"),
 };

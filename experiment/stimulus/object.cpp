@@ -75,7 +75,12 @@ Camera camera_of(const ViewSettings& settings, const Protocol& protocol, const M
         Degrees largest_turn{0.0};
         for (const Animation& motion : protocol.motions)
             largest_turn.value = std::max(largest_turn.value, motion.largest_turn().value);
-        return fit_camera(mesh, field, image_px, largest_turn, settings.margin);
+        std::vector<ObjectPose> tilted;
+        for (const Animation& motion : protocol.motions)
+            for (const Pose& picture : motion.pictures())
+                if (!picture.object.is_turn())
+                    tilted.push_back(picture.object);
+        return fit_camera(mesh, field, image_px, largest_turn, settings.margin, tilted);
     }
     return {*settings.camera_position - origin,
             settings.camera_target ? *settings.camera_target - origin : mesh.bounds().centre(), field};

@@ -12,6 +12,9 @@ namespace {
 
 constexpr float pi_of_lobe = std::numbers::pi_v<float>;
 
+/// Where mirrors give back all, nothing is left that could be even; and 0 / 0 must not be.
+constexpr float least_left = 1e-6f;
+
 /// Where a direction at a cosine lies among rows that are even in its root.
 struct RowPlace {
     int row;
@@ -79,60 +82,40 @@ float LobeAlbedo::at(float cosine) const {
     return from[0] + share * (from[1] - from[0]);
 }
 
-/// How often each part is chosen, and what the coat leaves of the light towards the eye.
+/// How often each part is chosen.
 struct LayeredSurface::Chances {
-    float coat = 0.0f, even = 1.0f;
-    std::array<float, 2> mirrors{}; ///< of the body, in their order
-    float below_coat = 1.0f;
+    float coat = 0.0f, mirrors = 0.0f, even = 0.0f; ///< 1 together
 };
 
 LayeredSurface::Chances LayeredSurface::chances(float cosine) const {
-    Chances chances;
-    if (!coat.empty()) {
-        chances.coat = coat.front().albedo.at(cosine);
-        chances.below_coat = 1.0f - chances.coat;
-    }
-    float sum = chances.coat;
-    for (std::size_t i = 0; i < mirrors.size(); ++i)
-        sum += chances.mirrors[i] = chances.below_coat * mirrors[i].albedo.at(cosine);
-    float even = 0.0f;
-    for (const Even& part : evens)
-        even += part.colour.largest() * (1.0f - part.taken.at(cosine));
-    sum += even *= chances.below_coat;
-    // Never so seldom that one of its paths would outshine a whole picture.
+    const float by_coat = coat ? coat->albedo.at(cosine) : 0.0f;
+    const float by_mirrors = (1.0f - by_coat) * mirrors.albedo.at(cosine);
+    float evenly = 0.0f;
+    for (const Even& even : evens)
+        evenly += even.colour.largest() * (1.0f - even.taken.at(cosine));
+    evenly *= 1.0f - by_coat;
+    // Never so seldom that one path of what is even outshines all others: a lamp that the mirrors do not show
+    // is found by it alone.
     constexpr float least = 0.05f;
-    chances.even = evens.empty() ? 0.0f : std::max(least, sum > 0.0f ? even / sum : 1.0f);
-    const float others = sum - even;
-    if (others <= 0.0f) {
-        chances.even = 1.0f;
-        return chances;
-    }
-    const float factor = (1.0f - chances.even) / others;
-    chances.coat *= factor;
-    for (float& chance : chances.mirrors)
-        chance *= factor;
-    return chances;
+    const float glossy = by_coat + by_mirrors;
+    if (glossy <= 0.0f)
+        return {0.0f, 0.0f, 1.0f};
+    const float even = evens.empty() ? 0.0f : std::max(least, evenly / (glossy + evenly));
+    const float share = (1.0f - even) / glossy;
+    return {share * by_coat, share * by_mirrors, even};
 }
 
 glm::vec3 LayeredSurface::scatter(const SurfaceEvent& event, SampleSequence& sequence, Bins& carried) const {
     const NormalFrame frame(event.normal);
     const glm::vec3 to_eye = frame.to_local(event.to_eye);
     const Chances chance = chances(to_eye.z);
-    float choice = sequence.next();
+    const float choice = sequence.next();
     const glm::vec2 place = sequence.next_two();
     glm::vec3 onward;
     if (choice < chance.even) {
         onward = frame.to_world(cosine_direction(place));
     } else {
-        choice -= chance.even;
-        float alpha = coat.empty() ? mirrors.back().alpha : coat.front().alpha;
-        for (std::size_t i = 0; i < mirrors.size(); ++i) {
-            if (choice < chance.mirrors[i]) {
-                alpha = mirrors[i].alpha;
-                break;
-            }
-            choice -= chance.mirrors[i];
-        }
+        const float alpha = choice < chance.even + chance.coat ? coat->alpha : mirrors.alpha;
         const glm::vec3 micro = frame.to_world(ggx_visible_normal(to_eye, alpha, place));
         onward = glm::normalize(2.0f * glm::dot(event.to_eye, micro) * micro - event.to_eye);
     }
@@ -149,10 +132,9 @@ float LayeredSurface::density(const SurfaceEvent& event, glm::vec3 onward) const
         return 0.0f;
     const Chances chance = chances(to_eye.z);
     float density = chance.even * out.z / pi_of_lobe;
-    for (std::size_t i = 0; i < mirrors.size(); ++i)
-        density += chance.mirrors[i] * mirror_density(to_eye, out, mirrors[i].alpha);
-    if (!coat.empty())
-        density += chance.coat * mirror_density(to_eye, out, coat.front().alpha);
+    density += chance.mirrors * mirror_density(to_eye, out, mirrors.alpha);
+    if (coat)
+        density += chance.coat * mirror_density(to_eye, out, coat->alpha);
     return density;
 }
 
@@ -170,17 +152,15 @@ Bins LayeredSurface::value(const SurfaceEvent& event, glm::vec3 onward) const {
         add(value, mirrored);
     };
     float below_coat = 1.0f;
-    if (!coat.empty()) {
-        const LobeAlbedo& taken = coat.front().albedo;
-        below_coat = (1.0f - taken.at(to_eye.z)) * (1.0f - taken.at(out.z));
-        add_mirrors(coat.front(), 1.0f);
+    if (coat) {
+        below_coat = (1.0f - coat->albedo.at(to_eye.z)) * (1.0f - coat->albedo.at(out.z));
+        add_mirrors(*coat, 1.0f);
     }
-    for (const Mirrors& of : mirrors)
-        add_mirrors(of, below_coat);
+    add_mirrors(mirrors, below_coat);
     for (const Even& even : evens) {
         Bins given = even.colour;
         scale(given, below_coat * (1.0f - even.taken.at(to_eye.z)) * (1.0f - even.taken.at(out.z)) /
-                         (pi_of_lobe * (1.0f - even.taken.mean())));
+                         (pi_of_lobe * std::max(least_left, 1.0f - even.taken.mean())));
         add(value, given);
     }
     return value;

@@ -1,14 +1,16 @@
-/// A surface that mirrors in one or several lobes of micro-mirrors, and gives back evenly what they leave it:
-/// a plastic, a rough metal with all light between its mirrors, a body under a clear coat. Reciprocal, and it
-/// gives back all light where its colours are white.
+/// A surface that mirrors in a lobe of micro-mirrors, and gives back evenly what they leave it: a plastic, a
+/// rough metal with all light between its mirrors, both under a clear coat. Reciprocal, and where its colours
+/// are white it gives back all light.
 ///
-/// f(v, l) = R(v.h) D G1(v) G1(l) / (4 cos_v cos_l) + C (1 - E(v)) (1 - E(l)) / (pi (1 - mean E)),
+/// f(v, l) = F(v.h) D G1(v) G1(l) / (4 cos_v cos_l) + C (1 - E(v)) (1 - E(l)) / (pi (1 - mean E)),
 ///
-/// where E is the share of light that the first term with R = Fresnel's reflectance gives back (Kelemen and
-/// Szirmay-Kalos 2001, "A microfacet based coupled specular-matte BRDF model"; Kulla and Conty 2017).
+/// where E is the share of light that the first term gives back, of mirrors as they are or without loss
+/// (Kelemen and Szirmay-Kalos 2001, "A microfacet based coupled specular-matte BRDF model"; Kulla and Conty
+/// 2017, "Revisiting physically based shading at Imageworks").
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "render/bake/conductor.h"
@@ -40,24 +42,23 @@ class LobeAlbedo {
 /// Made once for a stimulus and asked from any number of threads.
 class LayeredSurface {
   public:
-    /// Mirrors of one roughness; `reflectance` includes the share of the surface that has them.
+    /// Mirrors of one roughness.
     struct Mirrors {
-        float alpha = 0.0f;
-        ConductorTable reflectance;
-        LobeAlbedo albedo; ///< of a mean over the bins: how often they are chosen
+        float alpha = 0.0f;         ///< GGX, 1e-4 … 1
+        ConductorTable reflectance; ///< of one mirror, by the cosine of the angle to it
+        LobeAlbedo albedo;          ///< of all of them together, the mean over the bins
     };
-    /// What is given back evenly: colour (1 - E(v)) (1 - E(l)) / (1 - mean E).
+    /// What is given back evenly, C with its E.
     struct Even {
         Bins colour;
-        LobeAlbedo taken; ///< E
+        LobeAlbedo taken;
     };
 
-    /// A body, and how much of it shows.
-    std::vector<Mirrors> mirrors;
+    Mirrors mirrors;
     std::vector<Even> evens;
-    /// Of a clear coat over all of it, if there is one: it mirrors in a lobe of its own, and what is below is
-    /// dimmed by (1 - E(v)) (1 - E(l)).
-    std::vector<Mirrors> coat;
+    /// Above all of it, if there is one: it mirrors in a lobe of its own, and what is below counts times
+    /// (1 - E(v)) (1 - E(l)), E being its albedo.
+    std::optional<Mirrors> coat;
 
     /// Gives a direction with density(), and takes from `carried` what take() does; (0, 0, 0) if it leads
     /// below the surface.

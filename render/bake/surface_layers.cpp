@@ -75,23 +75,23 @@ double inner_reflectance(double ior) { return 1.0 - (1.0 - outer_reflectance(ior
 LayeredSurface plastic_surface(const MaterialSettings& material, const Bins& reflectance) {
     const double ior = material.ior;
     LayeredSurface surface;
-    surface.mirrors.push_back(mirrors_of(usable(material.alpha()), ConductorTable([ior](double cosine) {
-                                             return Bins::filled(static_cast<float>(fresnel_of(ior, cosine)));
-                                         })));
+    surface.mirrors = mirrors_of(usable(material.alpha()), ConductorTable([ior](double cosine) {
+                                     return Bins::filled(static_cast<float>(fresnel_of(ior, cosine)));
+                                 }));
     Bins colour = reflectance;
     if (material.body == PlasticBody::pigment) {
         const auto inner = static_cast<float>(inner_reflectance(ior));
         for (float& value : colour.value)
             value *= (1.0f - inner) / (1.0f - value * inner);
     }
-    surface.evens.push_back({colour, surface.mirrors.front().albedo});
+    surface.evens.push_back({colour, surface.mirrors.albedo});
     return surface;
 }
 
 LayeredSurface rough_metal_surface(const MaterialSettings& material, const ConductorTable& metal) {
     LayeredSurface surface;
     const double alpha = usable(material.alpha());
-    surface.mirrors.push_back(mirrors_of(alpha, metal));
+    surface.mirrors = mirrors_of(alpha, metal);
     surface.evens.push_back(between_mirrors(alpha, metal, 1.0f));
     return surface;
 }
@@ -114,7 +114,7 @@ LayeredSurface metallic_roughness_surface(const MaterialSettings& material, cons
         add(bins, Bins::filled((1.0f - metallic) * static_cast<float>(fresnel_of(ior, cosine))));
         return bins;
     });
-    surface.mirrors.push_back(mirrors_of(alpha, both));
+    surface.mirrors = mirrors_of(alpha, both);
     if (metallic < 1.0f) {
         Bins colour = reflectance;
         scale(colour, 1.0f - metallic);
@@ -126,11 +126,11 @@ LayeredSurface metallic_roughness_surface(const MaterialSettings& material, cons
     if (material.clear_coat > 0.0) {
         constexpr double coat_ior = 1.5; // KHR_materials_clearcoat
         const auto share = static_cast<float>(material.clear_coat);
-        surface.coat.push_back(
+        surface.coat =
             mirrors_of(usable(material.clear_coat_roughness * material.clear_coat_roughness),
                        ConductorTable([share](double cosine) {
                            return Bins::filled(share * static_cast<float>(fresnel_of(coat_ior, cosine)));
-                       })));
+                       }));
     }
     return surface;
 }

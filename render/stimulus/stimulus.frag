@@ -1,5 +1,5 @@
 #version 330 core
-// Metals under a light probe, approximated for the graphics processor: one mirrored direction per point, looked up in a probe
+// Metals and plastics under a light probe, approximated for the graphics processor: one mirrored direction per point, looked up in a probe
 // blurred beforehand, dimmed where the figure itself is in the way, with one bounce of its own colour from there.
 in vec3 world_position;
 in vec3 world_normal;
@@ -18,6 +18,10 @@ uniform float exposure;
 uniform float light_turn;        // of the probe about the vertical, in whole turns
 uniform int is_diffuse;
 uniform int is_coated;
+uniform int is_plastic;
+uniform float plastic_ior;
+uniform float metallic;          // of a plastic: share that is metal
+uniform float clear_coat;        // of a plastic: share under a clear coat of index 1.5
 uniform float coat_ior;
 uniform vec3 coat_absorbance;    // for one pass of the nominal thickness, at normal incidence
 uniform float bump_slope;        // greatest slope of the coat's bumps
@@ -119,6 +123,16 @@ void main() {
         vec3 silver = metal_fresnel(reflectance, max(dot(-inside, normal), 0.0));
         light = shine * incoming(sharp, mirror, reflectance * through)
               + (1.0 - shine) * (1.0 - shine) * through * silver * incoming(mirrored, outward, reflectance * through);
+    } else if (is_plastic == 1) {
+        float cosine = clamp(dot(normal, to_camera), 0.0, 1.0);
+        vec3 mirror = reflect(-to_camera, normal);
+        float shine = dielectric_fresnel(cosine, plastic_ior);
+        vec3 body = (1.0 - metallic) * (1.0 - shine) * reflectance * incoming(soft, normal, reflectance) * mix(0.35, 1.0, world_openness.w);
+        vec3 shown = mix(vec3(shine), metal_fresnel(reflectance, cosine), metallic);
+        light = body + shown * incoming(mirrored, mirror, reflectance);
+        float coat = clear_coat * dielectric_fresnel(cosine, 1.5);
+        if (coat > 0.0)
+            light = (1.0 - coat) * light + coat * incoming(sharp, mirror, reflectance);
     } else {
         vec3 mirror = reflect(-to_camera, normal);
         light = metal_fresnel(reflectance, clamp(dot(normal, to_camera), 0.0, 1.0)) * incoming(mirrored, mirror, reflectance);

@@ -4,6 +4,7 @@
 
 #include "experiment/base/error.h"
 #include "experiment/spectra/metal_table.h"
+#include "render/bake/layered_surface.h"
 #include "stimulus_shaders.h"
 
 namespace overt {
@@ -32,10 +33,15 @@ void StimulusRenderer::set_material(const MaterialSettings& material) {
     live_ = &model_of(material.kind).live;
     mirrored_ = texture_of(*context_, live_->mirrored(probe_, material));
     const bool coated = live_->shading == LiveApproximation::Shading::coated_metal;
-    reflectance_ = live_->shading == LiveApproximation::Shading::matt
+    reflectance_ = row_of(material.kind).has_key("reflectance")
                        ? glm::dvec3(material.reflectance[0], material.reflectance[1], material.reflectance[2])
                        : linear_rec709_of(normal_reflectance(load_metal(material.metal),
                                                              coated ? material.coat_ior : 1.0));
+    if (live_->shading == LiveApproximation::Shading::plastic && material.body == PlasticBody::pigment) {
+        const double inner = inner_reflectance(material.ior);
+        for (int channel = 0; channel < 3; ++channel)
+            reflectance_[channel] *= (1.0 - inner) / (1.0 - reflectance_[channel] * inner);
+    }
 }
 
 LinearImage StimulusRenderer::draw(const MeshBuffers& mesh, const SceneView& scene, const Pose& pose) {
@@ -62,6 +68,11 @@ LinearImage StimulusRenderer::draw(const MeshBuffers& mesh, const SceneView& sce
     program_.set("exposure", static_cast<float>(light_.exposure));
     program_.set("light_turn", static_cast<float>(pose.light.value / 360.0));
     program_.set("is_diffuse", live_->shading == Shading::matt ? 1 : 0);
+    program_.set("is_plastic", live_->shading == Shading::plastic ? 1 : 0);
+    program_.set("plastic_ior", static_cast<float>(material_.ior));
+    const bool is_mixed = material_.kind == MaterialKind::metallic_roughness;
+    program_.set("metallic", is_mixed ? static_cast<float>(material_.metallic) : 0.0f);
+    program_.set("clear_coat", is_mixed ? static_cast<float>(material_.clear_coat) : 0.0f);
     program_.set("is_coated", live_->shading == Shading::coated_metal ? 1 : 0);
     program_.set("coat_ior", static_cast<float>(material_.coat_ior));
     program_.set("coat_absorbance",

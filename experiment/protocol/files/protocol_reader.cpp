@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "experiment/keys/key_walk.h"
+#include "experiment/protocol/files/keyframes.h"
 #include "experiment/protocol/files/old_words.h"
 #include "experiment/protocol/files/written_series.h"
 #include "experiment/protocol/keys/protocol_keys.h"
@@ -156,6 +157,36 @@ void read_trial_tables(ProtocolExamination& examination, const IncludeReader& re
     }
 }
 
+/// Reads the tables that motions of kind "keyframes" name; their texts stand beside those of included files.
+void read_keyframes(ProtocolExamination& examination, const IncludeReader& reader) {
+    Protocol& protocol = examination.protocol;
+    for (std::size_t i = 0; i < protocol.motions.size(); ++i) {
+        MotionSettings& motion = protocol.motions[i];
+        if (motion.kind != MotionKind::keyframes || motion.keyframes.empty())
+            continue;
+        const std::string path = fmt::format("motion[{}].keyframes", i);
+        UnreadFile why_not;
+        const IncludedText* const text =
+            text_beside(protocol.included, protocol.file, folder_of(protocol, path) / motion.keyframes,
+                        reader, examination.diagnostics(), why_not);
+        if (!text) {
+            examination.error({path},
+                              fmt::format("keyframes \"{}\": {}", motion.keyframes.string(), why_not.message),
+                              why_not.hint);
+            continue;
+        }
+        const std::string name = text->file.string();
+        const auto table = parse_delimited(text->text, name, text->number, examination.diagnostics());
+        if (!table)
+            continue;
+        if (!protocol.places.is_written(fmt::format("motion[{}].frame_count", i)))
+            motion.frame_count = std::clamp(
+                static_cast<int>(std::lround(seconds_of_keyframes(*table) * motion.frame_rate_hz)) + 1, 1,
+                most_frames);
+        motion.given = poses_of_keyframes(*table, motion, name, examination.diagnostics());
+    }
+}
+
 } // namespace
 
 bool read_written_keys(ProtocolExamination& examination, std::string_view text, const IncludeReader& reader) {
@@ -179,6 +210,8 @@ bool read_written_keys(ProtocolExamination& examination, std::string_view text, 
     complete(protocol);
     if (joined.toml.is_whole)
         read_trial_tables(examination, reader);
+    if (joined.toml.is_whole)
+        read_keyframes(examination, reader);
     return joined.toml.is_whole;
 }
 

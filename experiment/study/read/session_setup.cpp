@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "experiment/base/plain_text.h"
+#include "experiment/motion_words.h"
 #include "experiment/record/no_stimulus.h"
 
 namespace overt {
@@ -105,6 +106,13 @@ std::string motion_in_words(const Animation& motion) {
             by.step.value);
     }
     const bool turns = motion.kind == MotionKind::turn && motion.amplitude.value != 0.0;
+    const bool is_of_old = motion.kind == MotionKind::turn || motion.kind == MotionKind::still;
+    if (!is_of_old || motion.light_turns != 0) {
+        const std::string light = way_of_light(motion);
+        return fmt::format("the object moved: {}{}, in {} frames at {} Hz, for {} s", way_of(motion),
+                           light.empty() ? std::string() : ", and the light " + light, motion.frame_count,
+                           motion.frame_rate_hz, motion.duration_s);
+    }
     const bool light_turns = motion.light_amplitude.value != 0.0;
     std::string words = turns
                             ? fmt::format("the object turned by {} deg to each side", motion.amplitude.value)
@@ -114,8 +122,8 @@ std::string motion_in_words(const Animation& motion) {
     if (light_turns)
         words += fmt::format(" and the light turned by {} deg to each side", motion.light_amplitude.value);
     if (turns || light_turns)
-        words += fmt::format(", to and fro about the vertical as a sine of time, in {} frames of {} at {} Hz",
-                             motion.frame_count,
+        words += fmt::format(", to and fro about {} as a sine of time, in {} frames of {} at {} Hz",
+                             motion.only_turns() ? "the vertical" : "an axis of its own", motion.frame_count,
                              motion.playback == Playback::ping_pong ? "one sweep" : "one period",
                              motion.frame_rate_hz);
     return words + fmt::format(", for {} s", motion.duration_s);
@@ -139,7 +147,7 @@ StimulusSetup stimuli_of(const SessionHeader& header) {
     stimuli.duration_s = header.animations.front().duration_s;
     const Animation& first = header.animations.front();
     if (header.animations.size() > 1 || first.kind != MotionKind::turn || first.angle.value != 0.0 ||
-        first.light_amplitude.value != 0.0) {
+        first.turns_light() || !first.only_turns()) {
         for (const Animation& motion : header.animations)
             stimuli.motions.push_back(motion_in_words(motion));
     }
