@@ -50,6 +50,8 @@ constexpr Benchmark benchmarks[] = {
      "their "
      "time, memory and exponents",
      bench_growth},
+    {"materials", "plastics, rough metals and mixtures against laws of light and known numbers",
+     bench_materials},
     {"watch", "the operator's view, from a sample to its surface point and to its mark in the window",
      bench_watch}};
 

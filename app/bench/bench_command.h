@@ -47,6 +47,8 @@ BenchFigures bench_gaze_step(const BenchOptions& options);
 BenchFigures bench_procedures(const BenchOptions& options);
 /// Time and memory of whole commands as sessions have more trials, and studies more sessions; the exponents.
 BenchFigures bench_growth(const BenchOptions& options);
+/// Layered surfaces against laws of light and numbers that others worked out.
+BenchFigures bench_materials(const BenchOptions& options);
 /// The operator's view: from a sample to its surface point, and to its mark in the window.
 BenchFigures bench_watch(const BenchOptions& options);
 
