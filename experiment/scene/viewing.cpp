@@ -79,7 +79,7 @@ Ray to_object(const Ray& world_ray, const TurntablePose& pose) {
 }
 
 Camera fit_camera(const Mesh& mesh, Degrees vertical_fov, glm::ivec2 image_px, Degrees amplitude,
-                  double margin, std::span<const ObjectPose> also) {
+                  double margin) {
     OVERT_EXPECTS(margin >= 0.0 && margin <= 0.45);
     const glm::dvec3 centre = mesh.bounds().centre();
     const double half_height = std::tan(0.5 * to_radians(vertical_fov).value) * (1.0 - 2.0 * margin);
@@ -108,15 +108,6 @@ Camera fit_camera(const Mesh& mesh, Degrees vertical_fov, glm::ivec2 image_px, D
             if (std::abs(away) <= amplitude_rad) {
                 distance = std::max(distance, needed_distance(radius, angle, from_axis.z));
             }
-        }
-    }
-    for (const ObjectPose& object : also) {
-        const glm::dmat4 stands = TurntablePose{centre, object}.world_from_object();
-        for (const glm::vec3& position : mesh.positions) {
-            const glm::dvec3 place = glm::dvec3(stands * glm::dvec4(position, 1.0)) - centre;
-            distance =
-                std::max(distance,
-                         std::max(std::abs(place.x) / half_width, std::abs(place.z) / half_height) - place.y);
         }
     }
     return {centre - glm::dvec3(0.0, distance, 0.0), centre, vertical_fov};

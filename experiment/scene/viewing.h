@@ -6,8 +6,6 @@
 /// down, pixel centres at +0.5.
 #pragma once
 
-#include <span>
-
 #include <glm/glm.hpp>
 
 #include "experiment/object_pose.h"
@@ -72,9 +70,8 @@ Ray to_object(const Ray& world_ray, const TurntablePose& pose);
 /// A camera in front of the object (on its -y side), level with its centre, as near as the object allows when
 /// it turns up to `amplitude` to each side: every point of the mesh stays inside the image with `margin`
 /// (share of the image, 0 … 0.45) left free on all sides.
-/// `also`: how it stands besides, which has to fit as well.
 Camera fit_camera(const Mesh& mesh, Degrees vertical_fov, glm::ivec2 image_px, Degrees amplitude,
-                  double margin, std::span<const ObjectPose> also = {});
+                  double margin);
 
 /// Nearest and farthest distance along the viewing direction that the mesh can reach, however it is turned
 /// after it was tilted and moved as `object` is, slightly widened.

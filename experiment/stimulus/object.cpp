@@ -62,6 +62,30 @@ Mesh shipped_sculpture(const std::string& name, const std::filesystem::path& cac
     return mesh;
 }
 
+/// A camera that was fitted to the turns of a mesh, moved back until it also holds the mesh as it stands when
+/// motions tilt or move it, with the same margin.
+Camera moved_back(Camera camera, const Mesh& mesh, glm::ivec2 image_px, double margin,
+                  std::span<const Animation* const> motions) {
+    const double half_height = std::tan(0.5 * to_radians(camera.vertical_fov).value) * (1.0 - 2.0 * margin);
+    const double half_width = half_height * image_px.x / image_px.y;
+    const glm::dvec3 centre = mesh.bounds().centre();
+    double distance = centre.y - camera.position.y;
+    for (const Animation* motion : motions)
+        for (const Pose& picture : motion->pictures()) {
+            if (picture.object.is_turn())
+                continue;
+            const glm::dmat4 stands = TurntablePose{centre, picture.object}.world_from_object();
+            for (const glm::vec3& position : mesh.positions) {
+                const glm::dvec3 place = glm::dvec3(stands * glm::dvec4(position, 1.0)) - centre;
+                distance = std::max(
+                    distance,
+                    std::max(std::abs(place.x) / half_width, std::abs(place.z) / half_height) - place.y);
+            }
+        }
+    camera.position.y = centre.y - distance;
+    return camera;
+}
+
 Camera camera_of(const ViewSettings& settings, const Protocol& protocol, const Mesh& mesh,
                  glm::dvec3 origin) {
     const glm::ivec2 image_px(settings.width_px, settings.height_px);
@@ -75,12 +99,12 @@ Camera camera_of(const ViewSettings& settings, const Protocol& protocol, const M
         Degrees largest_turn{0.0};
         for (const Animation& motion : protocol.motions)
             largest_turn.value = std::max(largest_turn.value, motion.largest_turn().value);
-        std::vector<ObjectPose> tilted;
+        std::vector<const Animation*> moving;
         for (const Animation& motion : protocol.motions)
-            for (const Pose& picture : motion.pictures())
-                if (!picture.object.is_turn())
-                    tilted.push_back(picture.object);
-        return fit_camera(mesh, field, image_px, largest_turn, settings.margin, tilted);
+            if (!motion.only_turns())
+                moving.push_back(&motion);
+        const Camera fitted = fit_camera(mesh, field, image_px, largest_turn, settings.margin);
+        return moving.empty() ? fitted : moved_back(fitted, mesh, image_px, settings.margin, moving);
     }
     return {*settings.camera_position - origin,
             settings.camera_target ? *settings.camera_target - origin : mesh.bounds().centre(), field};
