@@ -67,6 +67,22 @@ TEST_CASE("each exported gaze sample is where the observer's gaze met the surfac
     check_places(sitting, 10000, 6000);
 }
 
+TEST_CASE("gaze meets the surface of an object that turns about an axis of its own under a moving light",
+          "[session]") {
+    ExactSitting sitting(
+        with(small_protocol, "amplitude_deg = 25\n",
+             "amplitude_deg = 25\naxis = [1, 0.4, 0.3]\npivot = [10, 0, -60]\nlight_turns = 1\n"));
+    check_places(sitting, 10000, 5000);
+    const SessionRecord record(sitting.folder);
+    const PoseTable& poses = record.header().poses;
+    CHECK(poses.angles.size() == 15); // of 31 frames; at the middle it stands as ever
+    CHECK(std::ranges::count_if(poses.angles, &ObjectPose::is_turn) == 1);
+    const Animation& recorded = record.header().animations.front();
+    const Animation& planned = sitting.protocol.motions.front();
+    for (int frame = 0; frame < planned.frame_count; ++frame)
+        CHECK(recorded.pose_of({frame}) == planned.pose_of({frame}));
+}
+
 TEST_CASE("gaze meets the surface in the pose and the view of its trial", "[session]") {
     ExactSitting sitting(protocol_of_lists());
     check_places(sitting, 10000, 5000);
