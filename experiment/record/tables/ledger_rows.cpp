@@ -6,6 +6,34 @@
 
 namespace overt {
 
+namespace {
+
+/// How the object stands where it does more than turn about the vertical.
+void add_tilt_columns(RowLayout<LedgerRow>& layout, const SessionHeader& header) {
+    const auto number = [&header](auto member, int of) {
+        return [&header, member, of](auto& row) -> std::optional<Fixed> {
+            constexpr int decimals = 9;
+            const ObjectPose* const object = item_of(header.poses.angles, row.lit.pose.value);
+            return object ? std::optional(Fixed{(object->*member)[of], decimals}) : std::nullopt;
+        };
+    };
+    // A quaternion of glm has x, y, z and w in this order.
+    layout.add<LedgerRow>(
+        {{{"tilt_w",
+           "Rotation of the object about the centre of its box after its turn by the angle about the "
+           "vertical, a quaternion of length 1: its real part"},
+          number(&ObjectPose::tilt, 3)},
+         {{"tilt_x", "Likewise: to the right of the front view"}, number(&ObjectPose::tilt, 0)},
+         {{"tilt_y", "Likewise: away from it"}, number(&ObjectPose::tilt, 1)},
+         {{"tilt_z", "Likewise: upwards"}, number(&ObjectPose::tilt, 2)},
+         {{"shift_x", "How far the object was moved after that, in the unit of its mesh"},
+          number(&ObjectPose::shift, 0)},
+         {{"shift_y", "Likewise"}, number(&ObjectPose::shift, 1)},
+         {{"shift_z", "Likewise"}, number(&ObjectPose::shift, 2)}});
+}
+
+} // namespace
+
 RowLayout<LedgerRow> ledger_layout(const SharedColumns& shared, const SessionHeader& header) {
     RowLayout<LedgerRow> layout{
         "flips",
@@ -90,6 +118,8 @@ RowLayout<LedgerRow> ledger_layout(const SharedColumns& shared, const SessionHea
                   const Animation& motion = item(header.animations, row.motion);
                   return Fixed{motion.pose_of(row.lit.shown).light.value, angle_decimals};
               }}});
+    if (!std::ranges::all_of(header.poses.angles, &ObjectPose::is_turn))
+        add_tilt_columns(layout, header);
     return layout;
 }
 
