@@ -200,7 +200,8 @@ class SeriesWriter {
                 continue;
             ending += "-" + id_part(*text_of_value(value));
             words += " " + *text_of_value(value);
-            column(table, key, value);
+            if (!(is_called_by_series && names_entry(key))) // its values are the ids
+                column(table, key, value);
         }
         if (is_called_by_series)
             table.push_back({"id", one.place, {one.place, ending.substr(1)}});

@@ -25,7 +25,7 @@ using FilesOfPattern =
 
 /// Puts several entries in place of each that has a series, in all lists that stimuli are made of: with the
 /// key's value, an id that ends with it (or is it, of an entry without an id whose series is of a key by
-/// which entries are called), and a column of the key's name. Values keep their places, so that what is found
+/// which entries are called, and then has no column), and a column of the key's name. Values keep their places, so that what is found
 /// wrong in one is found where it is written. A pattern in place of a list is the list of its files. Faults
 /// of the series itself go to `diagnostics`.
 void write_out_series(TomlFile& toml, const std::string& file, const FilesOfPattern& files_of,
