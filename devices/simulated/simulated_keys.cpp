@@ -421,6 +421,8 @@ void SimulatedKeys::plan(const SimulatedAnswers& answers, const std::vector<Answ
             set(offer, given.at, after);
         } else if (given.attitude) {
             lean(offer, *given.attitude, after);
+        } else if (offer.kind == "point" && !offer.keys.empty()) {
+            press(planned_, offer.keys.front(), after); // by gaze
         } else if (offer.kind == "point") {
             point_at(given.right_px, given.down_px, after);
         } else if (!offer.values.empty() && offer.numbers.empty()) {

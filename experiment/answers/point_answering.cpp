@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "experiment/answers/answer_kinds.h"
@@ -32,9 +34,32 @@ class PointAnswering final : public Answering {
     bool has_pointed_ = false;
 };
 
+/// A key says when: where gaze was then, or the fixation before it, the record tells.
+class GazePointAnswering final : public Answering {
+  public:
+    using Answering::Answering;
+
+    Effect take(const ObserverInput& input, const AnswerPlace&) noexcept override {
+        if (input.kind != ObserverInput::Kind::key_down ||
+            std::ranges::find(settings().keys, input.key.view()) == settings().keys.end())
+            return Effect::none;
+        has_pointed_ = true;
+        return Effect::chosen;
+    }
+    bool has_value() const noexcept override { return has_pointed_; }
+    std::string value() const override { return std::string(name_of(settings().by)); }
+    void draw(AnswerItem& item) const override { item.kind = AnswerItem::Kind::keys; }
+    void offer(AnswerOffer& offer) const override { offer.keys = settings().keys; }
+
+  private:
+    bool has_pointed_ = false;
+};
+
 } // namespace
 
 std::unique_ptr<Answering> point_answering(const AnswerForm& form) {
+    if (form.settings->by != PointedBy::mouse)
+        return std::make_unique<GazePointAnswering>(form);
     return std::make_unique<PointAnswering>(form);
 }
 

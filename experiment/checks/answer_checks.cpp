@@ -33,6 +33,7 @@ class AnswerChecks {
         check_keys();
         check_scale();
         check_numbers();
+        check_pointing();
         check_correct();
         check_window();
         check_truth();
@@ -148,6 +149,17 @@ class AnswerChecks {
         if (!answer_.accepts_by_key() && !answer_.steps && by_keys())
             error({"accept"}, "on a line every move by a key would be an answer",
                   "leave out accept, or write with = \"mouse\"");
+    }
+
+    void check_pointing() {
+        if (!has("by"))
+            return;
+        if (answer_.by != PointedBy::mouse && answer_.keys.empty())
+            error({"by", "keys"}, fmt::format("nothing says with which key \"{}\" is given", answer_.id),
+                  "write keys = [\"space\"]");
+        if (answer_.by == PointedBy::mouse && !answer_.keys.empty())
+            error({"keys"}, "a point that is clicked on needs no keys",
+                  "write by = \"gaze\" for where gaze is when a key is pressed");
     }
 
     void check_numbers() {
@@ -339,11 +351,26 @@ class AskingChecks {
                           "up, down and tab go from one answer to the next, and \"{}\" is set with them",
                           answer.id),
                       "write other keys for it, or give the answers steps of their own");
-            else if (answer.with == AnsweredWith::mouse && !answer.beside_up_deg && !is_match(answer))
+            else if (answer.with == AnsweredWith::mouse && !answer.beside_up_deg && !is_match(answer) &&
+                     !shows_choices(step, answer))
                 error(step.answers_place,
                       fmt::format("\"{}\" is given with the mouse, and nothing to click on is on the screen",
                                   answer.id),
                       "write beside_up_deg, where it stands beside the stimulus");
+    }
+
+    /// The choices are slots that the step shows, and are clicked on themselves.
+    bool shows_choices(const StepSettings& step, const TaskAnswer& answer) const {
+        const Protocol& protocol = examination_.protocol;
+        const std::vector<int> slots =
+            step.slots.empty() ? slots_of_task(protocol, static_cast<int>(&task_ - protocol.tasks.data()))
+                               : slots_named(protocol, step.slots);
+        return step.kind == StepKind::show && answer.is_choice() &&
+               std::ranges::all_of(answer.choices, [&](const std::string& choice) {
+                   return std::ranges::any_of(slots, [&](int slot) {
+                       return protocol.slots[static_cast<std::size_t>(slot)].id == choice;
+                   });
+               });
     }
 
     /// What is pointed at has to be there.

@@ -126,6 +126,52 @@ void AnswerAsking::begin_standing_step(std::size_t number, SessionTime since) {
     is_awaiting_ = true;
 }
 
+/// Choices that are slots are clicked on themselves, where the step shows them.
+void AnswerAsking::find_slot_targets(const PlannedStep& step) {
+    const Task& task = state_.protocol.tasks[static_cast<std::size_t>(trial_->task)];
+    const std::vector<int>& answers = plan_->sheets[static_cast<std::size_t>(step.sheet)].answers;
+    for (std::size_t item = 0; item < answers.size(); ++item) {
+        const TaskAnswer& answer = task.answers[static_cast<std::size_t>(answers[item])];
+        if (!answer.items.empty())
+            return; // what comes behind stands elsewhere on the screen
+        for (std::size_t option = 0; option < answer.choices.size(); ++option) {
+            if (answer.with == AnsweredWith::keys)
+                continue;
+            for (const int place : step.places) {
+                const Slot& slot =
+                    state_.protocol
+                        .slots[static_cast<std::size_t>(trial_->shown(static_cast<std::size_t>(place)).slot)];
+                if (slot.id != answer.choices[option])
+                    continue;
+                const ScreenGeometry screen = slot_geometry(state_.protocol, slot);
+                const glm::dvec2 middle(screen.centre().x_px, screen.centre().y_px);
+                const glm::dvec2 first = glm::dvec2(screen.image_origin_px) - middle;
+                slot_targets_.push_back(
+                    {first,
+                     first + glm::dvec2(screen.image_px),
+                     {.item = static_cast<int>(item), .option = static_cast<int>(option)}});
+            }
+        }
+    }
+}
+
+/// What was drawn there, or the slot that is.
+AnswerPlace AnswerAsking::place_of(const ObserverInput& input) const noexcept {
+    const bool points = input.kind == ObserverInput::Kind::pointer_down ||
+                        input.kind == ObserverInput::Kind::pointer_moved ||
+                        input.kind == ObserverInput::Kind::pointer_up;
+    if (!points || !has_screen_)
+        return {};
+    const AnswerPlace drawn = state_.ports.presenter.place_in_answers(input.right_px, input.down_px);
+    if (drawn.item >= 0 || drawn.is_accept)
+        return drawn;
+    for (const SlotTarget& target : slot_targets_)
+        if (input.right_px >= target.first_px.x && input.right_px < target.end_px.x &&
+            input.down_px >= target.first_px.y && input.down_px < target.end_px.y)
+            return target.place;
+    return drawn;
+}
+
 /// What the step waits for stands with its stimulus, where the protocol has a place for it.
 void AnswerAsking::put_beside(std::size_t number) {
     const PlannedStep& step = plan_->steps[number];
@@ -148,7 +194,8 @@ void AnswerAsking::put_beside(std::size_t number) {
         if (!up_deg)
             up_deg = task.answers[static_cast<std::size_t>(answer)].beside_up_deg;
     const bool is_turned = turning_->shows_pointer();
-    if (!up_deg && !current_->points() && !is_turned)
+    find_slot_targets(step);
+    if (!up_deg && !current_->points() && !is_turned && slot_targets_.empty())
         return;
     AnswerView view = current_->view(state_.protocol.words.go_on);
     view.up_deg = up_deg;
@@ -163,6 +210,7 @@ void AnswerAsking::put_beside(std::size_t number) {
 
 void AnswerAsking::take_away() {
     has_screen_ = false;
+    slot_targets_.clear();
     if (std::exchange(stands_beside_, false))
         state_.ports.presenter.put_beside_stimuli(nullptr);
 }
@@ -208,13 +256,7 @@ void AnswerAsking::look() noexcept {
         const ObserverInput& input = batch_[i];
         if (turning_->take(input) || !current_)
             continue;
-        const bool points = input.kind == ObserverInput::Kind::pointer_down ||
-                            input.kind == ObserverInput::Kind::pointer_moved ||
-                            input.kind == ObserverInput::Kind::pointer_up;
-        const AnswerPlace place = points && has_screen_
-                                      ? state_.ports.presenter.place_in_answers(input.right_px, input.down_px)
-                                      : AnswerPlace{};
-        is_drawing_due_ = current_->take(input, place) || is_drawing_due_;
+        is_drawing_due_ = current_->take(input, place_of(input)) || is_drawing_due_;
         note_answer();
     }
     tell_opening();

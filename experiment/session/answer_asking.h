@@ -79,6 +79,14 @@ class AnswerAsking {
     void offer_turning(std::size_t number, SessionTime since);
     void take_away();
     void offer();
+    void find_slot_targets(const PlannedStep& step);
+    AnswerPlace place_of(const ObserverInput& input) const noexcept;
+
+    /// An image that is clicked on, from the middle of the screen.
+    struct SlotTarget {
+        glm::dvec2 first_px, end_px;
+        AnswerPlace place;
+    };
 
     SessionState& state_;
     OperatorControl& control_;
@@ -94,7 +102,8 @@ class AnswerAsking {
     bool is_awaiting_ = false;                         ///< inputs are told
     bool has_screen_ = false;                          ///< current_ stands on it: places mean something
     bool is_drawing_due_ = false;
-    bool stands_beside_ = false; ///< current_ is seen with the stimulus
+    bool stands_beside_ = false;           ///< current_ is seen with the stimulus
+    std::vector<SlotTarget> slot_targets_; ///< of the step under way
     std::optional<SessionTime> opening_told_;
     int answers_marked_ = 0;
     std::optional<SessionTime> step_since_;

@@ -28,6 +28,19 @@ struct PointedAnswer {
     std::optional<SurfaceFootprint> footprint;
 };
 
+/// A place that was pointed at, and how exactly.
+struct PointedPlace {
+    ScreenPoint at;
+    SessionTime when;
+    std::optional<glm::dmat2> covariance_px = {}; ///< in the picture (pointed_place.h); nothing: not known
+};
+
+/// Where it lies in the slot of `seen` (TrialRecord::seen_in); nothing outside of the slot's image. `lookup`:
+/// of the object shown there; null: no surface. The frame is the one lit at that row then.
+std::optional<PointedAnswer> pointed_answer(const SessionHeader& header, const TrialRecord& seen,
+                                            const FlipHistory& history, const SurfaceLookup* lookup,
+                                            const PointedPlace& place);
+
 /// Where the answer lies in the slot of `seen` (TrialRecord::seen_in); nothing for an answer of another kind,
 /// one that was missed, or a place outside of the slot's image. `lookup`: of the object shown there; null: no
 /// surface. The frame is the one lit at the row when the button was found pressed.

@@ -75,8 +75,9 @@ void add_pointed_columns(RowLayout<GivenAnswerRow>& layout, const SessionHeader&
          })},
         {{"point_sd_major",
           fmt::format(
-              "Standard deviation on the surface of a place within the pixel that was pointed at, along "
-              "the longer axis of its ellipse{}",
+              "Standard deviation on the surface of a place within the pixel that was pointed at, or within "
+              "the "
+              "accuracy of gaze by its validation where that pointed, along the longer axis of its ellipse{}",
               length.remark),
           length.unit},
          pointed_sd(&SurfaceFootprint::largest_sd)},

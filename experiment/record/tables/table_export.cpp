@@ -12,6 +12,7 @@
 #include "experiment/base/export_folder.h"
 #include "experiment/base/whole_file.h"
 #include "experiment/maps/coordinate_maps.h"
+#include "experiment/record/read/gaze_answer.h"
 #include "experiment/record/tables/export_tables.h"
 #include "experiment/record/tables/imported_trials.h"
 #include "experiment/study/fixations/passing_fixations.h"
@@ -114,7 +115,9 @@ class TableExport {
     void take_lines_of(const Table& table, const TrialRecord& trial,
                        const std::vector<std::size_t>& places) const;
 
-    void note_points(const TrialRecord& trial, const std::optional<TrialLedger>& ledger);
+    /// `accuracy`: of gaze, by its validation.
+    void note_points(const TrialRecord& trial, const std::optional<TrialLedger>& ledger,
+                     const std::optional<Degrees>& accuracy);
     std::map<std::pair<std::int64_t, std::size_t>, PointedAnswer>
         points_; ///< by trial's id, and which answer
 
@@ -153,13 +156,20 @@ Eye TableExport::eye_of_unnamed(std::span<const GazeEvent> events, int sitting) 
 }
 
 /// Of several slots that a place lies in, the one that was lit.
-void TableExport::note_points(const TrialRecord& trial, const std::optional<TrialLedger>& ledger) {
+void TableExport::note_points(const TrialRecord& trial, const std::optional<TrialLedger>& ledger,
+                              const std::optional<Degrees>& accuracy) {
     const std::vector<GivenAnswer>& given = trial.outcome.given;
     for (std::size_t i = 0; i < given.size(); ++i) {
         if (given[i].kind != point_kind)
             continue;
-        std::optional<PointedAnswer> pointed =
-            pointed_answer(header_, trial, record_.flip_history(trial, ledger), lookup_, given[i]);
+        const FlipHistory history = record_.flip_history(trial, ledger);
+        std::optional<PointedAnswer> pointed = pointed_answer(header_, trial, history, lookup_, given[i]);
+        if (const std::optional<GazeOfAnswer> gaze = gaze_of_answer(record_, trial, given[i])) {
+            PointedPlace place{.at = gaze->place, .when = gaze->at};
+            if (accuracy)
+                place.covariance_px = covariance_of_gaze(header_.display.screen, gaze->place, *accuracy);
+            pointed = pointed_answer(header_, trial, history, lookup_, place);
+        }
         if (!pointed)
             continue;
         const auto [known, is_new] = points_.try_emplace({trial.id, i}, *pointed);
@@ -187,7 +197,9 @@ void TableExport::join_samples(const TrialRecord& trial) {
                             ways_ ? &*ways_ : nullptr,
                             lookup_};
     context.has_other_slots = !trial.trial.beside.empty();
-    note_points(trial, ledger);
+    note_points(trial, ledger,
+                presentation.validation ? std::optional(Degrees{presentation.validation->mean_deg})
+                                        : std::nullopt);
     PassingFixations fixations(context, events, eye_of_unnamed(events, trial.sitting),
                                Degrees{presentation.validation ? presentation.validation->mean_deg : 0.0});
     Aside& aside = aside_[{trial.id, trial.place}];
