@@ -295,11 +295,13 @@ void AnswerSheet::look_for_tie(const ObserverInput& input) noexcept {
 
 void AnswerSheet::note(const Taken& taken) noexcept {
     // A mouse tells its moves up to 8000 times a second: what the screen cannot show apart is one.
-    if (taken.input.kind == InputKind::pointer_moved && !taken_.empty()) {
-        const Taken& last = taken_.back();
-        if (last.input.kind == InputKind::pointer_moved && last.asked == taken.asked &&
-            last.state == taken.state && taken.input.at - last.input.at < shortest_move)
+    if (taken.input.kind == InputKind::pointer_moved) {
+        const Taken* const last = taken_.empty() ? nullptr : &taken_.back();
+        if (last && last->input.kind == InputKind::pointer_moved && last->asked == taken.asked &&
+            last->state == taken.state && taken.input.at - moved_since_ < shortest_move)
             taken_.pop_back();
+        else
+            moved_since_ = taken.input.at;
     }
     if (taken_.size() == taken_.capacity()) {
         ++lost_inputs_;

@@ -154,6 +154,7 @@ class AnswerSheet {
     bool is_button_down_ = false; ///< of the mouse, in this step
     bool is_accept_down_ = false; ///< on what accepts
     std::vector<Taken> taken_;
+    SessionTime moved_since_{}; ///< the first of the moves that the last of these stands for
     int lost_inputs_ = 0;
 };
 

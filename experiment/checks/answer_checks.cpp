@@ -373,6 +373,18 @@ class AskingChecks {
                });
     }
 
+    /// Of a gauge: the slot of its probe is lit.
+    bool lights_place_of(const StepSettings& step, const TaskAnswer& answer) const {
+        const ProbeSettings* const probe =
+            row_of(answer.kind).has_key("probe") ? probe_of(task_, answer) : nullptr;
+        if (!probe || probe->slot.empty() || step.slots.empty())
+            return true;
+        const Protocol& protocol = examination_.protocol;
+        return std::ranges::any_of(slots_named(protocol, step.slots), [&](int slot) {
+            return protocol.slots[static_cast<std::size_t>(slot)].id == probe->slot;
+        });
+    }
+
     /// What is pointed at has to be there.
     void check_points() {
         for (std::size_t i = 0; i < task_.answers.size(); ++i) {
@@ -384,7 +396,7 @@ class AskingChecks {
                 check_probe(answer, fmt::format("task[{}].answer[{}]", number_, i));
             const bool is_there = std::ranges::any_of(task_.steps, [&](const StepSettings& step) {
                 const std::vector<TaskAnswer> awaited = answers_waited_for(step);
-                return step.kind == StepKind::show && step.ends_by_answer &&
+                return step.kind == StepKind::show && step.ends_by_answer && lights_place_of(step, answer) &&
                        std::ranges::find(awaited, answer.id, &TaskAnswer::id) != awaited.end();
             });
             if (!is_there)

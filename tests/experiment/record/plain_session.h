@@ -47,6 +47,9 @@ class PlainPresenter final : public Presenter {
         return next();
     }
     void veil(bool is_on) override { is_veiled = is_on; }
+    void mark_stimuli(std::span<const StimulusMark> given) noexcept override {
+        marks.assign(given.begin(), given.end());
+    }
     bool closed() const noexcept override { return false; }
 
     std::vector<Stimulus> loaded;
@@ -55,6 +58,7 @@ class PlainPresenter final : public Presenter {
     std::vector<LevelBar> bars;
     bool is_veiled = false;
     std::vector<int> seen_frames, veiled_frames; ///< of flips
+    std::vector<StimulusMark> marks;             ///< that stand over stimuli now
 
   private:
     FlipReport next() noexcept {
@@ -284,6 +288,7 @@ struct Sitting {
                         .recorder = recorder,
                         .further_trackers = further,
                         .on_camera = [this](const CameraImage& image) { cameras.push_back(image); },
+                        .probe_of = probe_of,
                         .screen_changes = screen_changes,
                         .has_proven_times = has_proven_times},
                        fields)
@@ -299,6 +304,7 @@ struct Sitting {
     AnswerRecorder* recorder = nullptr;
     std::vector<FurtherTracker> further;
     std::vector<CameraImage> cameras; ///< that the session told of
+    std::function<std::shared_ptr<const ProbeView>(const PlacedStimulus&, const std::string& point)> probe_of;
     std::function<std::vector<std::string>()> screen_changes;
     bool has_proven_times = true;
 };

@@ -1,0 +1,187 @@
+/// Probes that follow their places and gauges that are set there, on ports that do what they are told.
+#include <deque>
+
+#include "experiment/session/shown_probes.h"
+#include "tests/experiment/record/plain_session.h"
+
+using namespace overt;
+using namespace overt::test;
+
+namespace {
+
+/// A place that goes 10 px to the right in each frame, and is hidden in odd ones. Its normal leans 30 degrees
+/// to the right of the line of sight.
+class GoingPlace final : public ProbeView {
+  public:
+    GoingPlace() {
+        middle = {960.0, 540.0};
+        px_at_unit_depth = 1000.0;
+    }
+    SeenProbe seen_in(AnimationFrameIndex frame) const noexcept override {
+        SeenProbe seen;
+        seen.position = {0.05 * frame.value, 0.0, -5.0};
+        seen.normal = frame_of_sight(seen.position) * normal_of({{30.0}, {0.0}});
+        seen.is_visible = frame.value % 2 == 0;
+        return seen;
+    }
+};
+
+Protocol probed(const std::string& steps, const std::string& more = {}) {
+    return short_protocol(
+        "[[points]]\nid = \"seen\"\nevenly = 3\n[[task]]\nid = \"t\"\nquestion = \"Which?\"\nsteps "
+        "= [" +
+        steps + "]\n[[task.probe]]\nid = \"place\"\npoints = \"seen\"\n" + more +
+        "[[block]]\nid = \"b\"\ntasks = \"t\"\nmaterials = \"clay\"\n");
+}
+
+const std::string lean = "[[task.answer]]\nid = \"lean\"\nkind = \"gauge\"\naccept_key = \"space\"\n"
+                         "slant_per_px_deg = 0.5\n";
+
+/// The same inputs in each trial, so long after presses count.
+auto doing(std::vector<std::pair<double, ObserverInput>> inputs) {
+    return [inputs, done = std::size_t{0},
+            trial = -2](ScriptedPanel& panel, SessionTime now) mutable -> std::optional<ObserverInput> {
+        if (std::exchange(trial, panel.trial) != panel.trial)
+            done = 0;
+        if (done >= inputs.size() || !panel.opened ||
+            now < *panel.opened + from_seconds(1e-3 * inputs[done].first))
+            return std::nullopt;
+        ObserverInput input = inputs[done].second;
+        input.at = *panel.opened + from_seconds(1e-3 * inputs[done++].first);
+        return input;
+    };
+}
+
+ObserverInput pointer(ObserverInput::Kind kind, double right_px, double down_px) {
+    ObserverInput input{.kind = kind, .device = ShortName("mouse")};
+    input.right_px = right_px;
+    input.down_px = down_px;
+    input.button = 1;
+    return input;
+}
+ObserverInput pressed(std::string_view key) {
+    ObserverInput input{.kind = ObserverInput::Kind::key_down, .device = ShortName("keyboard")};
+    input.key = ShortName(key);
+    return input;
+}
+
+} // namespace
+
+TEST_CASE("a probe is drawn at its place in each frame, and not where that is hidden", "[unit]") {
+    Sitting sitting(probed("{ show = \"centre\", for_s = 0.2 }"));
+    std::vector<std::string> asked;
+    sitting.probe_of = [&](const PlacedStimulus&, const std::string& point) {
+        asked.push_back(point);
+        return std::make_shared<GoingPlace>();
+    };
+    CHECK(sitting.run().completed_trials == 3);
+    std::ranges::sort(asked);
+    CHECK(asked == std::vector<std::string>{"seen.1", "seen.2", "seen.3"});
+    for (const TrialOutcome& outcome : sitting.log.outcomes) {
+        REQUIRE(outcome.probes.size() == 1);
+        const ShownProbe& probe = outcome.probes.front();
+        CHECK(probe.step == 1);
+        CHECK(probe.id == "place");
+        // 24 refreshes at 120 Hz, four to a frame: frames 0 to 5, of which three show it.
+        CHECK(probe.shown_refreshes == 24);
+        CHECK(probe.visible_refreshes == 12);
+        CHECK(probe.was_visible);
+        CHECK(probe.at.x_px == Approx(960.0));
+        CHECK(probe.truth.slant.value == Approx(30.0));
+        CHECK(probe.truth.tilt.value == Approx(0.0).margin(1e-9));
+    }
+    // The last flip was of frame 5, in which it is hidden.
+    CHECK(sitting.presenter.marks.empty());
+}
+
+TEST_CASE("a mark stands where its place is, and only in the steps that name it", "[unit]") {
+    Sitting sitting(probed("{ show = \"centre\", for_s = 0.1, frame = 4 }, "
+                           "{ show = \"centre\", for_s = 0.1, frame = 4, probes = [] }"));
+    std::vector<StimulusMark> seen;
+    sitting.probe_of = [&](const PlacedStimulus&, const std::string&) {
+        return std::make_shared<GoingPlace>();
+    };
+    // What stands there is looked at in each refresh.
+    sitting.panel.tell = [&](ScriptedPanel&) -> std::optional<ResponsePress> {
+        if (!sitting.presenter.marks.empty() && sitting.presenter.marks.front().count > 0)
+            seen.push_back(sitting.presenter.marks.front());
+        return std::nullopt;
+    };
+    CHECK(sitting.run().completed_trials == 3);
+    REQUIRE_FALSE(seen.empty());
+    for (const StimulusMark& mark : seen) {
+        REQUIRE(mark.lines[0].count == 1); // a dot
+        CHECK(mark.lines[0].points[0].x_px == Approx(960.0 + 40.0));
+        CHECK(mark.lines[0].points[0].y_px == Approx(540.0));
+    }
+    for (const TrialOutcome& outcome : sitting.log.outcomes)
+        CHECK(outcome.probes.size() == 1);
+}
+
+TEST_CASE("a gauge is recorded with its start, what was set, and the surface in the frame that was lit",
+          "[unit]") {
+    Sitting sitting(probed("{ show = \"centre\", frame = 2, until = \"answer\" }", lean));
+    sitting.probe_of = [](const PlacedStimulus&, const std::string&) {
+        return std::make_shared<GoingPlace>();
+    };
+    using Kind = ObserverInput::Kind;
+    // Accepting before anything is moved does nothing.
+    sitting.panel.does = doing({{50, pressed("space")},
+                                {100, pointer(Kind::pointer_down, 0, 0)},
+                                {120, pointer(Kind::pointer_moved, 10, -20)},
+                                {140, pointer(Kind::pointer_up, 10, -20)},
+                                {300, pressed("space")}});
+    CHECK(sitting.run().completed_trials == 3);
+    std::vector<Attitude> starts;
+    for (const TrialOutcome& outcome : sitting.log.outcomes) {
+        REQUIRE(outcome.given.size() == 1);
+        const GivenAnswer& given = outcome.given.front();
+        CHECK_FALSE(given.is_missed);
+        REQUIRE(given.gauge);
+        const GaugeAnswer& gauge = *given.gauge;
+        CHECK(gauge.probe == "place");
+        CHECK(gauge.frame == 2);
+        CHECK(gauge.is_visible == true);
+        REQUIRE(gauge.truth);
+        CHECK(gauge.truth->slant.value == Approx(30.0));
+        const auto lean_of = [](const Attitude& of) {
+            return of.slant.value * glm::dvec2(normal_of({{90.0}, of.tilt}));
+        };
+        const glm::dvec2 by = lean_of(gauge.set) - lean_of(gauge.start);
+        CHECK(by.x == Approx(5.0));
+        CHECK(by.y == Approx(10.0));
+        CHECK(gauge.deviation()->value == Approx(angle_between(gauge.set, {{30.0}, {0.0}}).value));
+        CHECK(gauge.start.slant.value <= 60.0);
+        starts.push_back(gauge.start);
+        CHECK(outcome.steps.front().ended_by == StepEnd::answer);
+        CHECK(given.response_time() == from_seconds(0.3));
+    }
+    CHECK_FALSE(starts[0] == starts[1]);
+    CHECK_FALSE(starts[1] == starts[2]);
+}
+
+TEST_CASE("a gauge whose normal is the surface's lies on it, and its rod stands up from it", "[unit]") {
+    const GoingPlace view;
+    const SeenProbe at = view.seen_in({0});
+    const StimulusMark mark = gauge_mark(view, at, at.attitude(), 50.0, 3.0);
+    REQUIRE(mark.count == 2);
+    REQUIRE(mark.lines[0].count == MarkLine::most_points);
+    // Leaned 30 degrees to the right: as high as it is, and narrower by the cosine; nearly so in perspective.
+    double left = 1e9, right = -1e9, top = 1e9, bottom = -1e9;
+    for (const ScreenPoint& point : mark.lines[0].points) {
+        left = std::min(left, point.x_px);
+        right = std::max(right, point.x_px);
+        top = std::min(top, point.y_px);
+        bottom = std::max(bottom, point.y_px);
+    }
+    CHECK(bottom - top == Approx(100.0).margin(0.2));
+    CHECK(right - left == Approx(100.0 * std::cos(to_radians(Degrees{30.0}).value)).margin(0.3));
+    // What leans away is farther and smaller: the circle's middle is not that of its picture.
+    CHECK(0.5 * (left + right) < 960.0);
+    CHECK(mark.lines[1].points[0].x_px == Approx(960.0));
+    CHECK(mark.lines[1].points[1].x_px > 960.0 + 25.0);
+    CHECK(mark.lines[1].points[1].y_px == Approx(540.0));
+    // Seen from the front the rod points to the eye and its picture is a point.
+    const StimulusMark front = gauge_mark(view, at, {{0.0}, {0.0}}, 50.0, 3.0);
+    CHECK(front.lines[1].points[1].x_px == Approx(960.0).margin(1e-6));
+}
