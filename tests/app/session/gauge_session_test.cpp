@@ -122,7 +122,7 @@ TEST_CASE("what is set with a gauge is recorded, exported, presented again and a
 
     const fs::path study = experiment.folder().path() / "study";
     const ProgramRun analysed =
-        experiment.overt({"analyze", experiment.session().string(), "--out", study.string()});
+        experiment.overt({"analyze", experiment.session().string(), "--format", "tsv", "--resamples", "100", "--permutations", "99", "--out", study.string()});
     INFO(analysed.err);
     REQUIRE(analysed.exit_code == 0);
     const TsvFile reliefs = table_in(study, "reliefs.tsv");
@@ -140,7 +140,7 @@ TEST_CASE("a session of gauges that was killed goes on with the places that are 
     // Settings take a while, so that one is under way when it is killed.
     const SmallExperiment experiment(gauged(3, "simulated = { shift_s = 20, median_s = 0.1 }"));
     make_interrupted_session(experiment, 1);
-    const ProgramRun resumed = experiment.run({"--resume", experiment.session().string()});
+    const ProgramRun resumed = experiment.run({"--resume"});
     INFO(resumed.err);
     REQUIRE(resumed.exit_code == 0);
     const SessionRecord record(experiment.session());
