@@ -96,6 +96,14 @@ std::string answers_text(const StudyResults& results, const StudyOptions& option
                      "how much the chosen stimulus was looked at is compared with what it would be if "
                      "each observer chose each slot as often, and looked at it as much, independently of "
                      "each other");
+    if (std::ranges::any_of(results.reliefs.reliefs,
+                            [](const ReliefRow& row) { return row.gain.has_value(); }))
+        add_sentence(text,
+                     "settings of gauges at a place were averaged as unit normals and put together to a "
+                     "relief by least squares over neighbouring places, in the camera's perspective "
+                     "(after Koenderink, van Doorn & Kappers, 1992; Wijntjes, 2012); its depth is compared "
+                     "with the true one by regression, with and without shears (Belhumeur, Kriegman & "
+                     "Yuille, 1999)");
     if (std::ranges::any_of(results.answer_maps, [](const DifferenceMap& map) { return map.absent.empty(); }))
         add_sentence(text, "where gaze before one answer differs from gaze before another was tested on the "
                            "surface by clusters within observers");
