@@ -46,14 +46,14 @@ materials = "matt"
                               places, simulated, more);
 }
 
-TsvFile table_in(const fs::path& folder, const std::string& name) {
+TsvFile gauge_table(const fs::path& folder, const std::string& name) {
     for (const fs::directory_entry& file : fs::recursive_directory_iterator(folder))
         if (file.path().filename() == name)
             return TsvFile(file.path());
     throw std::runtime_error(name);
 }
 
-fs::path exported(const SmallExperiment& experiment, const std::string& format) {
+fs::path gauge_export(const SmallExperiment& experiment, const std::string& format) {
     const fs::path out = experiment.folder().path() / format;
     const ProgramRun done = experiment.overt(
         {"export", experiment.session().string(), "--format", format, "--out", out.string()});
@@ -96,9 +96,10 @@ TEST_CASE("what is set with a gauge is recorded, exported, presented again and a
     }
     REQUIRE(experiment.overt({"verify", experiment.session().string()}).exit_code == 0);
 
-    const fs::path tables = exported(experiment, "tsv");
-    const TsvFile settings = table_in(tables, "gauge_settings.tsv"), points = table_in(tables, "points.tsv"),
-                  probes = table_in(tables, "probes.tsv"), changes = table_in(tables, "gauge_changes.tsv");
+    const fs::path tables = gauge_export(experiment, "tsv");
+    const TsvFile settings = gauge_table(tables, "gauge_settings.tsv"),
+                  points = gauge_table(tables, "points.tsv"), probes = gauge_table(tables, "probes.tsv"),
+                  changes = gauge_table(tables, "gauge_changes.tsv");
     REQUIRE(settings.size() == 8);
     CHECK(points.size() == 8);
     CHECK(probes.size() == 8);
@@ -115,21 +116,22 @@ TEST_CASE("what is set with a gauge is recorded, exported, presented again and a
               Approx(1.0).margin(1e-5));
     }
     std::string events;
-    for (const fs::directory_entry& file : fs::recursive_directory_iterator(exported(experiment, "bids")))
+    for (const fs::directory_entry& file : fs::recursive_directory_iterator(gauge_export(experiment, "bids")))
         if (file.path().filename().string().ends_with("_events.tsv"))
             events += text_of(file.path());
     CHECK_THAT(events, Contains("true_slant_deg") && Contains("deviation_deg"));
 
     const fs::path study = experiment.folder().path() / "study";
     const ProgramRun analysed =
-        experiment.overt({"analyze", experiment.session().string(), "--format", "tsv", "--resamples", "100", "--permutations", "99", "--out", study.string()});
+        experiment.overt({"analyze", experiment.session().string(), "--format", "tsv", "--resamples", "100",
+                          "--permutations", "99", "--out", study.string()});
     INFO(analysed.err);
     REQUIRE(analysed.exit_code == 0);
-    const TsvFile reliefs = table_in(study, "reliefs.tsv");
+    const TsvFile reliefs = gauge_table(study, "reliefs.tsv");
     REQUIRE(reliefs.size() == 1);
     CHECK(reliefs.integer(0, "settings") == 8);
     CHECK(reliefs.has(0, "affine_gain"));
-    CHECK(table_in(study, "relief_points.tsv").size() == 8);
+    CHECK(gauge_table(study, "relief_points.tsv").size() == 8);
 
     const ProgramRun replayed = replay(experiment);
     INFO(replayed.out << replayed.err);
@@ -177,8 +179,8 @@ simulated = { shift_s = 1.5 }
     const ProgramRun run = experiment.run();
     INFO(run.err);
     REQUIRE(run.exit_code == 0);
-    const fs::path tables = exported(experiment, "tsv");
-    const TsvFile given = table_in(tables, "given_answers.tsv");
+    const fs::path tables = gauge_export(experiment, "tsv");
+    const TsvFile given = gauge_table(tables, "given_answers.tsv");
     REQUIRE(given.size() == 8);
     int on_object = 0;
     for (std::size_t row = 0; row < given.size(); ++row) {

@@ -8,7 +8,7 @@ using namespace overt;
 
 namespace {
 
-using Kind = ObserverInput::Kind;
+using GaugeInput = ObserverInput::Kind;
 using namespace std::chrono_literals;
 
 struct Leaned {
@@ -31,23 +31,24 @@ struct Leaned {
         sheet->stimulus_lit(now);
     }
     void key(std::string_view name) {
-        ObserverInput input{.kind = Kind::key_down, .at = now += 100ms, .device = ShortName("keyboard")};
+        ObserverInput input{
+            .kind = GaugeInput::key_down, .at = now += 100ms, .device = ShortName("keyboard")};
         input.key = ShortName(name);
         sheet->take(input, {});
-        input.kind = Kind::key_up;
+        input.kind = GaugeInput::key_up;
         sheet->take(input, {});
     }
-    void mouse(Kind kind, double right, double down, int button = 1) {
+    void mouse(GaugeInput kind, double right, double down, int button = 1) {
         ObserverInput input{.kind = kind, .at = now += 20ms, .device = ShortName("mouse")};
         input.right_px = right;
         input.down_px = down;
-        input.button = kind == Kind::pointer_moved ? 0 : button;
+        input.button = kind == GaugeInput::pointer_moved ? 0 : button;
         sheet->take(input, {});
     }
     void drag(double from_right, double from_down, double right, double down) {
-        mouse(Kind::pointer_down, from_right, from_down);
-        mouse(Kind::pointer_moved, from_right + right, from_down + down);
-        mouse(Kind::pointer_up, from_right + right, from_down + down);
+        mouse(GaugeInput::pointer_down, from_right, from_down);
+        mouse(GaugeInput::pointer_moved, from_right + right, from_down + down);
+        mouse(GaugeInput::pointer_up, from_right + right, from_down + down);
     }
     Attitude set() const { return *sheet->gauge()->attitude(); }
     GivenAnswer given() const {
@@ -90,8 +91,8 @@ TEST_CASE("it cannot be accepted before it was moved, nor after all was taken ba
     Leaned gauge({{30.0}, {120.0}});
     gauge.key("space");
     CHECK_FALSE(gauge.sheet->is_complete());
-    gauge.mouse(Kind::pointer_down, 5.0, 5.0);
-    gauge.mouse(Kind::pointer_up, 5.0, 5.0); // a click moves nothing
+    gauge.mouse(GaugeInput::pointer_down, 5.0, 5.0);
+    gauge.mouse(GaugeInput::pointer_up, 5.0, 5.0); // a click moves nothing
     gauge.key("space");
     CHECK_FALSE(gauge.sheet->is_complete());
     gauge.key("left");
@@ -117,12 +118,12 @@ TEST_CASE("it cannot be accepted before it was moved, nor after all was taken ba
 
 TEST_CASE("a click with the right button accepts, and leans nothing", "[unit]") {
     Leaned gauge;
-    gauge.mouse(Kind::pointer_down, 0.0, 0.0, 3);
-    gauge.mouse(Kind::pointer_up, 0.0, 0.0, 3);
+    gauge.mouse(GaugeInput::pointer_down, 0.0, 0.0, 3);
+    gauge.mouse(GaugeInput::pointer_up, 0.0, 0.0, 3);
     CHECK_FALSE(gauge.sheet->is_complete());
     gauge.drag(0.0, 0.0, 8.0, 0.0);
     const Attitude before = gauge.set();
-    gauge.mouse(Kind::pointer_down, 300.0, 0.0, 3);
+    gauge.mouse(GaugeInput::pointer_down, 300.0, 0.0, 3);
     CHECK(gauge.sheet->is_complete());
     CHECK(gauge.given().gauge->set == before);
     CHECK(gauge.given().device == "mouse");
@@ -154,10 +155,10 @@ TEST_CASE("each change is in the record with what it came to", "[unit]") {
 
 TEST_CASE("moves of the mouse that no screen shows apart are one in the record", "[unit]") {
     Leaned gauge;
-    gauge.mouse(Kind::pointer_down, 0.0, 0.0);
+    gauge.mouse(GaugeInput::pointer_down, 0.0, 0.0);
     for (int i = 1; i <= 8000; ++i) {
         ObserverInput input{
-            .kind = Kind::pointer_moved, .at = gauge.now += 125us, .device = ShortName("mouse")};
+            .kind = GaugeInput::pointer_moved, .at = gauge.now += 125us, .device = ShortName("mouse")};
         input.right_px = 0.01 * i;
         gauge.sheet->take(input, {});
     }

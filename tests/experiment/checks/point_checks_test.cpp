@@ -8,15 +8,15 @@ using namespace overt::test;
 
 namespace {
 
-using Lines = std::vector<std::string>;
+using PointLines = std::vector<std::string>;
 
 /// A list in line 12 and what follows, then a task whose steps wait for a gauge.
-Lines findings_of_list(const std::string& list) {
+PointLines findings_of_list(const std::string& list) {
     return ReadText(minimal_protocol, "[[points]]\nid = \"p\"\n" + list + "\n").lines();
 }
 
 /// A list "p" of three places in lines 12 to 14, and this of a task from line 15 on.
-Lines findings_of_task(const std::string& steps, const std::string& rest) {
+PointLines findings_of_task(const std::string& steps, const std::string& rest) {
     return ReadText(minimal_protocol, "[[points]]\nid = \"p\"\nevenly = 3\n[[task]]\nid = \"t\"\nquestion = "
                                       "\"Which?\"\nsteps = [" +
                                           steps + "]\n" + rest)
@@ -24,48 +24,51 @@ Lines findings_of_task(const std::string& steps, const std::string& rest) {
 }
 
 const std::string shown_until = "{ show = \"centre\", until = \"answer\" }";
-const std::string probe = "[[task.probe]]\nid = \"place\"\npoints = \"p\"\n";
-const std::string gauge = "[[task.answer]]\nid = \"lean\"\nkind = \"gauge\"\n";
+const std::string a_probe = "[[task.probe]]\nid = \"place\"\npoints = \"p\"\n";
+const std::string a_gauge = "[[task.answer]]\nid = \"lean\"\nkind = \"gauge\"\n";
 
 } // namespace
 
 TEST_CASE("lists of points say in one way where their places are", "[unit]") {
     CHECK(findings_of_list("evenly = 40\narea = \"head\"\nfacing_deg = 60\nseed = 3").empty());
     CHECK(findings_of_list("vertices = [3, 8]\nplaces = [[4, 0.2, 0.3]]\nnear_mm = [1, 2, 3]").empty());
-    CHECK(findings_of_list("") == Lines{"13:6: nothing says where the places of \"p\" are"});
+    CHECK(findings_of_list("") == PointLines{"13:6: nothing says where the places of \"p\" are"});
     CHECK(findings_of_list("evenly = 4\nvertices = [3]") ==
-          Lines{"15:12: the places of \"p\" are given one by one, and spread evenly"});
+          PointLines{"15:12: the places of \"p\" are given one by one, and spread evenly"});
     CHECK(findings_of_list("vertices = [3]\narea = \"head\"") ==
-          Lines{"15:8: \"area\" is of places that are spread, and those of \"p\" are given"});
-    CHECK(findings_of_list("vertices = [2.5]") == Lines{"14:12: 2.5 is no number of a vertex"});
-    CHECK(findings_of_list("evenly = 4\nobject = \"b\"") == Lines{"15:10: there is no object \"b\""});
-    CHECK(findings_of_list("evenly = 4\nframe = 3") == Lines{"15:9: nothing asks what is seen in a frame"});
-    CHECK(findings_of_list("evenly = 4\nfacing_deg = 60\nframe = 61") == Lines{"16:9: there is no frame 61"});
+          PointLines{"15:8: \"area\" is of places that are spread, and those of \"p\" are given"});
+    CHECK(findings_of_list("vertices = [2.5]") == PointLines{"14:12: 2.5 is no number of a vertex"});
+    CHECK(findings_of_list("evenly = 4\nobject = \"b\"") == PointLines{"15:10: there is no object \"b\""});
+    CHECK(findings_of_list("evenly = 4\nframe = 3") ==
+          PointLines{"15:9: nothing asks what is seen in a frame"});
+    CHECK(findings_of_list("evenly = 4\nfacing_deg = 60\nframe = 61") ==
+          PointLines{"16:9: there is no frame 61"});
     CHECK(findings_of_list("vertices = [1]\n[[object]]\nid = \"b\"\nshipped = \"runner\"") ==
-          Lines{"14:12: numbers of vertices and triangles are of one mesh, and \"p\" does not say of which"});
+          PointLines{
+              "14:12: numbers of vertices and triangles are of one mesh, and \"p\" does not say of which"});
     CHECK(findings_of_list("evenly = 4\n[[points]]\nid = \"p\"\nevenly = 3").size() == 1);
 }
 
 TEST_CASE("probes know their list, their slot and their name", "[unit]") {
-    CHECK(findings_of_task(shown_until, probe + gauge).empty());
+    CHECK(findings_of_task(shown_until, a_probe + a_gauge).empty());
     CHECK(findings_of_task("{ show = \"centre\" }", "[[task.probe]]\nid = \"place\"\npoints = \"q\"\n") ==
-          Lines{"21:10: there is no list of [[points]] \"q\""});
+          PointLines{"21:10: there is no list of [[points]] \"q\""});
     CHECK(findings_of_task("{ show = \"centre\" }", "[[task.probe]]\nid = \"object\"\npoints = \"p\"\n") ==
-          Lines{"20:6: tables have a column \"object\" already, and the probe's is called by its id"});
-    CHECK(findings_of_task("{ show = \"centre\", probes = [\"plaice\"] }", probe) ==
-          Lines{"18:42: task t has no probe \"plaice\""});
-    CHECK(findings_of_task("{ show = \"centre\" }", probe + "slot = \"left\"\n").size() == 1);
-    CHECK(findings_of_task("{ show = \"centre\" }", probe + probe).size() == 1);
+          PointLines{"20:6: tables have a column \"object\" already, and the probe's is called by its id"});
+    CHECK(findings_of_task("{ show = \"centre\", probes = [\"plaice\"] }", a_probe) ==
+          PointLines{"18:38: task t has no probe \"plaice\""});
+    CHECK(findings_of_task("{ show = \"centre\" }", a_probe + "slot = \"left\"\n").size() == 1);
+    CHECK(findings_of_task("{ show = \"centre\" }", a_probe + a_probe).size() == 1);
     // Four different places of three.
     std::string four;
     for (const char* const id : {"w", "x", "y", "z"})
         four += fmt::format("[[task.probe]]\nid = \"{}\"\npoints = \"p\"\n", id);
     CHECK(findings_of_task("{ show = \"centre\" }", four) ==
-          Lines{"21:10: 4 probes stand at different places of \"p\", which has 3"});
+          PointLines{"21:10: 4 probes stand at different places of \"p\", which has 3"});
     CHECK(findings_of_task("{ show = \"centre\" }", "draw_points = 2\n") ==
-          Lines{"19:15: task t has no probe whose places could be drawn"});
-    CHECK(findings_of_task("{ show = \"centre\" }", "draw_points = 9\n" + probe) ==
-          Lines{"19:15: of 3 places or sets of places nothing like 9 can be drawn"});
+          PointLines{"19:15: task t has no probe whose places could be drawn"});
+    CHECK(findings_of_task("{ show = \"centre\" }", "draw_points = 9\n" + a_probe) ==
+          PointLines{"19:15: of 3 places or sets of places nothing like 9 can be drawn"});
 }
 
 TEST_CASE("the places of a list are on the objects that a task shows", "[unit]") {
@@ -73,23 +76,24 @@ TEST_CASE("the places of a list are on the objects that a task shows", "[unit]")
                         "[[task.probe]]\nid = \"place\"\npoints = \"p\"\n[[points]]\nid = \"p\"\nobject = "
                         "\"a\"\nevenly = 3\n[[object]]\nid = \"b\"\nshipped = \"runner\"\n");
     CHECK(read.lines() ==
-          Lines{"14:10: task free shows object \"b\", and the places of \"p\" are on another"});
+          PointLines{"14:10: task free shows object \"b\", and the places of \"p\" are on another"});
 }
 
 TEST_CASE("a gauge has a probe, stands alone, and is set while its place is shown", "[unit]") {
-    CHECK(findings_of_task(shown_until, gauge) == Lines{"21:8: the gauge \"lean\" has no place to stand at"});
-    CHECK(findings_of_task(shown_until, probe + gauge + "probe = \"plaice\"\n") ==
-          Lines{"25:9: there is no probe \"plaice\""});
-    CHECK(findings_of_task("{ show = \"centre\" }, { answer = \"lean\" }", probe + gauge) ==
-          Lines{"24:8: nothing is shown while \"lean\" is set"});
-    CHECK(findings_of_task(shown_until, probe + gauge + "undo_key = \"enter\"\n") ==
-          Lines{"25:12: the key \"enter\" answers two things"});
-    CHECK(findings_of_task(shown_until,
-                           probe + gauge + "[[task.answer]]\nid = \"k\"\nkind = \"key\"\nkeys = [\"f\"]\n")
+    CHECK(findings_of_task(shown_until, a_gauge) ==
+          PointLines{"21:8: the gauge \"lean\" has no place to stand at"});
+    CHECK(findings_of_task(shown_until, a_probe + a_gauge + "probe = \"plaice\"\n") ==
+          PointLines{"25:9: there is no probe \"plaice\""});
+    CHECK(findings_of_task("{ show = \"centre\" }, { answer = \"lean\" }", a_probe + a_gauge) ==
+          PointLines{"24:8: nothing is shown while \"lean\" is set"});
+    CHECK(findings_of_task(shown_until, a_probe + a_gauge + "undo_key = \"enter\"\n") ==
+          PointLines{"25:12: the key \"enter\" answers two things"});
+    CHECK(findings_of_task(shown_until, a_probe + a_gauge +
+                                            "[[task.answer]]\nid = \"k\"\nkind = \"key\"\nkeys = [\"f\"]\n")
               .size() == 1);
-    CHECK(findings_of_task(shown_until, probe + gauge + "simulated = { shear = [1] }\n").size() == 1);
-    CHECK(findings_of_task(shown_until, probe + gauge + "steps = 3\n") ==
-          Lines{"25:9: an answer of kind \"gauge\" has no \"steps\""});
+    CHECK(findings_of_task(shown_until, a_probe + a_gauge + "simulated = { shear = [1] }\n").size() == 1);
+    CHECK(findings_of_task(shown_until, a_probe + a_gauge + "steps = 3\n") ==
+          PointLines{"25:9: an answer of kind \"gauge\" has no \"steps\""});
 }
 
 TEST_CASE("a point by gaze needs a key, and one by the mouse has none", "[unit]") {
@@ -97,7 +101,7 @@ TEST_CASE("a point by gaze needs a key, and one by the mouse has none", "[unit]"
     CHECK(findings_of_task(shown_until, point).empty());
     CHECK(findings_of_task(shown_until, point + "by = \"gaze\"\nkeys = [\"space\"]\n").empty());
     CHECK(findings_of_task(shown_until, point + "by = \"fixation\"\n") ==
-          Lines{"22:6: nothing says with which key \"where\" is given"});
+          PointLines{"22:6: nothing says with which key \"where\" is given"});
     CHECK(findings_of_task(shown_until, point + "keys = [\"space\"]\n") ==
-          Lines{"22:8: a point that is clicked on needs no keys"});
+          PointLines{"22:8: a point that is clicked on needs no keys"});
 }

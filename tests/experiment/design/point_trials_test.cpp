@@ -28,7 +28,7 @@ Protocol with_probes(const std::string& task, const std::string& probes, int cou
 const std::string one_probe = "[[task.probe]]\nid = \"place\"\npoints = \"seen\"\n";
 const std::string pair_of_probes = one_probe + "[[task.probe]]\nid = \"other\"\npoints = \"seen\"\n";
 
-std::vector<Trial> trials_of(const Protocol& protocol, int observer = 1, std::uint64_t seed = 3) {
+std::vector<Trial> point_trials_of(const Protocol& protocol, int observer = 1, std::uint64_t seed = 3) {
     return make_schedule(protocol, {"P", observer}, seed).trials;
 }
 
@@ -41,7 +41,7 @@ std::pair<std::string, std::string> pair_in(const Trial& trial) {
 } // namespace
 
 TEST_CASE("each stimulus comes with each place of a probe, as often as the task repeats", "[unit]") {
-    const std::vector<Trial> trials = trials_of(with_probes("repetitions = 2", one_probe));
+    const std::vector<Trial> trials = point_trials_of(with_probes("repetitions = 2", one_probe));
     std::map<std::pair<int, std::string>, int> times;
     for (const Trial& trial : trials)
         ++times[{trial.stimulus.material, std::string(own_level(trial, "place"))}];
@@ -54,7 +54,7 @@ TEST_CASE("each stimulus comes with each place of a probe, as often as the task 
 }
 
 TEST_CASE("two probes of one list stand at different places, each pair once, sides drawn", "[unit]") {
-    const std::vector<Trial> trials = trials_of(with_probes("", pair_of_probes));
+    const std::vector<Trial> trials = point_trials_of(with_probes("", pair_of_probes));
     std::map<std::pair<int, std::pair<std::string, std::string>>, int> times;
     int rising = 0;
     for (const Trial& trial : trials) {
@@ -71,7 +71,7 @@ TEST_CASE("two probes of one list stand at different places, each pair once, sid
 TEST_CASE("probes of two lists are crossed", "[unit]") {
     const std::string probes = one_probe + "[[task.probe]]\nid = \"other\"\npoints = \"two\"\n";
     const Protocol protocol = with_probes("", probes);
-    CHECK(trials_of(protocol).size() == 2 * 6 * 2);
+    CHECK(point_trials_of(protocol).size() == 2 * 6 * 2);
     CHECK(point_combinations(protocol, protocol.tasks.front(), 1000) == 12);
     CHECK(point_combinations(protocol, protocol.tasks.front(), 10) == 10);
 }
@@ -81,7 +81,7 @@ TEST_CASE("places are drawn for each observer, the same for all of their stimuli
     const Protocol protocol = with_probes("draw_points = 4", pair_of_probes);
     const auto pairs_of = [&](int observer) {
         std::map<int, std::set<std::pair<std::string, std::string>>> pairs;
-        for (const Trial& trial : trials_of(protocol, observer))
+        for (const Trial& trial : point_trials_of(protocol, observer))
             pairs[trial.stimulus.material].insert(pair_in(trial));
         return pairs;
     };
@@ -108,7 +108,7 @@ TEST_CASE("places are a factor of the trial's own, of which orders and tables kn
 TEST_CASE("a stream has one place after the other, and keeps its order", "[unit]") {
     const Protocol protocol = with_probes(
         "trials = { rule = \"stream\", of = \"material\", length = 12, repeats = 0.25 }", one_probe, 4);
-    const std::vector<Trial> trials = trials_of(protocol);
+    const std::vector<Trial> trials = point_trials_of(protocol);
     REQUIRE(trials.size() == 12);
     std::map<std::string, int> times;
     for (const Trial& trial : trials)

@@ -34,8 +34,8 @@ Protocol probed(const std::string& steps, const std::string& more = {}) {
         "[[block]]\nid = \"b\"\ntasks = \"t\"\nmaterials = \"clay\"\n");
 }
 
-const std::string lean = "[[task.answer]]\nid = \"lean\"\nkind = \"gauge\"\naccept_key = \"space\"\n"
-                         "slant_per_px_deg = 0.5\n";
+const std::string a_lean = "[[task.answer]]\nid = \"lean\"\nkind = \"gauge\"\naccept_key = \"space\"\n"
+                           "slant_per_px_deg = 0.5\n";
 
 /// The same inputs in each trial, so long after presses count.
 auto doing(std::vector<std::pair<double, ObserverInput>> inputs) {
@@ -52,14 +52,14 @@ auto doing(std::vector<std::pair<double, ObserverInput>> inputs) {
     };
 }
 
-ObserverInput pointer(ObserverInput::Kind kind, double right_px, double down_px) {
+ObserverInput mouse_at(ObserverInput::Kind kind, double right_px, double down_px) {
     ObserverInput input{.kind = kind, .device = ShortName("mouse")};
     input.right_px = right_px;
     input.down_px = down_px;
     input.button = 1;
     return input;
 }
-ObserverInput pressed(std::string_view key) {
+ObserverInput key_at(std::string_view key) {
     ObserverInput input{.kind = ObserverInput::Kind::key_down, .device = ShortName("keyboard")};
     input.key = ShortName(key);
     return input;
@@ -120,17 +120,17 @@ TEST_CASE("a mark stands where its place is, and only in the steps that name it"
 
 TEST_CASE("a gauge is recorded with its start, what was set, and the surface in the frame that was lit",
           "[unit]") {
-    Sitting sitting(probed("{ show = \"centre\", frame = 2, until = \"answer\" }", lean));
+    Sitting sitting(probed("{ show = \"centre\", frame = 2, until = \"answer\" }", a_lean));
     sitting.probe_of = [](const PlacedStimulus&, const std::string&) {
         return std::make_shared<GoingPlace>();
     };
     using Kind = ObserverInput::Kind;
     // Accepting before anything is moved does nothing.
-    sitting.panel.does = doing({{50, pressed("space")},
-                                {100, pointer(Kind::pointer_down, 0, 0)},
-                                {120, pointer(Kind::pointer_moved, 10, -20)},
-                                {140, pointer(Kind::pointer_up, 10, -20)},
-                                {300, pressed("space")}});
+    sitting.panel.does = doing({{50, key_at("space")},
+                                {100, mouse_at(Kind::pointer_down, 0, 0)},
+                                {120, mouse_at(Kind::pointer_moved, 10, -20)},
+                                {140, mouse_at(Kind::pointer_up, 10, -20)},
+                                {300, key_at("space")}});
     CHECK(sitting.run().completed_trials == 3);
     std::vector<Attitude> starts;
     for (const TrialOutcome& outcome : sitting.log.outcomes) {

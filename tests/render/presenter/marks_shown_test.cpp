@@ -17,7 +17,7 @@ namespace {
 constexpr glm::ivec2 marked_screen_px{256, 96}, marked_image_px{64, 64}, marked_origin_px{96, 16};
 
 /// One light in each frame.
-class PlainPages final : public FrameSource {
+class MarkedPages final : public FrameSource {
   public:
     std::vector<int> page_of_frame(const Stimulus&) const override { return {0, 1}; }
     LinearImage page(const Stimulus&, int page) const override {
@@ -29,7 +29,7 @@ class PlainPages final : public FrameSource {
 
 struct MarkedScreen {
     DisplaySettings settings;
-    PlainPages pages;
+    MarkedPages pages;
     VirtualClock clock;
     VirtualDisplay display;
     PagePresenter presenter;
@@ -79,7 +79,7 @@ bool is_pixel_alike(const std::vector<std::byte>& a, const std::vector<std::byte
 }
 
 /// How many pixels of two screens differ within the image, and whether any does elsewhere.
-std::pair<int, bool> differences(const std::vector<std::byte>& a, const std::vector<std::byte>& b) {
+std::pair<int, bool> pixels_apart(const std::vector<std::byte>& a, const std::vector<std::byte>& b) {
     int inside = 0;
     bool any_outside = false;
     const glm::ivec2 end = marked_origin_px + marked_image_px;
@@ -106,21 +106,21 @@ TEST_CASE("a mark is drawn over its picture alone, and goes without a trace", "[
         const std::vector<std::byte> plain = screen.flipped(0), other = screen.flipped(1);
         const StimulusMark dot = dot_at(128.0, 48.0, 20.0);
         screen.presenter.mark_stimuli({&dot, 1});
-        const auto [inside, is_outside] = differences(plain, screen.flipped(0));
+        const auto [inside, is_outside] = pixels_apart(plain, screen.flipped(0));
         // A disc of 20 px has 314; pixels that share a colour are drawn or left together.
         CHECK(inside >= 290);
         CHECK(inside <= 340);
         CHECK_FALSE(is_outside);
         // It stays with the next frame, moves, and goes.
-        CHECK(differences(other, screen.flipped(1)).first == inside);
+        CHECK(pixels_apart(other, screen.flipped(1)).first == inside);
         const StimulusMark moved = dot_at(140.0, 40.0, 20.0);
         screen.presenter.mark_stimuli({&moved, 1});
         const std::vector<std::byte> after = screen.flipped(1);
-        CHECK(differences(other, after).first >= 290);
-        CHECK(differences(other, after).first <= 340);
+        CHECK(pixels_apart(other, after).first >= 290);
+        CHECK(pixels_apart(other, after).first <= 340);
         screen.presenter.mark_stimuli({});
-        CHECK(differences(other, screen.flipped(1)) == std::pair(0, false));
-        CHECK(differences(plain, screen.flipped(0)) == std::pair(0, false));
+        CHECK(pixels_apart(other, screen.flipped(1)) == std::pair(0, false));
+        CHECK(pixels_apart(plain, screen.flipped(0)) == std::pair(0, false));
     }
 }
 
@@ -134,12 +134,12 @@ TEST_CASE("a mark's light is encoded as that of a picture, and is cut off at the
         StimulusMark wide = dot_at(128.0, 48.0, 400.0);
         wide.light = {0.25, 0.25, 0.25};
         screen.presenter.mark_stimuli({&wide, 1});
-        CHECK(differences(plain, screen.flipped(0)) == std::pair(0, false));
+        CHECK(pixels_apart(plain, screen.flipped(0)) == std::pair(0, false));
         wide.light = {0.5, 0.25, 0.25};
         screen.presenter.mark_stimuli({&wide, 1});
         const std::vector<std::byte> marked = screen.flipped(0);
         screen.presenter.mark_stimuli({});
-        CHECK(differences(screen.flipped(1), marked) == std::pair(0, false));
+        CHECK(pixels_apart(screen.flipped(1), marked) == std::pair(0, false));
     }
 }
 
@@ -153,11 +153,11 @@ TEST_CASE("lines have their width, and a rim around them", "[gl]") {
     line.lines[0].points[1] = {150.0, 30.0};
     screen.presenter.mark_stimuli({&line, 1});
     // A rectangle of 40 x 4 with round ends of a radius of 2.
-    CHECK(differences(plain, screen.flipped(0)).first == Approx(160 + 12).margin(8));
+    CHECK(pixels_apart(plain, screen.flipped(0)).first == Approx(160 + 12).margin(8));
     line.rim_px = 2.0;
     screen.presenter.mark_stimuli({&line, 1});
     const std::vector<std::byte> rimmed = screen.flipped(0);
-    CHECK(differences(plain, rimmed).first == Approx(320 + 50).margin(14));
+    CHECK(pixels_apart(plain, rimmed).first == Approx(320 + 50).margin(14));
     const auto at = static_cast<std::size_t>(4 * (27 * marked_screen_px.x + 130));
     CHECK(rimmed[at] == std::byte{0}); // dark
 }
