@@ -1,6 +1,7 @@
 /// Calibrations and what a tracker says besides samples: in the record, in its seals, and in the exports.
 #include <catch2/catch.hpp>
 
+#include <SQLiteCpp/SQLiteCpp.h>
 #include <nlohmann/json.hpp>
 
 #include "experiment/base/whole_file.h"
