@@ -13,9 +13,12 @@ constexpr int looks_without = 20;
 /// It goes where `goes` says, once, and comes back after a while of saying so. Gives whether it is back.
 std::shared_ptr<bool> lose_keyboard(Sitting& sitting, std::function<bool(const ScriptedPanel&)> goes) {
     const auto is_back = std::make_shared<bool>(false);
-    sitting.panel.lacks_keyboard = [goes = std::move(goes), is_away = false,
+    sitting.panel.lacks_keyboard = [&sitting, goes = std::move(goes), is_away = false,
                                     is_back](const ScriptedPanel& panel) mutable {
         is_away = is_away || (!*is_back && goes(panel));
+        // A while that is longer than an answer may take.
+        if (is_away && panel.phase() == SessionPhase::pause)
+            sitting.clock.wait_until(sitting.clock.now() + std::chrono::milliseconds(400));
         if (is_away && panel.phase() == SessionPhase::pause && panel.looks >= looks_without) {
             is_away = false;
             *is_back = true;
@@ -47,10 +50,8 @@ TEST_CASE("a keyboard that goes is told of on whatever screen waits for a key, a
     SECTION("a trial's answer") {}
     const auto is_back =
         lose_keyboard(sitting, [&](const ScriptedPanel& panel) { return panel.phase() == where; });
-    // The observer goes on once the keyboard is back, after longer than an answer may take.
+    // The observer goes on once the keyboard is back.
     sitting.panel.tell = [&](ScriptedPanel& panel) -> std::optional<ResponsePress> {
-        if (panel.phase() == SessionPhase::pause)
-            sitting.clock.wait_until(sitting.clock.now() + std::chrono::milliseconds(400));
         return panel.phase() == where && !*is_back ? std::optional(ResponsePress{Pressed::up, {}})
                                                    : std::nullopt;
     };
