@@ -298,7 +298,8 @@ TEST_CASE("attempts that follow at once stand one after the other by their times
     // Of each attempt how it ended, inside of it.
     CHECK_THAT(text, Contains("var attempt 2\n") && Contains("var counts no\n") &&
                          Contains("var counts yes\n") && Contains("var status aborted\n") &&
-                         Contains("var status completed\n") && Contains("var response_time_ms "));
+                         Contains("var status completed\n") && Contains("var response_time_ms ") &&
+                         Contains("var answer vierzig"));
     for (const std::string name : {"attempt", "status", "counts"})
         CHECK(times_of(text, "var " + name + " ").size() == 3);
 }
