@@ -13,10 +13,10 @@ namespace overt {
 /// A port and what the USB device says of itself. Texts are empty and numbers absent where it says nothing.
 struct SerialPortInfo {
     std::string path; ///< such as /dev/ttyACM0
-    std::optional<std::uint16_t> vendor_id, product_id;
-    std::string manufacturer, product, serial_number;
+    std::optional<std::uint16_t> vendor_id = {}, product_id = {};
+    std::string manufacturer = {}, product = {}, serial_number = {};
     /// So long a chip of FTDI gathers bytes before it hands them on, in ms; the kernel's default is 16.
-    std::optional<int> latency_timer_ms;
+    std::optional<int> latency_timer_ms = {};
 };
 
 /// USB vendor number of Cambridge Research Systems (public udev rules of laboratories).

@@ -60,7 +60,9 @@ std::string without_formula(std::string_view cell) {
     constexpr std::string_view begins = "=+-@\t\r";
     const bool may_be_formula =
         cell.size() > 1 && begins.find(cell.front()) != std::string_view::npos && !is_number(cell);
-    return may_be_formula ? "'" + std::string(cell) : std::string(cell);
+    std::string text(may_be_formula ? "'" : "");
+    text += cell;
+    return text;
 }
 
 std::string csv_cell(std::string_view text) {

@@ -179,6 +179,7 @@ std::string area_sentence(const StudyResults& results, double confidence) {
 std::string result_clause(const StudyResults& results, const StudyOptions& options) {
     for (const FirstAnswer& first : answers_in_order(results.answers)) {
         for (const std::string& clause : {curve_sentence(results.answers, first, options.confidence),
+                                          match_sentence(results.answers, first, options.confidence),
                                           scale_sentence(results.answers, first, options.confidence),
                                           noise_sentence(results.answers, first),
                                           rating_sentence(results.answers, first, options.confidence),

@@ -61,7 +61,7 @@ template <class Value> int least_distance(const std::vector<Trial>& trials, Valu
 
 int task_of(const Trial& trial) { return trial.task; }
 int object_of(const Trial& trial) { return trial.stimulus.object; }
-Stimulus stimulus_of(const Trial& trial) { return trial.stimulus; }
+Stimulus shown_in(const Trial& trial) { return trial.stimulus; }
 
 std::map<std::tuple<int, int, int>, int> counts_of(const std::vector<Trial>& trials) {
     std::map<std::tuple<int, int, int>, int> counts;
@@ -212,7 +212,7 @@ TEST_CASE("weights that are counts are how often each trial comes", "[unit]") {
         REQUIRE(counts.size() == 6);
         for (const auto& [cell, count] : counts)
             REQUIRE(count == (std::get<2>(cell) == 0 ? 3 : 1));
-        REQUIRE(least_distance(trials, stimulus_of) >= 2);
+        REQUIRE(least_distance(trials, shown_in) >= 2);
     }
 }
 
@@ -244,7 +244,7 @@ TEST_CASE("mixed repetitions are one order, and distances hold across all of it"
         REQUIRE(counts_of(trials).size() == 9);
         for (const auto& [cell, count] : counts_of(trials))
             REQUIRE(count == 3);
-        REQUIRE(least_distance(trials, stimulus_of) >= 4);
+        REQUIRE(least_distance(trials, shown_in) >= 4);
         REQUIRE(longest_run(trials, object_of) <= 2);
         is_ever_mixed = is_ever_mixed || counts_of({trials.begin(), trials.begin() + 9}).size() < 9;
     }
