@@ -122,6 +122,14 @@ TEST_CASE("events carry the file's missing value as their samples do", "[unit]")
         CHECK(saccades[0].peak_velocity_deg_s == 57.0);
         CHECK(bench.summary.survey.unreadable_event_values == 0);
     }
+    // Where the place is missing, a size that is the same number is, too.
+    std::string text = replaced(asc_text({}), "\t   .\t   .\t", "\t9999\t9999\t");
+    text = replaced(text, "\t  512.8\t  394.5\t   1063", "\t9999\t9999\t9999");
+    text = replaced(text, "\t  512.8\t  -39.5\t  509.2\t  380.4\t   0.46\t     57",
+                    "\t9999\t9999\t  509.2\t  380.4\t   0.46\t9999");
+    const SessionRecord record = bench.import(text);
+    CHECK_FALSE(events_of_kind(record, GazeEvent::Kind::fixation).at(0).pupil);
+    CHECK_FALSE(events_of_kind(record, GazeEvent::Kind::saccade).at(0).peak_velocity_deg_s);
 }
 
 TEST_CASE("field cases give their right values", "[unit]") {
