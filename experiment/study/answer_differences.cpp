@@ -102,11 +102,17 @@ std::vector<ComparedColumn> compared_columns(const AnswerList& answers) {
     std::vector<ComparedColumn> words, numbers;
     if (answers.empty())
         return words;
-    for (const auto& [name, any] : answers.front()->levels) {
-        std::set<std::string> levels;
-        for (const StudyAnswer* one : answers)
-            if (const std::string& level = one->level(name); !level.empty())
-                levels.insert(level);
+    std::vector<std::string> names;
+    std::map<std::string, std::set<std::string>> levels_of_name;
+    for (const StudyAnswer* one : answers)
+        for (const auto& [name, level] : one->levels) {
+            std::set<std::string>& known = levels_of_name[name];
+            if (known.empty())
+                names.push_back(name);
+            known.insert(level);
+        }
+    for (const std::string& name : names) {
+        const std::set<std::string>& levels = levels_of_name[name];
         if (levels.size() < 2 || levels.size() > most_compared_levels)
             continue;
         const bool are_numbers = std::ranges::all_of(
@@ -196,8 +202,9 @@ std::vector<AnswerDifferenceRow> answer_differences(const AnswersBy& answers, co
                 other.item == of.item)
                 observers.push_back(&given);
         const std::size_t before = rows.size();
+        const std::vector<ComparedColumn> columns = compared_columns(all);
         for (const MeasuredAnswer& what : measures_of(all)) {
-            for (const ComparedColumn& column : compared_columns(all)) {
+            for (const ComparedColumn& column : columns) {
                 // A function over a factor is not of its own levels.
                 if (column.name == what.of)
                     continue;
