@@ -247,7 +247,7 @@ function show_matches() {
     responsive(box, width => {
       const ends = [Math.min(...all), Math.max(...all)], room = 0.05 * (ends[1] - ends[0] || 1), range = [ends[0] - room, ends[1] + room];
       const frame = plot({width: Math.min(width, 620), height: 360, x: range, y: range, x_label: `${wanted.along} of the reference`, y_label: `${wanted.along} that was set`, label: 'Matches'});
-      frame.svg.append(shape('line', {x1: frame.px(range[0]), y1: frame.py(range[0]), x2: frame.px(range[1]), y2: frame.py(range[1]), class: 'grid', 'stroke-dasharray': '4 4'}));
+      frame.svg.append(shape('line', {x1: frame.px(range[0]), y1: frame.py(range[0]), x2: frame.px(range[1]), y2: frame.py(range[1]), class: 'axis', 'stroke-dasharray': '4 4'}));
       levels.forEach((one, i) => {
         const line = lines.find(r => of_all(r) && same_answer(r, wanted) && r.along === wanted.along && r.column === wanted.column && r.level === one && r.slope.v !== null && r.intercept.v !== null);
         const own = mine.filter(r => r.level === one).sort((a, b) => a.reference - b.reference);
