@@ -9,6 +9,10 @@ const answer_columns = rows => [
     ...(rows.some(r => r.of[3]) ? [text_column('item', r => r.of[3] || 'n/a')] : [])];
 // A column only where a row has something in it.
 const if_any = (rows, column) => (rows.some(r => { const cell = column.of(r); return cell !== null && cell !== '' && (!is_estimate(cell) || cell.v !== null); }) ? [column] : []);
+// Of many rows those of all observers alone: single ones are in the files beside the page.
+const most_rows = 40;
+const rows_shown = rows => (rows.length > most_rows && rows.some(of_all) ? rows.filter(of_all) : rows);
+const on_rows = (rows, file) => (rows_shown(rows).length < rows.length ? ` Single observers are in the table ${file} beside the page.` : '');
 const unique = (rows, key) => [...new Map(rows.map(r => [key(r), r])).values()];
 
 function answer_part(id, title, ...children) {
@@ -92,12 +96,12 @@ function show_curves() {
     }
   };
   answer_part('answers_body', 'Psychometric functions', chooser('Answer', functions.map(c => `${answer_name(c.of)} by ${c.factor}: ${c.yes}`), show), drawn,
-      table({name: 'psychometric_functions', title: 'Psychometric functions', rows, columns: [
+      table({name: 'psychometric_functions', title: 'Psychometric functions', rows: rows_shown(rows), columns: [
         ...answer_columns(rows), text_column('factor', r => r.factor), text_column('counted', r => r.yes), ...if_any(rows, text_column('within', r => r.column ? `${r.column} ${r.level}` : '')),
         number_column('threshold', r => r.threshold), number_column('slope', r => r.slope), ...if_any(rows, number_column('lapse rate', r => r.lapse)), number_column('guess rate', r => r.guess),
         number_column('deviance', r => r.deviance), number_column('degrees', r => r.degrees), number_column('deviance that chance exceeds rarely', r => r.limit), number_column('answers', r => r.trials),
         ...if_any(rows, number_column('planted threshold', r => r.planted)), ...if_any(rows, number_column('planted slope', r => r.planted_slope)), ...remark_column(rows, r => r.note)],
-        note: `guess + (1 - guess - lapse) / (1 + exp(-slope (x - threshold))), by maximum likelihood. In brackets the ${level}: of an observer by the bootstrap over answers, of all over observers. A deviance above its limit says that the function does not fit.`}));
+        note: `guess + (1 - guess - lapse) / (1 + exp(-slope (x - threshold))), by maximum likelihood. In brackets the ${level}: of an observer by the bootstrap over answers, of all over observers. A deviance above its limit says that the function does not fit.` + on_rows(rows, 'psychometric_functions')}));
 }
 
 // Dots with intervals, in panels.
@@ -113,11 +117,11 @@ function show_scales() {
     dot_panels(chart, [{name: '', bars: bars_of}], {x_label: `place on the scale (${wanted.method})`, label: `Scale of ${wanted.factor}`});
   };
   answer_part('answers_body', 'Scales of comparisons', chooser('Scale', kinds.map(r => `${answer_name(r.of)}: ${r.factor}, ${r.method}`), show), chart,
-      table({name: 'answer_scales', title: 'Scales of comparisons', rows, columns: [
+      table({name: 'answer_scales', title: 'Scales of comparisons', rows: rows_shown(rows), columns: [
         ...answer_columns(rows), text_column('method', r => r.method), text_column('factor', r => r.factor), text_column('level', r => r.level), number_column('place', r => r.value),
         ...if_any(rows, number_column('first slot adds', r => r.first)), ...if_any(rows, number_column('noise of a judgement', r => r.sigma)), number_column('judgements', r => r.trials),
         ...if_any(rows, number_column('planted', r => r.planted)), ...remark_column(rows, r => (r.penalised ? 'penalised: the answers contradict each other nowhere' : ''))],
-        note: `Large dots: all answers together, with the ${level}; small dots: single observers. Bradley-Terry in logits and Thurstone's Case V in standard deviations of a percept, with a mean of 0; MLDS from 0 to 1.`}));
+        note: `Large dots: all answers together, with the ${level}; small dots: single observers. Bradley-Terry in logits and Thurstone's Case V in standard deviations of a percept, with a mean of 0; MLDS from 0 to 1.` + on_rows(rows, 'answer_scales')}));
 }
 
 function show_ratings() {
@@ -128,10 +132,10 @@ function show_ratings() {
   const panels = mine => panels_of(mine.filter(of_all), r => r.factor || 'all', r => ({label: label_of(r), estimate: r.mean, each: mine.filter(o => !of_all(o) && o.factor === r.factor && o.level === r.level && o.mean.v !== null).map(o => o.mean.v)}));
   const show = index => dot_panels(chart, panels(rows.filter(r => same_answer(r, kinds[index]))), {x_label: `mean of ${answer_name(kinds[index].of)}`, label: 'Mean ratings'});
   answer_part('answers_body', 'Ratings and numbers', chooser('Answer', kinds.map(r => answer_name(r.of)), show), chart,
-      table({name: 'ratings', title: 'Ratings and numbers', rows, columns: [
+      table({name: 'ratings', title: 'Ratings and numbers', rows: rows_shown(rows), columns: [
         ...answer_columns(rows), text_column('factor', r => r.factor || 'n/a'), text_column('level', r => r.level || 'all'), number_column('mean', r => r.mean), number_column('SD', r => r.sd), number_column('answers', r => r.ratings),
         ...if_any(rows, number_column('place on a continuous quality', r => r.place)), ...if_any(rows, number_column('planted', r => r.planted))],
-        note: `Large dots: means over observers of their means, with the ${level} over observers; small dots: single observers. Place: cumulative probit model, the factor's first level being 0.`}));
+        note: `Large dots: means over observers of their means, with the ${level} over observers; small dots: single observers. Place: cumulative probit model, the factor's first level being 0.` + on_rows(rows, 'ratings')}));
 }
 
 function show_choices() {
@@ -143,13 +147,14 @@ function show_choices() {
   const panels = [...(right.length ? [{name: 'correct', bars: right}] : []), ...of_choices];
   if (panels.length) bars(chart, panels, {x_label: 'share of the answers', most: 1, label: 'Shares of answers'});
   answer_part('answers_body', 'How often, how right, how fast', ...(panels.length ? [chart] : []),
-      table({name: 'answers', title: 'Answers', rows: sums, columns: [
+      table({name: 'answers', title: 'Answers', rows: rows_shown(sums), columns: [
         ...answer_columns(sums), number_column('asked', r => r.trials), number_column('missed', r => r.missed), ...if_any(sums, share_column('correct', r => r.correct)),
         ...if_any(sums, number_column('d′', r => r.d_prime)), ...if_any(sums, number_column('SE of d′', r => r.d_prime_se)), ...if_any(sums, number_column('criterion', r => r.criterion)),
         ...if_any(sums, text_column('design', r => r.design)), ...if_any(sums, number_column('d′ by the design', r => r.design_d_prime)), number_column('median time / s', r => r.median)],
-        note: `In brackets Wilson's ${level}, as if answers were independent of each other. Dots: single observers. d′ with the log-linear correction; the design is told by what was shown.`}),
-      ...(rows.length ? [table({name: 'answer_choices', title: 'How often each choice was made', rows, columns: [
-        ...answer_columns(rows), text_column('choice', r => r.choice), number_column('times', r => r.chosen), number_column('of', r => r.answered), share_column('share', r => r.share)]})] : []));
+        note: `In brackets Wilson's ${level}, as if answers were independent of each other. Dots: single observers. d′ with the log-linear correction; the design is told by what was shown.` + on_rows(sums, 'answers')}),
+      ...(rows.length ? [table({name: 'answer_choices', title: 'How often each choice was made', rows: rows_shown(rows), columns: [
+        ...answer_columns(rows), text_column('choice', r => r.choice), number_column('times', r => r.chosen), number_column('of', r => r.answered), share_column('share', r => r.share)],
+        note: on_rows(rows, 'answer_choices').trim()})] : []));
 }
 
 function show_times() {
@@ -189,11 +194,11 @@ function show_times() {
   };
   const better = r => (r.ex_likelihood === null || r.shifted_likelihood === null ? null : r.ex_likelihood > r.shifted_likelihood ? 'ex-Gaussian' : 'shifted log-normal');
   answer_part('answers_body', 'Response times', chooser('Answer', kinds.map(r => answer_name(r.of)), show), charts,
-      table({name: 'response_times', title: 'Response times', rows, columns: [
+      table({name: 'response_times', title: 'Response times', rows: rows_shown(rows), columns: [
         ...answer_columns(rows), text_column('which', r => r.which), number_column('answers', r => r.times), number_column('median / s', r => r.median), number_column('mean / s', r => r.mean), number_column('SD / s', r => r.sd),
         ...['μ', 'σ', 'τ'].map((name, i) => number_column(`ex-Gaussian ${name} / s`, r => r.ex[i])), number_column('log-normal: shift / s', r => r.shifted[0]), number_column('mean of log', r => r.shifted[1]), number_column('SD of log', r => r.shifted[2]),
         ...if_any(rows, text_column('fits better', better))],
-        note: `From the zero that the protocol names. In brackets the ${level} over observers. Both distributions by maximum likelihood, of an observer with 40 times at least; what fits better has the larger likelihood (both have three parameters).`}));
+        note: `From the zero that the protocol names. In brackets the ${level} over observers. Both distributions by maximum likelihood, of an observer with 40 times at least; what fits better has the larger likelihood (both have three parameters).` + on_rows(rows, 'response_times')}));
 }
 
 function show_tracks() {
@@ -263,13 +268,14 @@ function show_matches() {
     });
   };
   answer_part('answers_body', 'Matches', chooser('Match', kinds.map(r => `${answer_name(r.of)}, ${r.along}${r.column ? ` by ${r.column}` : ''}`), show), names, box,
-      table({name: 'match_lines', title: 'Lines of matches over references', rows: lines, columns: [
+      table({name: 'match_lines', title: 'Lines of matches over references', rows: rows_shown(lines), columns: [
         ...answer_columns(lines), text_column('along', r => r.along), ...if_any(lines, text_column('within', r => r.column ? `${r.column} ${r.level}` : '')), number_column('slope', r => r.slope), number_column('intercept', r => r.intercept),
         ...if_any(lines, number_column('slope, errors in both', r => r.deming)), number_column('settings', r => r.settings), ...if_any(lines, number_column('planted slope', r => r.planted))],
-        note: `Dots: means over observers with the ${level}; broken line: a match that is the reference.`}),
-      table({name: 'matches', title: 'Matches', rows, columns: [
+        note: `Dots: means over observers with the ${level}; broken line: a match that is the reference.` + on_rows(lines, 'match_lines')}),
+      table({name: 'matches', title: 'Matches', rows: rows_shown(rows), columns: [
         ...answer_columns(rows), text_column('along', r => r.along), ...if_any(rows, text_column('within', r => r.column ? `${r.column} ${r.level}` : '')), number_column('reference', r => r.reference), number_column('match', r => r.match),
-        ...if_any(rows, number_column('constant error', r => r.error)), ...if_any(rows, number_column('SD', r => r.sd)), number_column('settings', r => r.settings), number_column('stopped at an end', r => r.at_end)]}));
+        ...if_any(rows, number_column('constant error', r => r.error)), ...if_any(rows, number_column('SD', r => r.sd)), number_column('settings', r => r.settings), number_column('stopped at an end', r => r.at_end)],
+        note: on_rows(rows, 'matches').trim()}));
 }
 
 function show_reliefs() {
@@ -321,11 +327,11 @@ if (answers && answers.gaze.length) {
          {x_label: 'share of the time on the stimulus, difference', most: 0, label: 'Areas looked at before one answer less before another', as_points: true});
     by_id('answer_gaze_chart').append(areas);
   }
-  by_id('answer_gaze_table').append(table({name: 'gaze_and_choice', title: 'Looking and answering', rows: answers.gaze, columns: [
+  by_id('answer_gaze_table').append(table({name: 'gaze_and_choice', title: 'Looking and answering', rows: rows_shown(answers.gaze), columns: [
       ...answer_columns(answers.gaze), text_column('measure', r => r.measure), text_column('area', r => r.area || 'all'), ...if_any(answers.gaze, text_column('a', r => r.a)), ...if_any(answers.gaze, text_column('b', r => r.b)),
       number_column('value', r => r.value), number_column('by chance', r => r.chance), p_column('p', r => r.p), p_column('p after Holm', r => r.holm), number_column('observers', r => r.observers), number_column('answers', r => r.trials),
       ...if_any(answers.gaze, number_column('planted', r => r.planted))],
-      note: `Counted fixations that began before the answer, up to it. In brackets the ${level} over observers; p by flipping the signs of observers' differences from chance, after Holm over the rows of the answer. Each answer is in the table answer_gaze.`}));
+      note: `Counted fixations that began before the answer, up to it. In brackets the ${level} over observers; p by flipping the signs of observers' differences from chance, after Holm over the rows of the answer. Each answer is in the table answer_gaze.` + on_rows(answers.gaze, 'gaze_and_choice')}));
 } else by_id('answer_gaze').hidden = true;
 
 // Maps of gaze before one answer less before another.
