@@ -6,6 +6,7 @@
 #include "app/session/session_recording.h"
 #include "devices/host/clocks.h"
 #include "devices/simulated/simulated_eye_tracker.h"
+#include "devices/simulated/simulated_keys.h"
 #include "devices/simulated/simulated_response_panel.h"
 #include "experiment/design/schedule.h"
 #include "experiment/record/tables/table_export.h"
@@ -50,7 +51,8 @@ class ExactSitting {
         *context, display, library, geometry, protocol.display, protocol.screens, slot_places(protocol)};
     SimulatedObserver observer{make_observed_scene(protocol, experiment.objects, geometry), 3, steady_eyes()};
     SimulatedEyeTracker tracker{clock, observer, 3, without_errors(protocol.tracker)};
-    SimulatedResponsePanel panel{clock, observer};
+    SimulatedAnswers answers{protocol, 3};
+    SimulatedResponsePanel panel{clock, observer, {}, &answers};
 
     std::filesystem::path folder; ///< of the session, once it has run
 

@@ -7,6 +7,7 @@
 
 #include "experiment/events/event_agreement.h"
 #include "experiment/events/event_detector.h"
+#include "experiment/record/read/observer_turns.h"
 #include "tests/app/session/exact_sitting.h"
 #include "tests/experiment/events/detected_events.h"
 #include "tests/support/tsv_file.h"
@@ -81,6 +82,35 @@ TEST_CASE("gaze meets the surface of an object that turns about an axis of its o
     const Animation& planned = sitting.protocol.motions.front();
     for (int frame = 0; frame < planned.frame_count; ++frame)
         CHECK(recorded.pose_of({frame}) == planned.pose_of({frame}));
+}
+
+TEST_CASE("gaze meets the surface in the pose that the observer had turned the object to", "[session]") {
+    ExactSitting sitting(
+        with(small_protocol, "frame_count = 31\nframe_rate_hz = 30\namplitude_deg = 25\nduration_s = 1\n",
+             "kind = \"observer\"\nwith = \"keys\"\nstep_deg = 5\nfrom_deg = -60\nto_deg = 60\n"
+             "speed_deg_s = 90\nsimulated_turn_deg = 60\nsimulated_pause_s = 0.1\n"
+             "duration_s = 1\n"));
+    check_places(sitting, 10000, 4000);
+    const SessionRecord record(sitting.folder);
+    // What was lit is where keys had turned it by the refresh before, to the nearest pose.
+    int turned = 0;
+    for (const TrialRecord& trial : record.trials()) {
+        const TrialRecord seen = trial.seen_in(0);
+        const std::vector<FlipRecord> flips = record.flips(seen);
+        REQUIRE(record.steered_flips(seen).size() == flips.size());
+        for (const ObserverTurns& turns : observer_turns(record, seen, record.ledger(seen))) {
+            turned += turns.path.value > 20.0;
+            CHECK(std::abs(turns.net.value) <= turns.path.value + 1e-9);
+            if (turns.median_delay_s) {
+                CHECK(*turns.median_delay_s > 0.0);
+                CHECK(*turns.longest_delay_s <= 2.01 / 120.0);
+            }
+        }
+        CHECK(trial.outcome.given.empty());
+        for (const AnswerInput& input : trial.outcome.inputs)
+            CHECK(input.id == sitting.protocol.motions.front().id);
+    }
+    CHECK(turned > static_cast<int>(record.trials().size()) / 2);
 }
 
 TEST_CASE("gaze meets the surface in the pose and the view of its trial", "[session]") {
