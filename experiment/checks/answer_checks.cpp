@@ -99,8 +99,6 @@ class AnswerChecks {
             keys.emplace_back("keys", key);
         for (const std::string& key : is_match(answer_) ? answer_.match_coarse_keys() : answer_.coarse_keys)
             keys.emplace_back("coarse_keys", key);
-        if (has("undo_key"))
-            keys.emplace_back("undo_key", answer_.undo_key);
         if (answer_.accepts_by_key())
             keys.emplace_back("accept_key", answer_.accept_key);
         if (has("undo_key"))

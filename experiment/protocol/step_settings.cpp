@@ -201,7 +201,9 @@ class StepReader {
             take(key.value, key.key, step.frame, at_least(0));
         } else if (key.key == "probes") {
             step.probes_place = key.value.place;
-            take(key.value, key.key, step.probes.emplace(), identifier());
+            step.probes.emplace();
+            if (!key.value.list() || !key.value.list()->empty()) // an empty list: none
+                take(key.value, key.key, *step.probes, identifier());
         }
     }
 
