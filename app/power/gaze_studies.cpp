@@ -167,7 +167,7 @@ std::vector<GazeStudies::LookedAt> GazeStudies::shows_of(const Trial& trial, std
             const auto [stimulus, slot] = trial.shown(static_cast<std::size_t>(place));
             show.shown.push_back({targets_[scene_.index_of({stimulus, slot})].get(),
                                   scene_.screen_of_slot(slot), gaze_plan(planned, seed, trial.task, stimulus),
-                                  &turns_[static_cast<std::size_t>(stimulus.motion)], slot});
+                                  &turns_[static_cast<std::size_t>(stimulus.motion)], nullptr, slot});
         }
         script.compose(scene_, show.shown, observer_, seed,
                        script_number(trial.index, static_cast<int>(shows.size())));

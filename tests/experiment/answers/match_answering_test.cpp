@@ -19,7 +19,7 @@ TaskAnswer match_along(std::vector<std::string> along) {
     return answer;
 }
 
-AnswerForm form_of(const TaskAnswer& settings, std::vector<MatchLevels::Axis> axes) {
+AnswerForm match_form(const TaskAnswer& settings, std::vector<MatchLevels::Axis> axes) {
     AnswerForm form;
     form.settings = &settings;
     form.levels.axes = std::move(axes);
@@ -33,7 +33,7 @@ AnswerForm form_of(const TaskAnswer& settings, std::vector<MatchLevels::Axis> ax
     return form;
 }
 
-ObserverInput pressed(std::string_view key) {
+ObserverInput match_pressed(std::string_view key) {
     ObserverInput input;
     input.key = ShortName(key);
     return input;
@@ -46,26 +46,26 @@ ObserverInput turned_wheel(double steps) {
     return input;
 }
 
-using Effect = Answering::Effect;
+using MatchEffect = Answering::Effect;
 
 } // namespace
 
 TEST_CASE("a match goes from level to level, and counts changes, reversals and ends", "[unit]") {
     const TaskAnswer settings = match_along({"roughness"});
     const auto match =
-        match_answering(form_of(settings, {{"roughness", {0.1, 0.2, 0.3, 0.4, 0.5}, 2, 0.25}}));
-    const auto press = [&](std::string_view key) { return match->take(pressed(key), {}); };
+        match_answering(match_form(settings, {{"roughness", {0.1, 0.2, 0.3, 0.4, 0.5}, 2, 0.25}}));
+    const auto press = [&](std::string_view key) { return match->take(match_pressed(key), {}); };
     CHECK(match->has_value());
     CHECK(match->level() == 2);
-    CHECK(press("right") == Effect::changed);     // 3
-    CHECK(press("page up") == Effect::changed);   // 4, and stopped
-    CHECK(press("right") == Effect::none);        // stopped
-    CHECK(press("left") == Effect::changed);      // 3, back
-    CHECK(press("page down") == Effect::changed); // 0
-    CHECK(press("left") == Effect::none);
-    CHECK(press("backspace") == Effect::changed); // 3, back again
-    CHECK(press("x") == Effect::none);
-    CHECK(match->take(turned_wheel(1.0), {}) == Effect::none); // it is not set with the mouse
+    CHECK(press("right") == MatchEffect::changed);     // 3
+    CHECK(press("page up") == MatchEffect::changed);   // 4, and stopped
+    CHECK(press("right") == MatchEffect::none);        // stopped
+    CHECK(press("left") == MatchEffect::changed);      // 3, back
+    CHECK(press("page down") == MatchEffect::changed); // 0
+    CHECK(press("left") == MatchEffect::none);
+    CHECK(press("backspace") == MatchEffect::changed); // 3, back again
+    CHECK(press("x") == MatchEffect::none);
+    CHECK(match->take(turned_wheel(1.0), {}) == MatchEffect::none); // it is not set with the mouse
     CHECK(match->level() == 3);
     CHECK(match->number() == 0.4);
     CHECK(match->value() == "0.4");
@@ -80,31 +80,31 @@ TEST_CASE("a match goes from level to level, and counts changes, reversals and e
 
 TEST_CASE("all changes can be taken back one by one, and none beyond the first", "[unit]") {
     const TaskAnswer settings = match_along({"roughness"});
-    const auto match = match_answering(form_of(settings, {{"roughness", {1, 2, 3, 4}, 0, {}}}));
+    const auto match = match_answering(match_form(settings, {{"roughness", {1, 2, 3, 4}, 0, {}}}));
     for (const std::string_view key : {"right", "right", "right"})
-        match->take(pressed(key), {});
+        match->take(match_pressed(key), {});
     CHECK(match->level() == 3);
     for (int left = 2; left >= 0; --left) {
-        CHECK(match->take(pressed("backspace"), {}) == Effect::changed);
+        CHECK(match->take(match_pressed("backspace"), {}) == MatchEffect::changed);
         CHECK(match->level() == left);
     }
-    CHECK(match->take(pressed("backspace"), {}) == Effect::none);
+    CHECK(match->take(match_pressed("backspace"), {}) == MatchEffect::none);
 }
 
 TEST_CASE("along two columns each key goes along its own, and the second runs faster", "[unit]") {
     TaskAnswer settings = match_along({"roughness", "lightness"});
     settings.with = AnsweredWith::both;
     const auto match = match_answering(
-        form_of(settings, {{"roughness", {0.1, 0.2, 0.3}, 1, {}}, {"lightness", {10, 20}, 0, {}}}));
+        match_form(settings, {{"roughness", {0.1, 0.2, 0.3}, 1, {}}, {"lightness", {10, 20}, 0, {}}}));
     CHECK(match->level() == 2);
-    match->take(pressed("up"), {});
+    match->take(match_pressed("up"), {});
     CHECK(match->level() == 3);
-    match->take(pressed("right"), {});
+    match->take(match_pressed("right"), {});
     CHECK(match->level() == 5);
     CHECK(match->value() == "0.3 20");
     match->take(turned_wheel(-2.0), {});
     CHECK(match->level() == 1);
-    match->take(pressed("page up"), {}); // no coarse keys of its own
+    match->take(match_pressed("page up"), {}); // no coarse keys of its own
     CHECK(match->level() == 1);
     GivenAnswer given;
     match->add_details(given);
@@ -119,9 +119,9 @@ TEST_CASE("along two columns each key goes along its own, and the second runs fa
 TEST_CASE("a sheet tells the level of a place and the input that set it, and stands until it is accepted",
           "[unit]") {
     const TaskAnswer settings = match_along({"roughness"});
-    AnswerSheet sheet({form_of(settings, {{"roughness", {1, 2, 3}, 1, {}}})}, true);
+    AnswerSheet sheet({match_form(settings, {{"roughness", {1, 2, 3}, 1, {}}})}, true);
     const auto at = [](double ms, std::string_view key) {
-        ObserverInput input = pressed(key);
+        ObserverInput input = match_pressed(key);
         input.at = SessionTime() + from_seconds(1e-3 * ms);
         return input;
     };

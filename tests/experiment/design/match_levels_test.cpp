@@ -11,7 +11,7 @@ using namespace overt::test;
 namespace {
 
 /// Two slots; the test shows each material, the other is set.
-constexpr std::string_view matched = R"([protocol]
+constexpr std::string_view matched_protocol = R"([protocol]
 name = "match"
 [animation]
 kind = "still"
@@ -55,10 +55,10 @@ slot = "reference"
 along = "roughness"
 )";
 
-std::string with(std::string_view more) { return std::string(matched) + std::string(more); }
+std::string with_match(std::string_view more) { return std::string(matched_protocol) + std::string(more); }
 
-const Trial& trial_with(const std::vector<Trial>& trials, const Protocol& protocol, std::string_view material,
-                        int light) {
+const Trial& match_trial_with(const std::vector<Trial>& trials, const Protocol& protocol,
+                              std::string_view material, int light) {
     for (const Trial& trial : trials)
         if (protocol.material_of(trial.stimulus).id == material && trial.stimulus.light == light)
             return trial;
@@ -69,14 +69,14 @@ const Trial& trial_with(const std::vector<Trial>& trials, const Protocol& protoc
 
 TEST_CASE("levels are the entries that are alike in all else, rising; the reference is what stands beside",
           "[unit]") {
-    const ReadText read(with("shows = { light = \"sky\" }\n"));
+    const ReadText read(with_match("shows = { light = \"sky\" }\n"));
     INFO(read.diagnostics.print());
     REQUIRE(read.protocol);
     const Protocol& protocol = *read.protocol;
     const std::vector<Trial> trials = trials_of(protocol, 1);
     REQUIRE(trials.size() == 10);
     const TaskAnswer& answer = protocol.tasks.front().answers.front();
-    const Trial& gold = trial_with(trials, protocol, "gold-0.2", 0);
+    const Trial& gold = match_trial_with(trials, protocol, "gold-0.2", 0);
     REQUIRE(gold.beside.size() == 1);
     CHECK(gold.beside.front().slot == 1);
     const MatchLevels levels = match_levels(protocol, answer, gold);
@@ -94,7 +94,8 @@ TEST_CASE("levels are the entries that are alike in all else, rising; the refere
     CHECK(ids == std::vector<std::string>{"gold-0.1", "gold-0.2", "gold-0.4"});
     CHECK(gold.beside.front().stimulus == levels.stimuli.front());
 
-    const MatchLevels silver = match_levels(protocol, answer, trial_with(trials, protocol, "silver-0.3", 1));
+    const MatchLevels silver =
+        match_levels(protocol, answer, match_trial_with(trials, protocol, "silver-0.3", 1));
     CHECK(silver.axes.front().values == std::vector<double>{0.05, 0.3});
     CHECK(silver.axes.front().reference == 0.3);
 
@@ -107,11 +108,11 @@ TEST_CASE("levels are the entries that are alike in all else, rising; the refere
 
 TEST_CASE("a match begins where the protocol says, or at each level about equally often", "[unit]") {
     const auto starts = [](std::string_view more) {
-        const ReadText read(with(more));
+        const ReadText read(with_match(more));
         INFO(read.diagnostics.print());
         REQUIRE(read.protocol);
         std::vector<int> count(3);
-        Trial trial = trial_with(trials_of(*read.protocol, 1), *read.protocol, "gold-0.1", 0);
+        Trial trial = match_trial_with(trials_of(*read.protocol, 1), *read.protocol, "gold-0.1", 0);
         for (trial.index = 0; trial.index < 300; ++trial.index) {
             const std::vector<AnswerForm> forms = answer_forms({*read.protocol, trial, 7}, {0}, 0);
             ++count.at(static_cast<std::size_t>(forms.front().levels.axes.front().start));
@@ -141,29 +142,30 @@ TEST_CASE("what cannot be set is an error at its place", "[unit]") {
         return all;
     };
     using Catch::Matchers::Contains;
-    CHECK_THAT(fault(with(""), "along = \"roughness\"", "along = \"shine\""),
+    CHECK_THAT(fault(with_match(""), "along = \"roughness\"", "along = \"shine\""),
                Contains("no entry has a number in a column \"shine\""));
-    CHECK_THAT(fault(with("start = 0.15\n"), "", ""), Contains("no level of \"roughness\" is 0.15"));
-    CHECK_THAT(fault(with(""), "slot = \"reference\"", "slot = \"left\""),
+    CHECK_THAT(fault(with_match("start = 0.15\n"), "", ""), Contains("no level of \"roughness\" is 0.15"));
+    CHECK_THAT(fault(with_match(""), "slot = \"reference\"", "slot = \"left\""),
                Contains("the task has no slot \"left\""));
-    CHECK_THAT(fault(with(""), "slot = \"reference\"\n", ""),
+    CHECK_THAT(fault(with_match(""), "slot = \"reference\"\n", ""),
                Contains("does not say in which of the 2 slots"));
-    CHECK_THAT(fault(with("keys = [\"f\"]\n"), "", ""), Contains("has 2 keys"));
-    CHECK_THAT(fault(with("keys = [\"enter\", \"j\"]\n"), "", ""),
+    CHECK_THAT(fault(with_match("keys = [\"f\"]\n"), "", ""), Contains("has 2 keys"));
+    CHECK_THAT(fault(with_match("keys = [\"enter\", \"j\"]\n"), "", ""),
                Contains("the key \"enter\" answers two things"));
-    CHECK_THAT(fault(with(""), "until = \"answer\"", "for_s = 1"), Contains("nothing is shown while"));
-    CHECK_THAT(fault(with(""), "columns = { base = \"silver\" }\nseries = { roughness = [0.05, 0.3] }",
+    CHECK_THAT(fault(with_match(""), "until = \"answer\"", "for_s = 1"), Contains("nothing is shown while"));
+    CHECK_THAT(fault(with_match(""), "columns = { base = \"silver\" }\nseries = { roughness = [0.05, 0.3] }",
                      "series = { roughness = [0.1, 0.3] }"),
                Contains("2 materials have roughness 0.1: which is meant nobody can tell"));
-    CHECK_THAT(fault(with("shows = { light = \"moon\" }\n"), "", ""), Contains("there is no light \"moon\""));
+    CHECK_THAT(fault(with_match("shows = { light = \"moon\" }\n"), "", ""),
+               Contains("there is no light \"moon\""));
     // Two pictures fit, and three levels do not.
-    CHECK_THAT(fault(with(""), "name = \"match\"", "name = \"match\"\n[display]\nframe_store_mb = 2.5"),
+    CHECK_THAT(fault(with_match(""), "name = \"match\"", "name = \"match\"\n[display]\nframe_store_mb = 2.5"),
                Contains("what can be set in a trial of task t takes"));
 }
 
 TEST_CASE("two columns need each value of the one with each of the other", "[unit]") {
     const auto grid = [](std::string_view materials) {
-        std::string text = with("");
+        std::string text = with_match("");
         const std::size_t begin = text.find("[[material]]"), end = text.find("[[task]]");
         text.replace(begin, end - begin, materials);
         text.replace(text.find("along = \"roughness\""), 19, "along = [\"roughness\", \"shade\"]");

@@ -25,7 +25,7 @@ GivenAnswer set_match() {
     return given;
 }
 
-FlipRecord flip_at(int trial, int refresh, int frame, int pose) {
+FlipRecord steered_flip_at(int trial, int refresh, int frame, int pose) {
     FlipRecord flip{trial, refresh, {frame}, {frame}, {pose}, {}};
     flip.report.refresh = {1000 + refresh};
     flip.report.vertical_blank = at_ms(1000 + 10 * refresh);
@@ -47,9 +47,9 @@ TEST_CASE("settings, levels and what each flip contains come back as they were w
     {
         SessionStore store(session / session_file_name, patient());
         store.trial_started(trial, at_ms(0));
-        store.flip(flip_at(2, 0, 0, 0));
+        store.flip(steered_flip_at(2, 0, 0, 0));
         store.steered_flip(first);
-        store.flip(flip_at(2, 1, 0, 0));
+        store.flip(steered_flip_at(2, 1, 0, 0));
         store.steered_flip(second);
         store.trial_finished(trial, outcome);
         store.close();
@@ -79,7 +79,7 @@ TEST_CASE("path, net turn, time and reversals of a turning follow from its flips
     std::vector<FlipRecord> flips;
     std::vector<SteeredFlip> steered;
     for (int i = 0; i < 7; ++i) {
-        flips.push_back(flip_at(0, i, shown[i], shown[i]));
+        flips.push_back(steered_flip_at(0, i, shown[i], shown[i]));
         SteeredFlip& moved = steered.emplace_back();
         moved.refresh_in_trial = i;
         if (i > 0)

@@ -37,7 +37,7 @@ struct DueKey {
     ObserverInput::Kind kind = ObserverInput::Kind::key_down;
 };
 
-auto doing(std::vector<DueKey> keys) {
+auto doing_keys(std::vector<DueKey> keys) {
     return [keys, done = std::size_t{0}, trial = -2, since = SessionTime()](
                ScriptedPanel& panel, SessionTime now) mutable -> std::optional<ObserverInput> {
         if (panel.phase() != SessionPhase::stimulus)
@@ -54,14 +54,14 @@ auto doing(std::vector<DueKey> keys) {
     };
 }
 
-MovesLog run(std::string_view text, std::vector<DueKey> keys, Protocol* read_as = nullptr) {
+MovesLog run_moves(std::string_view text, std::vector<DueKey> keys, Protocol* read_as = nullptr) {
     const ReadText read(text);
     INFO(read.diagnostics.print());
     REQUIRE(read.protocol);
     if (read_as)
         *read_as = *read.protocol;
     Sitting sitting(*read.protocol);
-    sitting.panel.does = doing(std::move(keys));
+    sitting.panel.does = doing_keys(std::move(keys));
     MovesLog log;
     const Schedule schedule = make_schedule(sitting.protocol, {"P", 1}, 1);
     Session(sitting.protocol, schedule, {960.0, 540.0},
@@ -80,7 +80,7 @@ MovesLog run(std::string_view text, std::vector<DueKey> keys, Protocol* read_as 
     return log;
 }
 
-constexpr std::string_view matching = R"([protocol]
+constexpr std::string_view matching_text = R"([protocol]
 name = "match"
 [animation]
 kind = "still"
@@ -118,10 +118,10 @@ start = 0.2
 
 TEST_CASE("a match shows the level that is set, refresh by refresh, until it is accepted", "[unit]") {
     Protocol protocol;
-    const MovesLog log =
-        run(matching,
-            {{0.5, "right"}, {0.6, "right", ObserverInput::Kind::key_up}, {0.8, "left"}, {1.0, "enter"}},
-            &protocol);
+    const MovesLog log = run_moves(
+        matching_text,
+        {{0.5, "right"}, {0.6, "right", ObserverInput::Kind::key_up}, {0.8, "left"}, {1.0, "enter"}},
+        &protocol);
     REQUIRE(log.outcomes.size() == 4);
     for (std::size_t i = 0; i < log.outcomes.size(); ++i) {
         const TrialOutcome& outcome = log.outcomes[i];
@@ -173,7 +173,7 @@ TEST_CASE("a match shows the level that is set, refresh by refresh, until it is 
 
 TEST_CASE("what the observer turns stands in the ledger as it was turned, without an answer, too", "[unit]") {
     Protocol protocol;
-    const MovesLog log = run(R"([protocol]
+    const MovesLog log = run_moves(R"([protocol]
 name = "explore"
 [[motion]]
 id = "explore"
@@ -196,7 +196,7 @@ id = "t"
 question = "Explore."
 steps = [ { show = "centre", for_s = 1 } ]
 )",
-                             {{0.2, "right"}, {0.5, "right", ObserverInput::Kind::key_up}}, &protocol);
+                                   {{0.2, "right"}, {0.5, "right", ObserverInput::Kind::key_up}}, &protocol);
     REQUIRE(log.outcomes.size() == 1);
     REQUIRE(log.flips.size() == 120);
     REQUIRE(log.moved.size() == 120);

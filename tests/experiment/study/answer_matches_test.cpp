@@ -30,13 +30,13 @@ StudyAnswer setting_of(const std::string& observer, const std::string& light, do
     return answer;
 }
 
-constexpr double references[] = {.05, .10, .15, .20, .25};
-constexpr double settings[][5] = {{.062, .115, .158, .219, .251},
-                                  {.055, .108, .171, .205, .262},
-                                  {.060, .121, .149, .213, .244},
-                                  {.058, .104, .166, .198, .270}};
+constexpr double match_references[] = {.05, .10, .15, .20, .25};
+constexpr double match_settings[][5] = {{.062, .115, .158, .219, .251},
+                                        {.055, .108, .171, .205, .262},
+                                        {.060, .121, .149, .213, .244},
+                                        {.058, .104, .166, .198, .270}};
 
-StudyOptions few_samples() {
+StudyOptions few_match_samples() {
     StudyOptions options;
     options.resamples = 200;
     return options;
@@ -47,13 +47,13 @@ StudyOptions few_samples() {
 TEST_CASE("settings have their mean, error and deviation by reference, and a line over references",
           "[unit]") {
     StudyAnswers study;
-    for (const auto& session : settings)
-        for (std::size_t i = 0; i < std::size(references); ++i)
-            study.given.push_back(setting_of("P01", "hall", references[i], session[i]));
+    for (const auto& session : match_settings)
+        for (std::size_t i = 0; i < std::size(match_references); ++i)
+            study.given.push_back(setting_of("P01", "hall", match_references[i], session[i]));
     StudyAnswer missed = setting_of("P01", "hall", .05, .9);
     missed.is_missed = true;
     study.given.push_back(missed);
-    reckon_matches(study, answers_by(study.given), few_samples());
+    reckon_matches(study, answers_by(study.given), few_match_samples());
     constexpr double means[] = {.05875, .112, .161, .20875, .25675};
     constexpr double sds[] = {.002986, .007528, .009626, .009179, .011529};
     std::size_t found = 0;
@@ -61,10 +61,10 @@ TEST_CASE("settings have their mean, error and deviation by reference, and a lin
         if (row.of.observer.empty())
             continue;
         REQUIRE(found < 5);
-        CHECK(row.reference == references[found]);
+        CHECK(row.reference == match_references[found]);
         CHECK(*row.match.value == Approx(means[found]));
         CHECK(row.match.interval->contains(means[found]));
-        CHECK(*row.constant_error == Approx(means[found] - references[found]));
+        CHECK(*row.constant_error == Approx(means[found] - match_references[found]));
         CHECK(*row.sd == Approx(sds[found]).epsilon(1e-3));
         CHECK(row.settings == 4);
         CHECK(row.mean_changes == Approx(4.0));
@@ -87,11 +87,11 @@ TEST_CASE("settings have their mean, error and deviation by reference, and a lin
 TEST_CASE("lines are told apart by the levels of other factors, and not by the reference's own", "[unit]") {
     StudyAnswers study;
     for (const std::string observer : {"P01", "P02", "P03"})
-        for (const double reference : references) {
+        for (const double reference : match_references) {
             study.given.push_back(setting_of(observer, "hall", reference, reference));
             study.given.push_back(setting_of(observer, "sky", reference, 0.1 + 0.5 * reference));
         }
-    reckon_matches(study, answers_by(study.given), few_samples());
+    reckon_matches(study, answers_by(study.given), few_match_samples());
     int of_all = 0;
     for (const AnswerMatchLineRow& line : study.match_lines) {
         if (!line.of.observer.empty())
