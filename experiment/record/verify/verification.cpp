@@ -248,11 +248,15 @@ class SessionVerification {
                                        "overt run … --resume finishes it");
     }
 
-    /// What lies in the folder and is none of its files; nothing follows it.
+    /// What lies in the folder and is none of its files; nothing follows it. The socket of a session that
+    /// runs is its own.
     void look_for_links() {
-        for (const auto& entry : fs::recursive_directory_iterator(folder_)) {
+        std::error_code unreadable;
+        for (const auto& entry : fs::recursive_directory_iterator(
+                 folder_, fs::directory_options::skip_permission_denied, unreadable)) {
             const fs::file_type type = entry.symlink_status().type();
-            if (type == fs::file_type::regular || type == fs::file_type::directory)
+            if (type == fs::file_type::regular || type == fs::file_type::directory ||
+                type == fs::file_type::socket)
                 continue;
             result_.notes.push_back(fmt::format("{}: is {}, and is neither read nor copied",
                                                 entry.path().lexically_relative(folder_).generic_string(),
