@@ -121,7 +121,7 @@ TEST_CASE("analysis and export say when a session is not what was recorded", "[s
     CHECK_THAT(run("export", "sound").err, !Contains("overt verify"));
     {
         SQLite::Database database((session / "session.sqlite").string(), SQLite::OPEN_READWRITE);
-        database.exec("UPDATE sample SET x_px = x_px + 1 WHERE rowid = 100");
+        database.exec("UPDATE sample SET pupil_area = pupil_area + 1 WHERE n = 100");
     }
     CHECK_THAT(run("export", "tables").err, Contains("is not what was recorded") && Contains("table sample"));
     const ProgramRun analyzed = run("analyze", "analysis");

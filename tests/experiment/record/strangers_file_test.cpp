@@ -118,7 +118,8 @@ TEST_CASE("seals that are broken are told without looking at anything else", "[u
     CHECK(broken_seals(session).empty());
     fs::remove(session / "protocol.toml"); // no row
     CHECK(broken_seals(session).empty());
-    const fs::path changed = session_with(root.path(), "UPDATE sample SET x_px = 1.0 WHERE rowid = 7");
+    const fs::path changed =
+        session_with(root.path(), "UPDATE sample SET x_px = 1.0 WHERE trial_id = 1 AND n = 7");
     const std::vector<std::string> found = broken_seals(changed / session_file_name);
     REQUIRE(found.size() == 1);
     CHECK_THAT(found.front(), Contains("table sample") && Contains("is not as it was sealed"));
