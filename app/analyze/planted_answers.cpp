@@ -46,7 +46,8 @@ std::optional<WeighedAnswers> weighed_answers(const StudyResults& results, const
     std::vector<std::map<int, Trial>> trials;
     for (const std::filesystem::path& session : sessions) {
         trials.emplace_back();
-        for (const TrialRecord& trial : SessionRecord(session).trials())
+        const SessionRecord record(session);
+        for (const TrialRecord& trial : record.trials())
             if (trial.gives_results())
                 trials.back().emplace(trial.trial.index + 1, trial.trial);
     }

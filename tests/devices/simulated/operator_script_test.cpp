@@ -38,16 +38,16 @@ TEST_CASE("an operator's key is read with its phase, trial, time and answer", "[
 }
 
 TEST_CASE("what answers is read: keys with how long they are held, words, the mouse", "[unit]") {
-    using Kind = ObserverInput::Kind;
+    using InputKind = ObserverInput::Kind;
     const auto inputs = [](const std::string& words) {
         return read_operator_key("response screen+1=" + words, 4).inputs;
     };
     const auto held = inputs("press 7 for 0.4");
     REQUIRE(held.size() == 3);
-    CHECK(held[0].input.kind == Kind::key_down);
+    CHECK(held[0].input.kind == InputKind::key_down);
     CHECK(held[0].input.key.view() == "7");
     CHECK(held[1].input.character == U'7');
-    CHECK(held[2].input.kind == Kind::key_up);
+    CHECK(held[2].input.kind == InputKind::key_up);
     CHECK(held[2].after == std::chrono::milliseconds(400));
     CHECK(inputs("press left shift").size() == 2); // it writes nothing
     const auto typed = inputs("type a ä\u05d0");
@@ -56,12 +56,12 @@ TEST_CASE("what answers is read: keys with how long they are held, words, the mo
     CHECK(typed[3].input.character == U'\u05d0');
     const auto clicked = inputs("click -120.5 30");
     REQUIRE(clicked.size() == 3);
-    CHECK(clicked[1].input.kind == Kind::pointer_down);
+    CHECK(clicked[1].input.kind == InputKind::pointer_down);
     CHECK(clicked[1].input.right_px == -120.5);
     CHECK(clicked[1].input.down_px == 30.0);
     CHECK(clicked[1].input.device.view() == "mouse");
     const auto dragged = inputs("drag 0 0 100 -50");
-    CHECK(dragged.back().input.kind == Kind::pointer_up);
+    CHECK(dragged.back().input.kind == InputKind::pointer_up);
     CHECK(dragged.back().input.right_px == 100.0);
     CHECK(dragged.back().input.down_px == -50.0);
     CHECK(inputs("wheel -2").front().input.steps == -2.0);

@@ -16,7 +16,7 @@ const SessionTime onset(SessionDuration(5'000'000'123));
 
 /// 20 Hz on 100 Hz: each frame lasts five refreshes.
 PageCycle plan_of_three_seconds() {
-    return make_page_cycle({61, 20.0, Degrees{25.0}, Playback::cycle, 3.0}, 100.0);
+    return make_page_cycle({.frame_count = 61, .frame_rate_hz = 20.0, .duration_s = 3.0}, 100.0);
 }
 
 /// A presentation in which, before some refreshes, others went by: (refresh, how many).

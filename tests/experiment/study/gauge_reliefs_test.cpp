@@ -17,7 +17,7 @@ namespace {
 std::vector<GaugeSettingRow> on_a_ball(const std::string& observer, double gain, double shear, double noise,
                                        int times = 1, std::uint64_t seed = 5) {
     RandomStream random(seed, "settings");
-    std::vector<GaugeSettingRow> settings;
+    std::vector<GaugeSettingRow> rows;
     for (int i = 0; i < 80; ++i) {
         // Evenly over the cap that is seen at up to 50 degrees.
         const double z = random.uniform(std::cos(0.87), 1.0), turn = random.uniform(0.0, 6.2831853);
@@ -29,7 +29,7 @@ std::vector<GaugeSettingRow> on_a_ball(const std::string& observer, double gain,
             const double slant = to_radians(truth.slant).value, tilt = to_radians(truth.tilt).value;
             const double right = gain * std::tan(slant) * std::cos(tilt) + shear + noise * random.normal(),
                          up = gain * std::tan(slant) * std::sin(tilt) + noise * random.normal();
-            GaugeSettingRow& row = settings.emplace_back();
+            GaugeSettingRow& row = rows.emplace_back();
             row.of.observer = observer;
             row.of.object = "ball";
             row.point = "p." + std::to_string(i + 1);
@@ -40,12 +40,12 @@ std::vector<GaugeSettingRow> on_a_ball(const std::string& observer, double gain,
             row.set = attitude_of({right, up, 1.0});
         }
     }
-    return settings;
+    return rows;
 }
 
-StudyReliefs reckoned(std::vector<GaugeSettingRow> settings) {
+StudyReliefs reckoned(std::vector<GaugeSettingRow> rows) {
     StudyReliefs reliefs;
-    reliefs.settings = std::move(settings);
+    reliefs.settings = std::move(rows);
     reckon_reliefs(reliefs);
     return reliefs;
 }

@@ -13,7 +13,9 @@ namespace {
 
 constexpr SessionDuration interval = std::chrono::milliseconds(10);
 
-PageCycle plan() { return make_page_cycle({61, 25.0, Degrees{25.0}, Playback::cycle, 2.0}, 100.0); }
+PageCycle plan() {
+    return make_page_cycle({.frame_count = 61, .frame_rate_hz = 25.0, .duration_s = 2.0}, 100.0);
+}
 
 struct Book {
     std::vector<FlipRecord> flips;

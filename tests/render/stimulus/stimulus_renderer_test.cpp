@@ -41,7 +41,7 @@ TEST_CASE("live frames of every kind of material have light, and no two kinds th
     for (const MaterialKindRow& row : material_kinds) {
         CAPTURE(row.name);
         renderer.set_material(gold_of(row.kind));
-        const LinearImage picture = renderer.draw(buffers, scene, {0.0});
+        const LinearImage picture = renderer.draw(buffers, scene, Pose{});
         int lit = 0;
         for (const glm::vec4& pixel : picture.pixels) {
             REQUIRE(std::isfinite(pixel.r + pixel.g + pixel.b));
@@ -66,8 +66,8 @@ TEST_CASE("the table of a metal is read when the material is set, not for each f
     material.metal = (folder.path() / "metal.csv").string();
     std::ofstream(material.metal) << "wavelength_nm,n,k\n300,0,1\n800,0,1\n";
     renderer.set_material(material);
-    const LinearImage before = renderer.draw(buffers, scene, {0.0});
+    const LinearImage before = renderer.draw(buffers, scene, Pose{});
     std::filesystem::remove(material.metal);
-    CHECK(renderer.draw(buffers, scene, {0.0}).pixels == before.pixels);
+    CHECK(renderer.draw(buffers, scene, Pose{}).pixels == before.pixels);
     CHECK_THROWS_AS(renderer.set_material(material), InputError);
 }
