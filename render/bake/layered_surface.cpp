@@ -38,28 +38,35 @@ float mirror_density(glm::vec3 to_eye, glm::vec3 out, float alpha) {
 LobeAlbedo::LobeAlbedo(double alpha, const std::function<double(double)>& reflectance)
     : share_(static_cast<std::size_t>(rows)) {
     // The mean over visible normals, which a mirror's reflectance and the shadowing of what it mirrors weigh:
-    // even steps over the square in which they are drawn.
-    constexpr int steps = 48;
+    // steps over the disc in which they are drawn, fine at its edge, where the far normals are that the long
+    // tail of GGX has.
+    constexpr int rings = 64, sectors = 12;
     const auto rough = static_cast<float>(alpha);
     for (int row = 0; row < rows; ++row) {
         const float root = static_cast<float>(row) / static_cast<float>(rows - 1);
         const float cosine = std::max(root * root, 1e-5f);
         const glm::vec3 eye(std::sqrt(std::max(0.0f, 1.0f - cosine * cosine)), 0.0f, cosine);
         double sum = 0.0;
-        for (int y = 0; y < steps; ++y) {
-            for (int x = 0; x < steps; ++x) {
-                const glm::vec2 place((static_cast<float>(x) + 0.5f) / steps,
-                                      (static_cast<float>(y) + 0.5f) / steps);
-                const glm::vec3 micro = ggx_visible_normal(eye, rough, place);
-                const float towards = std::min(1.0f, glm::dot(eye, micro));
+        for (int ring = 0; ring < rings; ++ring) {
+            const double edge = (ring + 0.5) / rings; // the square of the radius is 1 - edge^3
+            const double share = 3.0 * edge * edge / (rings * 4.0 * sectors);
+            const auto radius = static_cast<float>(std::sqrt(1.0 - edge * edge * edge));
+            for (int sector = 0; sector < 4 * sectors; ++sector) {
+                // In each quarter of the square that disc_place makes a disc of.
+                const float along = (static_cast<float>(sector % sectors) + 0.5f) / (0.5f * sectors) - 1.0f;
+                const float sign = sector / sectors < 2 ? 1.0f : -1.0f;
+                glm::vec2 place(sign * radius, sign * radius * along);
+                if (sector / sectors % 2 == 1)
+                    place = {place.y, place.x};
+                const glm::vec3 micro = ggx_visible_normal(eye, rough, 0.5f * (place + 1.0f));
+                const float towards = std::clamp(glm::dot(eye, micro), 0.0f, 1.0f);
                 const glm::vec3 out = 2.0f * towards * micro - eye;
                 if (out.z > 0.0f)
-                    sum += reflectance(static_cast<double>(towards)) *
+                    sum += share * reflectance(static_cast<double>(towards)) *
                            static_cast<double>(ggx_visible_share(out, rough));
             }
         }
-        share_[static_cast<std::size_t>(row)] =
-            static_cast<float>(std::clamp(sum / (steps * steps), 0.0, 1.0));
+        share_[static_cast<std::size_t>(row)] = static_cast<float>(std::clamp(sum, 0.0, 1.0));
     }
     // 2 times the integral of E cos over the cosine, which is s^2: 4 times that of E s^3 over s, exact for
     // what at() gives, so that nothing is lost between the two.

@@ -49,12 +49,19 @@ struct Cells {
     }
 };
 
+/// Of what an eye at azimuth 0 is sent: fine opposite to it, where lobes are narrow at grazing angles.
 template <class Value> double over_upper_hemisphere(const Value& value) {
-    constexpr Cells cells{600, 160};
+    constexpr int rings = 600, sectors = 160;
     double sum = 0.0;
-    for (int ring = 0; ring < cells.rings; ++ring)
-        for (int sector = 0; sector < cells.sectors; ++sector)
-            sum += cells.sum(ring, sector, 1, value);
+    for (int ring = 0; ring < rings; ++ring) {
+        const double s = (ring + 0.5) / rings, ring_area = 2.0 * s / rings;
+        for (int sector = 0; sector < sectors; ++sector) {
+            const double q = 2.0 * (sector + 0.5) / sectors - 1.0;
+            const double azimuth = std::numbers::pi * (1.0 + q * q * q);
+            sum +=
+                ring_area * 6.0 * std::numbers::pi * q * q / sectors * value(at_cosine(1.0 - s * s, azimuth));
+        }
+    }
     return sum;
 }
 
