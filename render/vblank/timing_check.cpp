@@ -207,6 +207,10 @@ std::vector<std::string> doubts_about_times(const TimingFacts& facts) {
 }
 
 std::vector<ScreenFinding> without_claim(std::vector<ScreenFinding> findings) {
+    // Nor is a number said of what nobody saw.
+    for (ScreenFinding& finding : findings)
+        if (finding.what == "measured refresh" && finding.finding.ends_with(" refreshes missed"))
+            finding.finding.erase(finding.finding.rfind(", "));
     for (ScreenFinding& finding : findings)
         for (const std::string_view doubted : {blank_finding, way_finding, go_between_finding, mode_finding})
             if (finding.what == doubted && finding.weight == Weight::refusal)

@@ -106,5 +106,7 @@ TEST_CASE("without the claim what proves no times is a risk, and nothing else ch
     for (const ScreenFinding& finding : without_claim(judge_timing(facts, 120.0, "the protocol"))) {
         INFO(finding.what);
         CHECK(finding.weight != Weight::refusal);
+        // Nobody saw the refreshes that would have to be counted.
+        CHECK(finding.finding.find("refreshes missed") == std::string::npos);
     }
 }
