@@ -203,7 +203,7 @@ class GrowthBench {
             const fs::path protocol = write_experiment(folder_ / name, trials),
                            sessions = folder_ / name / "sessions";
             // The stimuli are made before.
-            run_command({"run", protocol.string(), "--observer", "00", "--simulate-observer", "1",
+            run_command({"run", protocol.string(), "--observer", "09", "--simulate-observer", "1",
                          "--virtual-time", "--context", "osmesa", "--trials", "1", "--sessions",
                          (folder_ / name / "first").string()},
                         folder_);
