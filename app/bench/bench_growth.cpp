@@ -105,12 +105,12 @@ fs::path write_experiment(const fs::path& folder, int trials) {
     write_whole_file(folder / "growth.toml", R"([protocol]
 name = "growth"
 [display]
-width_px = 320
-height_px = 240
+width_px = 640
+height_px = 480
 refresh_hz = 60
 width_mm = 400
 height_mm = 300
-viewing_distance_mm = 600
+viewing_distance_mm = 900
 output = "native-8bit"
 gamma = 2.2
 [bake]
