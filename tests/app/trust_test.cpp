@@ -42,7 +42,7 @@ std::vector<fs::path> cached_frames(const fs::path& cache) {
     return {files.begin(), files.end()};
 }
 
-std::string frames_of(const fs::path& session) {
+std::string frames_told_of(const fs::path& session) {
     std::string hashes;
     for (const overt::RecordedStimulus& stimulus : overt::SessionRecord(session).header().stimuli)
         hashes += stimulus.frames_sha256 + "\n";
@@ -88,7 +88,7 @@ TEST_CASE("links and pipes in a session are neither read nor exported, and verif
 TEST_CASE("frames that were swapped in the cache, or cut off, are made anew, and the record is of the pixels",
           "[session]") {
     const SmallExperiment experiment(Cache::own);
-    const std::string first = frames_of(short_session(experiment));
+    const std::string first = frames_told_of(short_session(experiment));
     CHECK(first.size() == 4 * 65);
     const std::vector<fs::path> frames = cached_frames(experiment.cache());
     REQUIRE(frames.size() > 3);
@@ -101,14 +101,14 @@ TEST_CASE("frames that were swapped in the cache, or cut off, are made anew, and
     REQUIRE(second.exit_code == 0);
     CHECK_THAT(second.err, Contains(frames[0].string() + " is the frame at") &&
                                Contains(frames[2].string() + " is not whole: it was made anew"));
-    CHECK(frames_of(experiment.session(2)) == first);
+    CHECK(frames_told_of(experiment.session(2)) == first);
     CHECK_THAT(text_of(experiment.session() / "manifest.json"), Contains(first.substr(0, 64)));
     const overt::SessionRecord record(experiment.session());
     CHECK_THAT(record.header().stimuli.front().drawn_by, Contains("OpenGL"));
     CHECK(record.header().stimuli.front().made_from_sha256.size() == 64);
     // Nothing drew the frames of a session without pictures.
     REQUIRE(experiment.run({"--trials", "1", "--no-pictures"}).exit_code == 0);
-    CHECK(frames_of(experiment.session(3)) == "\n\n\n\n");
+    CHECK(frames_told_of(experiment.session(3)) == "\n\n\n\n");
 }
 
 TEST_CASE("analysis and export say when a session is not what was recorded", "[session]") {

@@ -9,6 +9,7 @@
 #include "experiment/maps/light_pictures.h"
 #include "render/stimulus/given_maps.h"
 #include "tests/app/stimuli/traced_experiment.h"
+#include "tests/support/motion_of.h"
 
 namespace fs = std::filesystem;
 using namespace overt;
@@ -29,7 +30,7 @@ TEST_CASE("a session keeps the light of its stimuli, as their frames have it", "
     const LightPictures light =
         read_light_pictures(experiment.session() / "stimuli/bust_smooth_light.exr", {40, 48}, poses);
     REQUIRE(light.square_px == 1);
-    const PoseTable table = distinct_poses({.frame_count = 7, .frame_rate_hz = 6.0, .amplitude = {25.0}});
+    const PoseTable table = distinct_poses(motion_of(7, 6.0, 8.0));
     REQUIRE(table.angles.size() == static_cast<std::size_t>(poses));
     int bright = 0;
     for (int pose = 0; pose < poses; ++pose) {

@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "experiment/base/random.h"
+#include "tests/support/motion_of.h"
 
 using namespace overt;
 
@@ -15,9 +16,7 @@ const ScanOut scan_out{std::chrono::microseconds(1700), 100.0, 600.0};
 const SessionTime onset(SessionDuration(5'000'000'123));
 
 /// 20 Hz on 100 Hz: each frame lasts five refreshes.
-PageCycle plan_of_three_seconds() {
-    return make_page_cycle({.frame_count = 61, .frame_rate_hz = 20.0, .duration_s = 3.0}, 100.0);
-}
+PageCycle plan_of_three_seconds() { return make_page_cycle(motion_of(61, 20.0, 3.0), 100.0); }
 
 /// A presentation in which, before some refreshes, others went by: (refresh, how many).
 struct Miss {

@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include "experiment/base/random.h"
+#include "tests/support/motion_of.h"
 
 using namespace overt;
 
@@ -13,9 +14,7 @@ namespace {
 
 constexpr SessionDuration interval = std::chrono::milliseconds(10);
 
-PageCycle plan() {
-    return make_page_cycle({.frame_count = 61, .frame_rate_hz = 25.0, .duration_s = 2.0}, 100.0);
-}
+PageCycle plan() { return make_page_cycle(motion_of(61, 25.0, 2.0), 100.0); }
 
 struct Book {
     std::vector<FlipRecord> flips;

@@ -6,6 +6,7 @@
 
 #include "experiment/base/random.h"
 #include "tests/support/cast_maps.h"
+#include "tests/support/motion_of.h"
 
 using namespace overt;
 using test::CastScene;
@@ -28,7 +29,7 @@ ScreenGeometry screen() {
 
 /// A ledger in which each refresh has a chance to be missed, and the samples of two and a half seconds.
 struct Presentation {
-    PageCycle plan = make_page_cycle({.frame_count = 5, .frame_rate_hz = 20.0, .duration_s = 2.0}, 100.0);
+    PageCycle plan = make_page_cycle(motion_of(5, 20.0, 2.0), 100.0);
     ScanOut scan_out{std::chrono::microseconds(1700), 100.0, 300.0};
     std::vector<FlipRecord> flips;
     std::vector<GazeSample> samples;
