@@ -205,7 +205,7 @@ bool OperatorControl::await_keyboard() {
     state_.enter(SessionPhase::pause, trial);
     const Screen screen = screens::keyboard_lost(state_.protocol);
     state_.ports.panel.await_key(state_.show(screen));
-    while (!state_.ports.panel.has_keyboard() && !state_.ends_by_itself()) {
+    while (!state_.is_over() && !state_.ports.panel.has_keyboard() && !state_.ends_by_itself()) {
         while (const std::optional<ResponsePress> press = state_.ports.panel.poll()) {
             if (press->key == ResponseKey::abort && act_on(*press))
                 state_.ports.panel.await_key(state_.show(screen));
