@@ -170,7 +170,7 @@ std::optional<int> OperatorControl::confirm(const Screen& screen, int reasons) {
     const SessionTime onset = state_.show(screen);
     state_.ports.panel.await_decision(false, onset);
     std::optional<int> answer;
-    for (bool is_decided = false; !is_decided && !state_.ends_by_itself();) {
+    for (bool is_decided = false; !is_decided && !state_.is_over() && !state_.ends_by_itself();) {
         while (const std::optional<ResponsePress> press = state_.ports.panel.poll()) {
             // A digit without a reason of that number is not taken for a yes.
             const int digit =
@@ -252,7 +252,7 @@ void OperatorControl::pause() {
     const Screen screen = screens::pause(state_.protocol);
     const SessionTime onset = state_.show(screen);
     state_.ports.panel.await_key(onset);
-    for (bool goes_on = false; !goes_on && !state_.ends_by_itself();) {
+    for (bool goes_on = false; !goes_on && !state_.is_over() && !state_.ends_by_itself();) {
         while (const std::optional<ResponsePress> press = state_.ports.panel.poll()) {
             // The observer's key does not end the operator's pause.
             if (press->key == ResponseKey::pause) {
