@@ -106,8 +106,9 @@ TEST_CASE("places are a factor of the trial's own, of which orders and tables kn
 }
 
 TEST_CASE("a stream has one place after the other, and keeps its order", "[unit]") {
-    const Protocol protocol = with_probes(
-        "trials = { rule = \"stream\", of = \"material\", length = 12, repeats = 0.25 }", one_probe, 4);
+    const Protocol protocol =
+        with_probes("trials = { rule = \"stream\", of = \"material\", length = 12, repeats = 0.25 }",
+                    one_probe + "[[block]]\nid = \"b\"\norder = \"sequential\"\n", 4);
     const std::vector<Trial> trials = point_trials_of(protocol);
     REQUIRE(trials.size() == 12);
     std::map<std::string, int> times;

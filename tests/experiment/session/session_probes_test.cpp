@@ -59,8 +59,8 @@ ObserverInput mouse_at(ObserverInput::Kind kind, double right_px, double down_px
     input.button = 1;
     return input;
 }
-ObserverInput key_at(std::string_view key) {
-    ObserverInput input{.kind = ObserverInput::Kind::key_down, .device = ShortName("keyboard")};
+ObserverInput key_at(std::string_view key, ObserverInput::Kind kind = ObserverInput::Kind::key_down) {
+    ObserverInput input{.kind = kind, .device = ShortName("keyboard")};
     input.key = ShortName(key);
     return input;
 }
@@ -127,6 +127,7 @@ TEST_CASE("a gauge is recorded with its start, what was set, and the surface in 
     using Kind = ObserverInput::Kind;
     // Accepting before anything is moved does nothing.
     sitting.panel.does = doing({{50, key_at("space")},
+                                {60, key_at("space", ObserverInput::Kind::key_up)},
                                 {100, mouse_at(Kind::pointer_down, 0, 0)},
                                 {120, mouse_at(Kind::pointer_moved, 10, -20)},
                                 {140, mouse_at(Kind::pointer_up, 10, -20)},

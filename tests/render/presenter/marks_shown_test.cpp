@@ -14,7 +14,7 @@ using namespace overt;
 
 namespace {
 
-constexpr glm::ivec2 marked_screen_px{256, 96}, marked_image_px{64, 64}, marked_origin_px{96, 16};
+constexpr glm::ivec2 marked_screen_px{544, 96}, marked_image_px{64, 64}, marked_origin_px{96, 16};
 
 /// One light in each frame.
 class MarkedPages final : public FrameSource {
@@ -83,7 +83,7 @@ std::pair<int, bool> pixels_apart(const std::vector<std::byte>& a, const std::ve
     int inside = 0;
     bool any_outside = false;
     const glm::ivec2 end = marked_origin_px + marked_image_px;
-    for (int y = 2; y < marked_screen_px.y; ++y) // rows of messages change with each refresh
+    for (int y = 4; y < marked_screen_px.y; ++y) // rows of messages change with each refresh
         for (int x = 0; x < marked_screen_px.x; ++x) {
             if (is_pixel_alike(a, b, x, y))
                 continue;
