@@ -35,9 +35,10 @@ class KeyframeReading {
         std::vector<Keyframe> all;
         for (const auto& row : table_.rows)
             all.push_back(read_row(row));
-        if (is_whole_ && all.front().t_s != 0.0)
+        const bool has_numbers = is_whole_;
+        if (has_numbers && all.front().t_s != 0.0)
             error(cell(table_.rows.front(), "t_s")->place, "the first row is not at t_s = 0");
-        for (std::size_t i = 1; is_whole_ && i < all.size(); ++i)
+        for (std::size_t i = 1; has_numbers && i < all.size(); ++i)
             if (!(all[i].t_s > all[i - 1].t_s))
                 error(cell(table_.rows[i], "t_s")->place,
                       fmt::format("t_s goes from {} to {}: times have to rise", all[i - 1].t_s, all[i].t_s));
@@ -152,11 +153,13 @@ std::vector<Pose> poses_of_keyframes(const DelimitedText& table, const Animation
     std::vector<Pose> poses;
     for (int frame = 0; frame < motion.frame_count; ++frame) {
         // Rates that no number of two digits is, such as 59.94 Hz, must not miss a row by rounding.
-        const double t_s = frame / motion.frame_rate_hz + 1e-9;
-        const auto after = std::ranges::find_if(keys, [&](const Keyframe& key) { return key.t_s > t_s; });
+        constexpr double rounding_s = 1e-9;
+        const double t_s = frame / motion.frame_rate_hz;
+        const auto after =
+            std::ranges::find_if(keys, [&](const Keyframe& key) { return key.t_s > t_s + rounding_s; });
         const Keyframe& from = *(after - 1);
-        const double into_s = t_s - 1e-9 - from.t_s;
-        if (after == keys.end() || motion.between == BetweenKeys::step || into_s < 1e-9)
+        const double into_s = t_s - from.t_s;
+        if (after == keys.end() || motion.between == BetweenKeys::step || into_s < rounding_s)
             poses.push_back(pose_of_keyframe(from, motion));
         else
             poses.push_back(
