@@ -192,6 +192,8 @@ std::vector<Key> answer_truth() {
          "Of scales and numbers: the judgement at level 0; of words, the level of indifference."},
         {"gain", &T::gain, range(-1e6, 1e6), "How much the judgement grows with a unit of the factor."},
         {"noise", &T::noise, range(0, 1e6), "Standard deviation of the judgement."},
+        {"start_bias", &T::start_bias, range(0, 1),
+         "Of matches: by which share of the way what is set is drawn to the level that it began with."},
         {"shear", &T::shear, range(-10, 10),
          "Of a gauge: what is added to how much the depth rises to the right and upwards. `gain` is a factor "
          "on "
