@@ -44,20 +44,14 @@ bool is_column_name(std::string_view name) {
 
 void check_columns(ProtocolExamination& examination, std::size_t list);
 
-/// One of the lists that stimuli are made of. An entry may be without an id where it is the only one.
+/// One of the lists that stimuli are made of. Its only entry may be without an id (name_entries).
 void check_entries(ProtocolExamination& examination, std::size_t list) {
     const std::string_view name = stimulus_lists[list].name;
     std::vector<std::string_view> ids;
     for (const ListEntry* entry : entries_of(std::as_const(examination.protocol), list)) {
         const std::string id = entry_path(name, ids.size(), "id");
-        if (examination.is_written(id) || examination.faulty.contains(id)) {
-            ids.push_back(entry->id);
-            continue;
-        }
-        ids.push_back({});
-        if (entries_of(std::as_const(examination.protocol), list).size() > 1)
-            examination.error({id}, fmt::format("one of several [[{}]] has no \"id\"", name),
-                              "each entry of a list needs its own, by which tables name it");
+        const bool has_id = examination.is_written(id) || examination.faulty.contains(id);
+        ids.push_back(has_id ? std::string_view(entry->id) : std::string_view());
     }
     check_list(examination, name, ids);
     check_columns(examination, list);

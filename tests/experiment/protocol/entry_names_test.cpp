@@ -109,5 +109,5 @@ TEST_CASE("a background is one of a grey, a colour and a picture, and a factor",
     REQUIRE(factors_of(*read.protocol).find("background"));
     CHECK(stimulus_name(*read.protocol, all_stimuli(*read.protocol)[1]) == "a/gold/red");
     CHECK(ReadText(minimal_protocol, "[background]\ngrey = 0.2\ncolour = [0, 0, 1]\n").lines() ==
-          Lines{"14:1: \"grey\" already says what is behind the object"});
+          Lines{"14:10: \"grey\" already says what is behind the object"});
 }

@@ -81,8 +81,6 @@ TEST_CASE("what is wrong in an entry of a list is found in that entry", "[unit]"
     CHECK(
         ReadText(minimal_protocol, "[[light]]\nid = \"a\"\n[[light]]\nid = \"b\"\nexposure = -1\n").lines() ==
         std::vector<std::string>{"16:12: exposure: -1 is out of range, which is 1e-06 … 1000000"});
-    CHECK(ReadText(minimal_protocol, "[[light]]\nid = \"a\"\n[[light]]\nprobe = \"gallery\"\n").lines() ==
-          std::vector<std::string>{"14:1: one of several [[light]] has no \"id\""});
     CHECK(ReadText(minimal_protocol, "[[motion]]\nid = \"a\"\n[[motion]]\nid = \"b\"\nduration_s = 0.05\n")
               .lines() ==
           std::vector<std::string>{"16:14: 0.05 s hold 1.5 frames at 30 Hz, which is no whole number"});

@@ -45,7 +45,6 @@ TEST_CASE("a protocol with many errors reports all of them with their places", "
         {{49, 13}, "roughness: 1.3 is out of range, which is 0.001 … 1"},
         {{51, 1}, "[[material]] has no \"kind\""},
         {{53, 9}, "there is no metal \"Fe\""},
-        {{55, 1}, "[[task]] has no \"id\""},
         {{56, 12}, "question: expected a text, found a whole number"},
         {{59, 10}, "there is no [[object]] \"hermse\""},
         {{61, 9}, "the path needs one group of # for the digits of the frame number"},
