@@ -26,7 +26,9 @@ glm::dquat settled(glm::dquat rotation) {
 } // namespace
 
 ObjectPose turned_about(glm::dvec3 axis, glm::dvec3 pivot, Degrees angle, Degrees before) {
-    OVERT_EXPECTS(glm::length(axis) > 0.0);
+    // Protocols with such an axis are refused, but what else is wrong with them is told, too.
+    if (!(glm::length(axis) > 0.0))
+        return {before};
     axis = glm::normalize(axis);
     const bool is_vertical = axis.x == 0.0 && axis.y == 0.0;
     const double signed_angle = is_vertical && axis.z < 0.0 ? -angle.value : angle.value;

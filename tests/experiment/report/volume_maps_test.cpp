@@ -33,7 +33,7 @@ TEST_CASE("volumes of maps hold the time of their fixations, where these are", "
     CHECK(write_volumes(study.results, folder.path() / "volumes") == 2);
     const std::string index = read_whole_file(folder.path() / "volumes/index.csv");
     CHECK(std::ranges::count(index, '\n') == 3);
-    CHECK(index.find(",\"ball\",\"The \"\"ball\"\", turned: material rough\",30,") != index.npos);
+    CHECK(index.find(",ball,\"The \"\"ball\"\", turned: material rough\",30,") != index.npos);
     CHECK(std::filesystem::exists(folder.path() / "volumes/map_ball_material_smooth.cube"));
 
     const std::string volume = read_whole_file(folder.path() / "volumes/map_ball_material_smooth.nrrd");
