@@ -95,7 +95,8 @@ class Plans {
             const std::vector<std::string_view> ids = ids_in_list(*protocol_, list);
             const std::string& id = trial.key(std::string(stimulus_lists[list].name));
             const auto found = std::ranges::find(ids, id);
-            if (found == ids.end() && (ids.size() > 1 || !id.empty()))
+            // Trials have no column of a list with one entry only, unless it is always named.
+            if (found == ids.end() && (ids.size() > 1 || id != no_level))
                 return std::nullopt;
             if (found != ids.end())
                 known.shown.stimulus.*stimulus_lists[list].index = static_cast<int>(found - ids.begin());
