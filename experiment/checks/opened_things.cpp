@@ -83,7 +83,8 @@ void add_display(OpenedList& opened, const DisplaySettings& display) {
 }
 
 void add_files(OpenedList& opened, const Protocol& protocol) {
-    const std::filesystem::path folder = protocol.file.parent_path();
+    // Of "a.toml" the parent is empty, and an empty path has no absolute one.
+    const std::filesystem::path named = protocol.file.parent_path(), folder = named.empty() ? "." : named;
     for (const IncludedText& included : protocol.included)
         opened.add_file("include, trials or series", folder, included.file);
     for (const ObjectSettings& object : protocol.objects) {

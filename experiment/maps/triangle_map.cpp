@@ -43,7 +43,8 @@ bool is_map_of(const std::filesystem::path& file, const ContentHash& mesh, Degre
         const PictureFile picture(file, "map");
         const std::string of_mesh = picture.header().text("overt:mesh_sha256"),
                           at_angle = picture.header().text("overt:angle_deg");
-        return (of_mesh.empty() || of_mesh == mesh) &&
+        // A map of a program that wrote no hash of the triangles has other bytes than one drawn anew.
+        return !picture.header().text(codes_attribute).empty() && (of_mesh.empty() || of_mesh == mesh) &&
                (at_angle.empty() || at_angle == fmt::format("{}", angle.value));
     } catch (const InputError&) {
         return false;

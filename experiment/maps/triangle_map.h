@@ -39,8 +39,8 @@ using MapAttributes = std::vector<std::pair<std::string, std::string>>;
 void write_triangle_map(const std::filesystem::path& file, const TriangleMap& map,
                         const MapAttributes& attributes);
 
-/// Whether the file is a map, whole, that says to be of this mesh at this angle; what it does not say, as
-/// maps of early programs, counts as said.
+/// Whether the file is a map, whole, with the hash of its triangles (maps of early programs have none), that
+/// says to be of this mesh at this angle; a mesh or angle that it does not say counts as said.
 bool is_map_of(const std::filesystem::path& file, const ContentHash& mesh, Degrees angle);
 
 /// Throws InputError if the file is missing or is no such map, and if its codes are not those that it was

@@ -31,7 +31,7 @@ TEST_CASE("of a session in real time all is made again that does not come from d
         {"UPDATE schedule SET task = (task + 1) % 2 WHERE trial = 1",
          "table schedule, trial 2, task: recorded "},
         {"UPDATE stimulus SET frames_sha256 = lower(hex(zeroblob(32))) WHERE object = 0 AND material = 1",
-         "table stimulus, object 0, material 1, light 0, motion 0, view 0, frames_sha256: recorded "
+         "table stimulus, object 0, material 1, light 0, motion 0, view 0, background 0, frames_sha256: recorded "
          "000"},
         {"UPDATE object SET axis_x = axis_x + 1 WHERE object = 1",
          "table object, object 1, axis_x: recorded "},
