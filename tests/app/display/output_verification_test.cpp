@@ -63,6 +63,7 @@ struct Plan {
         protocol.views.front().width_px = 33;
         protocol.views.front().height_px = 21;
         protocol.views.front().left_px = 55;
+        protocol.tasks.resize(1);
         protocol.objects.resize(1);
         protocol.objects[0].id = "muse";
         protocol.materials.resize(2);
