@@ -46,7 +46,7 @@ id = "which"
 kind = "choice"
 choices = ["left", "right"]
 keys = ["f", "j"]
-simulated = { by = "gloss", slope = 1.5, bias = 0.3, look_share = 0.8, shift_s = 0.1, median_s = 0.2 }
+simulated = { by = "gloss", slope = 0.8, bias = 0.3, look_share = 0.8, shift_s = 0.1, median_s = 0.2 }
 )";
 }
 
@@ -76,14 +76,18 @@ TEST_CASE("scales and looking before an answer come back from a whole study besi
     const nlohmann::json* const scale =
         row_where(answers.at("scales"), "level", "2", "method", "Thurstone Case V");
     REQUIRE(scale);
-    CHECK(scale->at("planted").get<double>() == Approx(1.5 * std::sqrt(2.0)));
-    CHECK(scale->at("value_interval")[0] < 1.5 * std::sqrt(2.0));
-    CHECK(scale->at("value_interval")[1] > 1.5 * std::sqrt(2.0));
+    CHECK(scale->at("planted").get<double>() == Approx(0.8 * std::sqrt(2.0)));
+    CHECK(scale->at("value_interval")[0] < 0.8 * std::sqrt(2.0));
+    CHECK(scale->at("value_interval")[1] > 0.8 * std::sqrt(2.0));
     const nlohmann::json* const curve = row_where(answers.at("functions"), "factor", "gloss");
     REQUIRE(curve);
     // The first slot is chosen more often by its bias: where it is less glossy both are chosen alike.
-    CHECK(curve->at("planted_threshold").get<double>() == Approx(-0.3 / 1.5).margin(0.02));
-    CHECK(curve->at("threshold").get<double>() == Approx(-0.2).margin(0.35));
+    // Shares are normal, P = Phi(0.8 x + 0.3), which is even at x = -0.375; the function is logistic, and
+    // that of the highest likelihood through these shares at -2, -1, -1, 1, 1, 2 is even at -0.395.
+    CHECK(curve->at("planted_threshold").get<double>() == Approx(-0.395).margin(0.005));
+    CHECK(curve->at("planted_slope").get<double>() == Approx(1.368).margin(0.01));
+    // 24 trials give a threshold with a standard error of 0.42; observers whose answers step have none.
+    CHECK(curve->at("threshold").get<double>() == Approx(-0.395).margin(0.5));
     const nlohmann::json* const dwell = row_where(answers.at("gaze_and_choice"), "measure", "dwell share");
     REQUIRE(dwell);
     CHECK(dwell->at("planted") == 0.8);
