@@ -51,7 +51,7 @@ class OpenedList {
             return;
         const std::filesystem::path seen =
             std::filesystem::absolute(file).lexically_normal().lexically_relative(
-                std::filesystem::absolute(folder).lexically_normal());
+                std::filesystem::absolute(folder.empty() ? "." : folder).lexically_normal());
         if (seen.empty() || *seen.begin() == "..")
             add("file outside", whose, file.lexically_normal().string());
     }

@@ -216,5 +216,5 @@ TEST_CASE("check tells the lists, the columns and how often each level is shown"
     const std::string text = to_text(make_design_report(sound("observers = 2\n"), {{"P1", 1}}));
     CHECK_THAT(text, Contains("2 objects x 3 materials x 2 lights = 12 stimuli; 1 task: 12 maps"));
     CHECK_THAT(text, Contains("roughness (of material): 0.1, 0.2, 0.4"));
-    CHECK_THAT(text, Contains("light      hall 12, sky 12"));
+    CHECK_THAT(text, Contains("light       hall 12, sky 12"));
 }

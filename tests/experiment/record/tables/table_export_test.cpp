@@ -130,7 +130,7 @@ TEST_CASE("two exports of one session are the same, byte for byte", "[unit]") {
         CHECK(text.find('\r') == std::string::npos);
         ++files;
     }
-    CHECK(files == 16);
+    CHECK(files == 19);
 }
 
 TEST_CASE("samples come in pieces of any size, the same as all at once", "[unit]") {
