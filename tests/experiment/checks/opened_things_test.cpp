@@ -22,6 +22,15 @@ std::vector<std::string> opened(const std::string& more) {
     return lines;
 }
 
+/// Of what a protocol opens, the files; the minimal one opens its display's box besides.
+std::vector<std::string> files_outside(const Protocol& protocol) {
+    std::vector<std::string> lines;
+    for (const OpenedThing& thing : opened_by(protocol))
+        if (thing.kind == "file outside")
+            lines.push_back(fmt::format("{} | {}", thing.whose, thing.what));
+    return lines;
+}
+
 bool has_line(const std::vector<std::string>& lines, const std::string& line) {
     return std::find(lines.begin(), lines.end(), line) != lines.end();
 }
@@ -79,14 +88,21 @@ TEST_CASE("each library, address, port and device that a protocol opens is named
 }
 
 TEST_CASE("files outside of the protocol's folder are named, and those inside are not", "[unit]") {
-    const std::vector<std::string> lines =
-        opened("[[object]]\nid = \"b\"\nmesh = \"../../etc/scan.ply\"\n[[object]]\nid = \"c\"\nmesh = "
-               "\"a/../b.ply\"\n"
-               "[[light]]\nprobe = \"/srv/sky.exr\"\n[calibration]\nbeeps = false\n");
-    CAPTURE(lines);
-    REQUIRE(lines.size() == 2);
-    CHECK(lines[0] == "file outside | [[object]] \"b\" | ../../etc/scan.ply");
-    CHECK_THAT(lines[1], Contains("/srv/sky.exr"));
-    CHECK(opened("[calibration]\nbeeps = false\n").empty());
+    ReadText read(minimal_protocol,
+                  "[[object]]\nid = \"b\"\nmesh = \"../../etc/scan.ply\"\n[[object]]\nid = \"c\"\nmesh = "
+                  "\"a/../b.ply\"\n"
+                  "[[light]]\nprobe = \"/srv/sky.exr\"\n[calibration]\nbeeps = false\n");
+    REQUIRE(read.protocol);
+    for (const std::string file : {"p.toml", "study/p.toml"}) { // the first names no folder
+        read.protocol->file = file;
+        for (ObjectSettings& object : read.protocol->objects)
+            if (object.id == "c")
+                object.mesh = read.protocol->file.parent_path() / "a/../b.ply";
+        const std::vector<std::string> lines = files_outside(*read.protocol);
+        CAPTURE(file, lines);
+        REQUIRE(lines.size() == 2);
+        CHECK(lines[0] == "[[object]] \"b\" | ../../etc/scan.ply");
+        CHECK_THAT(lines[1], Contains("/srv/sky.exr"));
+    }
     CHECK_THAT(to_text(std::vector<OpenedThing>()), Contains("nothing"));
 }
