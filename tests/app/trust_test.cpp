@@ -43,8 +43,9 @@ std::vector<fs::path> cached_frames(const fs::path& cache) {
 }
 
 std::string frames_told_of(const fs::path& session) {
+    const overt::SessionRecord record(session);
     std::string hashes;
-    for (const overt::RecordedStimulus& stimulus : overt::SessionRecord(session).header().stimuli)
+    for (const overt::RecordedStimulus& stimulus : record.header().stimuli)
         hashes += stimulus.frames_sha256 + "\n";
     return hashes;
 }
