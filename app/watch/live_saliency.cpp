@@ -147,28 +147,30 @@ LiveSaliency::Surface& LiveSaliency::surface_of(const WatchedObject& object) {
 void LiveSaliency::work(const std::stop_token& stop) {
     // A thread's own, on Linux: whatever else the machine does goes first.
     ::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), 10);
-    std::pair<std::string, std::string> last; // object and slot
+    std::set<std::pair<std::string, std::string>> known; // objects and slots
     while (!stop.stop_requested()) {
         std::vector<Look> looks;
         Of of = Of::session;
+        std::set<std::pair<std::string, std::string>> changed;
         {
             std::unique_lock lock(lock_);
             wakes_.wait(lock, stop, [&] { return !looks_.empty() || is_other_; });
             looks.swap(looks_);
+            if (is_other_)
+                changed = known;
             is_other_ = false;
             of = of_;
         }
-        std::set<std::pair<std::string, std::string>> changed{last};
         for (const Look& look : looks) {
             Surface& surface = surface_of(*look.object);
-            last = {look.object->id(), look.slot};
-            changed.insert(last);
+            changed.emplace(look.object->id(), look.slot);
             if (look.seconds > 0.0)
                 surface.add(look.slot, look.trial, look.vertex, look.part, look.seconds);
         }
+        known.insert(changed.begin(), changed.end());
         for (const auto& [object, slot] : changed) {
-            if (object.empty() || stop.stop_requested())
-                continue;
+            if (stop.stop_requested())
+                break;
             auto map = std::make_shared<const SaliencyMap>(surfaces_.at(object)->map(of, object, slot));
             const std::lock_guard lock(lock_);
             newest_[{object, slot}] = std::move(map);
