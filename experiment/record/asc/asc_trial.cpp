@@ -51,7 +51,7 @@ struct AreaMessage {
 /// The slots of a trial that shows several stimuli, as the interest areas of EyeLink Data Viewer: number,
 /// left, top, right, bottom, name. Before it from when until when, in milliseconds after the message, the
 /// latter with a minus sign: once for each step that lights the slot. Of sessions whose trials have no steps
-/// they hold all the trial.
+/// they hold all the trial; of an attempt that was cut off nobody knows when its slots were lit.
 std::vector<AreaMessage> interest_areas(const SessionHeader& header, const TrialRecord& trial) {
     std::vector<AreaMessage> messages;
     for (std::size_t i = 0; i < trial.trial.shown_count() && !trial.trial.beside.empty(); ++i) {
@@ -61,7 +61,7 @@ std::vector<AreaMessage> interest_areas(const SessionHeader& header, const Trial
                                             slot.origin_px.y, end.x, end.y, slot.id);
         const bool has_steps = std::ranges::any_of(
             trial.outcome.steps, [](const AttemptStep& step) { return step.kind == "show"; });
-        if (!has_steps)
+        if (!has_steps && trial.has_outcome())
             messages.push_back({{}, "!V IAREA " + box});
         for (const auto& [from, until] : trial.seen_in(i).lit_spans())
             if (const long ms = std::lround(1e3 * to_seconds(until - from)); ms > 0)
