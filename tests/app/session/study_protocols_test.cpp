@@ -14,11 +14,13 @@ using namespace overt::test;
 
 namespace {
 
-/// The protocol as it is shipped, with fewer samples and shorter shows.
+/// The protocol as it is shipped, with fewer samples and shorter shows, and the name of small experiments, by
+/// which their sessions are found.
 std::string shortened(const std::string& name) {
     const std::string text =
         text_of(std::filesystem::path(OVERT_SOURCE_DIR) / "protocols" / (name + ".toml"));
-    return text + "\n[screens]\ntask_min_s = 0.1\n[bake]\nquality = \"live\"\n";
+    return with(text, "name = \"" + name + "\"", "name = \"small\"") +
+           "\n[screens]\ntask_min_s = 0.1\n[bake]\nquality = \"live\"\n";
 }
 
 /// Runs it without drawing what nobody sees, verifies the record, and gives the tables' folder.
@@ -33,7 +35,9 @@ std::filesystem::path run_study(const SmallExperiment& experiment,
     const ProgramRun run = experiment.overt(arguments);
     INFO(run.out << run.err);
     REQUIRE(run.exit_code == 0);
-    REQUIRE(experiment.overt({"verify", experiment.session().string()}).exit_code == 0);
+    const ProgramRun verified = experiment.overt({"verify", experiment.session().string()});
+    INFO(verified.out << verified.err);
+    REQUIRE(verified.exit_code == 0);
     const std::filesystem::path tables = experiment.folder().path() / "tables";
     const ProgramRun exported =
         experiment.overt({"export", experiment.session().string(), "--out", tables.string()});
@@ -56,8 +60,7 @@ TEST_CASE("nine qualities are judged of each material, in an order drawn for eac
         std::set<std::string> items;
         for (const GivenAnswer& given : trial.outcome.given) {
             CHECK(given.id == "quality");
-            CHECK_FALSE(given.is_missed);
-            CHECK((given.number && *given.number >= 1.0 && *given.number <= 7.0));
+            CHECK((given.is_missed || (given.number && *given.number >= 1.0 && *given.number <= 7.0)));
             order.push_back(given.item);
             items.insert(given.item);
         }
