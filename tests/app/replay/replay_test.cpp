@@ -120,7 +120,7 @@ TEST_CASE("each single change of a record is found and named", "[session]") {
         {"UPDATE schedule SET task = (task + 1) % 2 WHERE trial = 0",
          "table schedule, trial 1, task: recorded "},
         {"UPDATE stimulus SET frames_sha256 = lower(hex(zeroblob(32))) WHERE object = 1 AND material = 0",
-         "table stimulus, object 1, material 0, light 0, motion 0, view 0, frames_sha256: recorded 000"},
+         "table stimulus, object 1, material 0, light 0, motion 0, view 0, background 0, frames_sha256: recorded 000"},
         {"UPDATE session SET protocol_text = replace(protocol_text, 'duration_s = 1', 'duration_s = 2')",
          "table session, protocol_text: recorded "},
         {"UPDATE session SET seed = '8'", "table schedule, "},
