@@ -39,6 +39,18 @@ bool is_number(std::string_view text) {
     return read.ptr == text.data() + text.size() && !text.empty() && read.ec != std::errc::invalid_argument;
 }
 
+/// As places have them: "-12.5 3.25".
+bool is_numbers(std::string_view text) {
+    for (;;) {
+        const std::size_t end = text.find(' ');
+        if (!is_number(text.substr(0, end)))
+            return false;
+        if (end == text.npos)
+            return true;
+        text.remove_prefix(end + 1);
+    }
+}
+
 } // namespace
 
 std::string printable_text(std::string_view text) {
@@ -59,7 +71,7 @@ std::string printable_text(std::string_view text) {
 std::string without_formula(std::string_view cell) {
     constexpr std::string_view begins = "=+-@\t\r";
     const bool may_be_formula =
-        cell.size() > 1 && begins.find(cell.front()) != std::string_view::npos && !is_number(cell);
+        cell.size() > 1 && begins.find(cell.front()) != std::string_view::npos && !is_numbers(cell);
     std::string text(may_be_formula ? "'" : "");
     text += cell;
     return text;

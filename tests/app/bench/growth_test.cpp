@@ -12,7 +12,8 @@ TEST_CASE("overt bench growth runs each command over each size and gives the exp
     INFO(run.err);
     REQUIRE(run.exit_code == 0);
     std::map<std::string, double> figures;
-    for (const auto& figure : nlohmann::json::parse(run.out).at("figures"))
+    const auto table = nlohmann::json::parse(run.out);
+    for (const auto& figure : table.at("figures"))
         figures[figure.at("figure")] = figure.at("value");
     for (const std::string command : {"run", "export", "analyze", "verify", "replay"}) {
         for (const int trials : {2, 4, 6}) {

@@ -105,7 +105,7 @@ TEST_CASE("what is set with a gauge is recorded, exported, presented again and a
     CHECK(probes.size() == 8);
     CHECK(changes.size() >= 3 * 8);
     for (std::size_t row = 0; row < 8; ++row) {
-        CHECK(settings.text(row, "place") == settings.text(row, "point"));
+        CHECK(settings.text(row, "point") == probes.text(row, "point"));
         CHECK(settings.text(row, "set") == "yes");
         CHECK(settings.number(row, "deviation_deg") >= 0.0);
         CHECK(settings.number(row, "slant_deg") <= settings.number(row, "true_slant_deg") + 1e-3);

@@ -20,6 +20,8 @@ TEST_CASE("what a terminal would take for a command becomes visible", "[unit]") 
 
 TEST_CASE("a cell is no formula, and a number stays a number", "[unit]") {
     CHECK(without_formula("=1+1") == "'=1+1");
+    CHECK(without_formula("-12.5 3.25") == "-12.5 3.25");
+    CHECK(without_formula("-12.5 A1") == "'-12.5 A1");
     CHECK(without_formula("@SUM(A1)") == "'@SUM(A1)");
     CHECK(without_formula("+cmd|' /C calc'!A0") == "'+cmd|' /C calc'!A0");
     CHECK(without_formula("-2+3") == "'-2+3");
