@@ -124,7 +124,7 @@ TEST_CASE("what is set with a gauge is recorded, exported, presented again and a
     const fs::path study = experiment.folder().path() / "study";
     const ProgramRun analysed =
         experiment.overt({"analyze", experiment.session().string(), "--format", "tsv", "--resamples", "100",
-                          "--permutations", "99", "--out", study.string()});
+                          "--permutations", "100", "--out", study.string()});
     INFO(analysed.err);
     REQUIRE(analysed.exit_code == 0);
     const TsvFile reliefs = gauge_table(study, "reliefs.tsv");
