@@ -1,21 +1,15 @@
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
 
 #include <SQLiteCpp/SQLiteCpp.h>
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include "app/bench/bench_command.h"
+#include "app/cli/own_command.h"
 #include "app/cli/progress_bar.h"
 #include "experiment/base/error.h"
 #include "experiment/base/scratch_folder.h"
@@ -31,43 +25,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What a command took, all its threads together.
-struct CommandCost {
-    double processor_s = 0.0, peak_mb = 0.0;
-};
-
 /// Runs `overt arguments…` to its end. Throws Error with what it said if it fails.
 CommandCost run_command(const std::vector<std::string>& arguments, const fs::path& folder) {
     const fs::path said = folder / "said.txt";
-    std::vector<std::string> words{fs::read_symlink("/proc/self/exe").string()};
-    words.insert(words.end(), arguments.begin(), arguments.end());
-    std::vector<char*> pointers;
-    for (std::string& word : words)
-        pointers.push_back(word.data());
-    pointers.push_back(nullptr);
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, said.c_str(), O_WRONLY | O_CREAT | O_TRUNC,
-                                     0644);
-    posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
-    pid_t process = -1;
-    const int error =
-        posix_spawn(&process, words.front().c_str(), &actions, nullptr, pointers.data(), environ);
-    posix_spawn_file_actions_destroy(&actions);
-    if (error != 0)
-        throw Error(fmt::format("a second process of overt cannot be started: {}", std::strerror(error)));
-    int status = 0;
-    rusage usage{};
-    while (::wait4(process, &status, 0, &usage) < 0 && errno == EINTR) {
-    }
-    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
+    fs::remove(said);
+    OwnCommand command(arguments, said);
+    const CommandCost cost = command.wait();
+    if (command.exit_code() != 0)
         throw Error(fmt::format("overt {} failed:\n{}", arguments.front(), read_whole_file(said)));
-    const auto seconds = [](const timeval& time) {
-        return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
-    };
-    return {seconds(usage.ru_utime) + seconds(usage.ru_stime),
-            1024e-6 * static_cast<double>(usage.ru_maxrss)};
+    return cost;
 }
 
 /// A sphere of a few hundred triangles, 100 mm in radius.
@@ -172,14 +138,14 @@ struct Growth {
 
 /// By how much the logarithm grows from the last size but one to the last, for each of that of the size: 1 is
 /// in proportion. What a command takes with nothing to do, as far as the first size shows, is taken out
-/// first.
-double exponent(const Growth& growth, double CommandCost::*what) {
+/// first. What lies below `least` is not told from chance, and counts as that much.
+double exponent(const Growth& growth, double CommandCost::*what, double least) {
     const std::size_t last = growth.sizes.size() - 1;
     const auto value = [&](std::size_t i) { return growth.taken[i].*what; };
     const double per_piece = (value(1) - value(0)) / (growth.sizes[1] - growth.sizes[0]);
     const double at_nothing = std::max(0.0, value(0) - per_piece * growth.sizes[0]);
-    const double before = std::max(value(last - 1) - at_nothing, 1e-3),
-                 after = std::max(value(last) - at_nothing, 1e-3);
+    const double before = std::max(value(last - 1) - at_nothing, least),
+                 after = std::max(value(last) - at_nothing, least);
     return std::log(after / before) /
            std::log(static_cast<double>(growth.sizes[last]) / static_cast<double>(growth.sizes[last - 1]));
 }
@@ -268,8 +234,8 @@ BenchFigures bench_growth(const BenchOptions& options) {
             figures.push_back(
                 {fmt::format("{}, {}: memory", name, growth.sizes[i]), growth.taken[i].peak_mb, "MB"});
         }
-        const double time = exponent(growth, &CommandCost::processor_s),
-                     memory = exponent(growth, &CommandCost::peak_mb);
+        const double time = exponent(growth, &CommandCost::processor_s, 0.02),
+                     memory = exponent(growth, &CommandCost::peak_mb, 4.0);
         const std::string of_time = name + ": exponent of processor time",
                           of_memory = name + ": exponent of memory";
         // A few trials say nothing of growth: the quick ones show that it can be measured.

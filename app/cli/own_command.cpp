@@ -1,11 +1,13 @@
 #include "app/cli/own_command.h"
 
+#include <cerrno>
 #include <cstring>
 
 #include <csignal>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -51,6 +53,21 @@ std::optional<int> OwnCommand::exit_code() {
     if (!code_ && waitpid(process_, &status, WNOHANG) == process_)
         code_ = code_of(status);
     return code_;
+}
+
+CommandCost OwnCommand::wait() {
+    if (code_)
+        return {};
+    int status = 0;
+    rusage usage{};
+    while (wait4(process_, &status, 0, &usage) < 0 && errno == EINTR) {
+    }
+    code_ = code_of(status);
+    const auto seconds = [](const timeval& time) {
+        return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+    };
+    return {seconds(usage.ru_utime) + seconds(usage.ru_stime),
+            1024e-6 * static_cast<double>(usage.ru_maxrss)};
 }
 
 } // namespace overt

@@ -10,6 +10,11 @@
 
 namespace overt {
 
+/// What a command took from its beginning to its end, all its threads together.
+struct CommandCost {
+    double processor_s = 0.0, peak_mb = 0.0;
+};
+
 /// A command that runs. Ctrl-C on the terminal reaches it, too.
 class OwnCommand {
   public:
@@ -22,6 +27,8 @@ class OwnCommand {
 
     /// Nothing while it runs; 128 and the signal's number if a signal ended it.
     std::optional<int> exit_code();
+    /// Waits until it has ended; exit_code() tells how. Of a command that had ended before, nothing is known.
+    CommandCost wait();
 
   private:
     pid_t process_ = -1;
