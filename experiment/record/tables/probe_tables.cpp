@@ -137,6 +137,7 @@ RowLayout<GaugeRow> gauges_layout(const SharedColumns& shared, const SessionHead
             {shared.task, task_of(header)},
         }};
     layout.add<TrialRecord>(shared.of_stimulus<TrialRecord>(shown_in));
+    layout.add<TrialRecord>(own_columns<RowLayout<TrialRecord>::Column>(header));
     layout.add<GaugeRow>({
         {{"id", "As the protocol calls the answer"}, [](auto& row) { return row.given.id; }},
         {{"probe", "The probe at which it stood"}, [](auto& row) { return row.gauge.probe; }},
