@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -295,7 +296,24 @@ GazeFavour SimulatedAnswers::favour_of(const Trial& lit, const std::vector<std::
     return favour;
 }
 
+std::optional<ObserverInput> SimulatedKeys::release_due(const std::vector<PlannedInput>& from,
+                                                        std::size_t next,
+                                                        const std::optional<SessionTime>& since) noexcept {
+    using Kind = ObserverInput::Kind;
+    if (!since || next == 0 || next >= from.size())
+        return std::nullopt;
+    ObserverInput input = from[next].input;
+    if (input.kind != Kind::key_up && input.kind != Kind::pointer_up)
+        return std::nullopt;
+    input.at = *since + from[next].after;
+    return input;
+}
+
 void SimulatedKeys::clear() noexcept {
+    if (const auto release = release_due(planned_, next_, opened_))
+        release_ = release;
+    else if (const auto early = release_due(early_, next_early_, awaited_))
+        release_ = early;
     early_.clear();
     planned_.clear();
     next_early_ = next_ = 0;
@@ -405,10 +423,9 @@ void SimulatedKeys::set(const AnswerOffer& offer, const std::vector<int>& at, Se
 
 void SimulatedKeys::plan(const SimulatedAnswers& answers, const std::vector<AnswerOffer>& offers,
                          const Trial& trial) {
-    early_.clear();
-    planned_.clear();
-    next_early_ = next_ = 0;
-    opened_.reset();
+    const std::optional<SessionTime> awaited = awaited_;
+    clear();
+    awaited_ = awaited;
     SessionDuration begin{};
     for (const AnswerOffer& offer : offers) {
         const SimulatedAnswers::Intended given = answers.answer(offer, trial);
@@ -457,6 +474,8 @@ std::optional<ObserverInput> SimulatedKeys::next(SessionTime now) noexcept {
         input.at = *since + from[next++].after;
         return input;
     };
+    if (release_ && release_->at <= now)
+        return std::exchange(release_, std::nullopt);
     if (const std::optional<ObserverInput> early = take(early_, next_early_, awaited_))
         return early;
     return take(planned_, next_, opened_);

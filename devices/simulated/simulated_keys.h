@@ -101,8 +101,10 @@ AnswerOffer offer_of(const Protocol& protocol, const TaskAnswer& answer, const s
 /// throw nothing.
 class SimulatedKeys {
   public:
+    /// A key that is down by then is let go nevertheless, when that was planned.
     void clear() noexcept;
-    /// Presses for these offers in turn; they come after the window has opened.
+    /// Presses for these offers in turn, in place of all others, as clear() has it; they come after the
+    /// window has opened.
     void plan(const SimulatedAnswers& answers, const std::vector<AnswerOffer>& offers, const Trial& trial);
     /// From now on inputs are told: of presses before the window.
     void awaited(SessionTime since) noexcept { awaited_ = since; }
@@ -121,8 +123,13 @@ class SimulatedKeys {
     void set(const AnswerOffer& offer, const std::vector<int>& at, SessionDuration& after);
     void type(const std::string& text, SessionDuration& after);
 
+    /// Of a key or button that is down, as its input at its time.
+    static std::optional<ObserverInput> release_due(const std::vector<PlannedInput>& from, std::size_t next,
+                                                    const std::optional<SessionTime>& since) noexcept;
+
     std::vector<PlannedInput> early_, planned_;
     std::size_t next_early_ = 0, next_ = 0;
+    std::optional<ObserverInput> release_;
     std::optional<SessionTime> awaited_, opened_;
 };
 
