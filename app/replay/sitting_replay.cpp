@@ -90,6 +90,12 @@ int attempts_in(const SessionRecord& record, int sitting) {
     return static_cast<int>(std::ranges::count(record.trials(), sitting, &TrialRecord::sitting));
 }
 
+bool cuts_an_attempt(const SessionRecord& record, int sitting, const SittingCut& cut) {
+    return std::ranges::any_of(record.trials(), [&](const TrialRecord& attempt) {
+        return attempt.sitting == sitting && attempt.id == cut.cut.attempt;
+    });
+}
+
 /// What is left of a session that failed where the recorded one did not.
 [[noreturn]] void fail(const fs::path& said, const std::exception& error) {
     throw Error(fmt::format("the session could not be presented again: {}\nIt said before:\n{}", error.what(),
@@ -171,6 +177,9 @@ SittingReplay replay_sitting(const SittingRequest& request) {
 
     const fs::path said = request.work / "said.txt";
     const int all = attempts_in(record, request.sitting);
+    // What the record has after its last attempt, such as the begin of the next trial, comes during one more.
+    const bool goes_on = replay.cut && !cuts_an_attempt(record, request.sitting, *replay.cut);
+    const int enough = all + (goes_on ? 1 : 0);
     {
         QuietOutput quiet(said);
         PresentingAgain again = unwatched;
@@ -178,7 +187,7 @@ SittingReplay replay_sitting(const SittingRequest& request) {
         again.trial_done = [&] {
             ++done;
             quiet.aside([&] { request.progress(std::min(done, all), all); });
-            if (replay.cut && done >= all)
+            if (replay.cut && done >= enough)
                 throw EnoughPresented();
         };
         try {

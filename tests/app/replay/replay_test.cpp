@@ -1,6 +1,7 @@
 /// Recorded sessions presented again: all comes out the same, and what was changed in a record is named.
 #include "tests/app/replay/replayed_session.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "tests/app/session/interrupted_run.h"
@@ -67,6 +68,45 @@ TEST_CASE("a session that was killed is compared up to its last row, and its res
     CHECK_THAT(changed.out, Contains("first difference: table flip, trial 2, n 3, shown: recorded"));
 }
 
+/// All rows of an attempt are taken out, as if the program had been killed before the first of them.
+static void forget_attempt(const fs::path& session, std::int64_t attempt) {
+    SQLite::Database database((session / "session.sqlite").string(), SQLite::OPEN_READWRITE);
+    std::vector<std::string> tables;
+    SQLite::Statement found(database, "SELECT m.name FROM sqlite_master m JOIN pragma_table_info(m.name) c "
+                                      "WHERE m.type = 'table' AND c.name = 'trial_id'");
+    while (found.executeStep())
+        tables.push_back(found.getColumn(0).getString());
+    for (const std::string& table : tables)
+        database.exec(fmt::format("DELETE FROM {} WHERE trial_id = {}", table, attempt));
+}
+
+TEST_CASE("a session that was killed between an attempt's first event and its row is the same up to there",
+          "[session]") {
+    const SmallExperiment experiment(with(small_protocol, "duration_s = 1", "duration_s = 20"));
+    make_interrupted_session(experiment, 1, {"--trials", "3"});
+    std::int64_t last = 0;
+    {
+        const SessionRecord record(experiment.session());
+        REQUIRE(record.trials().size() == 2);
+        last = record.trials().back().id;
+        REQUIRE_FALSE(record.trials().back().has_outcome());
+    }
+    forget_attempt(experiment.session(), last);
+    const ProgramRun run = replay(experiment);
+    INFO(run.out << run.err);
+    CHECK(run.exit_code == 0);
+    CHECK_THAT(run.out, Contains("sitting 1: 1 attempt with") && Contains("the replay is the same"));
+    // Nor does it take an attempt of the next sitting for its own.
+    REQUIRE(experiment.overt(run_arguments(experiment, "P01", {"--virtual-time", "--resume"})).exit_code ==
+            0);
+    CHECK_THAT(replay(experiment).out,
+               Contains("sitting 2: 2 attempts with ") && Contains("the replay is the same"));
+    // What the record has of the attempt that it lacks is compared.
+    change(experiment.session(),
+           "UPDATE event SET at_ns = at_ns + 1 WHERE id = (SELECT MAX(id) FROM event WHERE sitting = 1)");
+    CHECK_THAT(replay(experiment).out, Contains("first difference: table event"));
+}
+
 TEST_CASE("a session that a signal ended is compared up to its end", "[session]") {
     const SmallExperiment experiment(with(small_protocol, "duration_s = 1", "duration_s = 20"));
     bool was_ended = false;
@@ -120,7 +160,8 @@ TEST_CASE("each single change of a record is found and named", "[session]") {
         {"UPDATE schedule SET task = (task + 1) % 2 WHERE trial = 0",
          "table schedule, trial 1, task: recorded "},
         {"UPDATE stimulus SET frames_sha256 = lower(hex(zeroblob(32))) WHERE object = 1 AND material = 0",
-         "table stimulus, object 1, material 0, light 0, motion 0, view 0, background 0, frames_sha256: recorded 000"},
+         "table stimulus, object 1, material 0, light 0, motion 0, view 0, background 0, frames_sha256: "
+         "recorded 000"},
         {"UPDATE session SET protocol_text = replace(protocol_text, 'duration_s = 1', 'duration_s = 2')",
          "table session, protocol_text: recorded "},
         {"UPDATE session SET seed = '8'", "table schedule, "},
