@@ -223,7 +223,11 @@ RowLayout<BidsEvent> events_layout(const SessionHeader& header, SessionTime zero
                                     put_level(to, column.level_of(row.attempt->trial.stimulus));
                                 }}});
     }
-    layout.add<BidsEvent>(own_columns<RowLayout<BidsEvent>::Column>(header));
+    auto own = own_columns<RowLayout<BidsEvent>::Column>(header);
+    for (auto& column : own)
+        if (column.what.name == correct_answer)
+            column.what.name = "correct_answer"; // BIDS has "correct" say whether an answer was
+    layout.add<BidsEvent>(std::move(own));
     layout.add<BidsEvent>({
         {{"frames", "How the frames that were shown had been made"},
          [&header](const TrialRecord& attempt) {

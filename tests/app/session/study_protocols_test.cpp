@@ -2,8 +2,10 @@
 /// they are about is in the record.
 #include <catch2/catch.hpp>
 
+#include <fstream>
 #include <map>
 #include <set>
+#include <sstream>
 
 #include "experiment/record/read/session_record.h"
 #include "tests/app/session/interrupted_run.h"
@@ -21,6 +23,23 @@ std::string shortened(const std::string& name) {
         text_of(std::filesystem::path(OVERT_SOURCE_DIR) / "protocols" / (name + ".toml"));
     return with(text, "name = \"" + name + "\"", "name = \"small\"") +
            "\n[screens]\ntask_min_s = 0.1\n[bake]\nquality = \"live\"\n";
+}
+
+/// In each table below a folder no two columns are called the same.
+void expect_a_name_each(const std::filesystem::path& folder) {
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+        if (entry.path().extension() != ".tsv")
+            continue;
+        std::ifstream file(entry.path());
+        std::string line;
+        std::getline(file, line);
+        std::set<std::string> names;
+        std::istringstream row(line);
+        for (std::string name; std::getline(row, name, '\t');) {
+            INFO(entry.path() << ": " << name);
+            CHECK(names.insert(name).second);
+        }
+    }
 }
 
 /// Runs it without drawing what nobody sees, verifies the record, and gives the tables' folder.
@@ -43,6 +62,12 @@ std::filesystem::path run_study(const SmallExperiment& experiment,
         experiment.overt({"export", experiment.session().string(), "--out", tables.string()});
     INFO(exported.err);
     REQUIRE(exported.exit_code == 0);
+    const std::filesystem::path bids = experiment.folder().path() / "bids";
+    REQUIRE(experiment
+                .overt({"export", experiment.session().string(), "--format", "bids", "--out", bids.string()})
+                .exit_code == 0);
+    expect_a_name_each(tables);
+    expect_a_name_each(bids);
     return tables;
 }
 
