@@ -8,6 +8,7 @@
 
 #include "experiment/scene/files/ply_writer.h"
 #include "tests/app/analyze/small_study.h"
+#include "tests/support/asc_text.h"
 #include "tests/support/tsv_file.h"
 
 namespace fs = std::filesystem;
@@ -68,6 +69,34 @@ class OneProcessor {
 };
 
 } // namespace
+
+TEST_CASE("two imports of one recording are refused, under whatever names", "[session]") {
+    const TemporaryFolder root;
+    const auto imported = [&](const std::string& text, const char* observer) {
+        const fs::path file = overt::testing::write_asc(root.path() / (std::string(observer) + ".asc"), text);
+        const fs::path session = root.path() / observer;
+        const ProgramRun run =
+            run_overt({"import", file.string(), "--observer", observer, "--out", session.string()});
+        INFO(run.err);
+        REQUIRE(run.exit_code == 0);
+        return session.string();
+    };
+    const std::string text = overt::testing::asc_text({});
+    const std::string one = imported(text, "P01"), same = imported(text, "P02"),
+                      other = imported(text + "** another\n", "P03");
+    const auto analyzed = [&](const std::string& second) {
+        return run_overt({"analyze", one, second, "--out", (root.path() / "analysis").string(), "--resamples",
+                          "100", "--permutations", "100"});
+    };
+    const ProgramRun twice = analyzed(same);
+    CHECK(twice.exit_code == 2);
+    CHECK_THAT(twice.err, Catch::Matchers::Contains("P02 was imported from the same recording as") &&
+                              Catch::Matchers::Contains("would count twice: give one of them"));
+    CHECK_FALSE(fs::exists(root.path() / "analysis"));
+    const ProgramRun both = analyzed(other);
+    INFO(both.err);
+    CHECK(both.exit_code == 0);
+}
 
 TEST_CASE("a study says what it lacks and reckons what it can", "[session]") {
     const SmallStudy study;
