@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "experiment/statistics/permutation.h"
 #include "experiment/study/observer_similarities.h"
 #include "experiment/study/study_pairs.h"
 #include "tests/experiment/study/painted_study.h"
@@ -121,6 +122,40 @@ TEST_CASE(
     // More by chance in one of 3,000 such tests.
     CHECK(dealing <= 6);
     CHECK(maps <= 7);
+}
+
+TEST_CASE("p are corrected over the pairs within groups, and apart from these over the pairs of all",
+          "[unit]") {
+    test::PaintedStudy study(
+        6, 2, 12,
+        [](int, int level, RandomStream& random) {
+            return test::near(level == 1 ? test::top : test::front, 0.6, random);
+        },
+        1, "rough", 2);
+    study.options.compare = "material";
+    study.options.by = {"task", "material"};
+    study.options.permutations = 50;
+    for (std::size_t i = 0; i < study.results.trials.size(); ++i)
+        study.results.trials[i].keys.push_back({"task", i % 2 == 0 ? "first" : "second"});
+    const auto rows = study_pairs(study.results, study.surfaces, fixation_maps(study.results, study.surfaces),
+                                  {}, study.options);
+    for (const auto& [p, corrected] : {std::pair(&PairRow::wss_p, &PairRow::wss_p_holm),
+                                       std::pair(&PairRow::maps_p, &PairRow::maps_p_holm)}) {
+        std::vector<double> of_groups, of_all;
+        for (const PairRow& row : rows)
+            if (row.*p)
+                (row.keys.empty() ? of_all : of_groups).push_back(*(row.*p));
+        REQUIRE(of_groups.size() == 2);
+        REQUIRE(of_all.size() == 1);
+        const std::vector<double> expected = holm(of_groups);
+        std::size_t group = 0;
+        for (const PairRow& row : rows) {
+            REQUIRE((row.*corrected).has_value());
+            CHECK(*(row.*corrected) == (row.keys.empty() ? of_all.front() : expected[group++]));
+        }
+        // Of two that are small, the correction is seen.
+        CHECK(expected != of_groups);
+    }
 }
 
 TEST_CASE("trials of levels that differ are not dealt out so unlike each other by chance", "[unit]") {

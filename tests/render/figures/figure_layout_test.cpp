@@ -115,8 +115,8 @@ StudyResults study_with(int factors, int levels, Naming name, double value) {
         pair.cc.value = Estimate::of(0.123456, Interval{-0.998, 0.997});
         study.pairs.push_back(pair);
         for (int second = 0; second < 8; ++second)
-            study.time_course.push_back({"", keys.front(), 1.0 * second, second + 1.0,
-                                         Estimate::of(1.0, Interval{0.0, 1.0}), 12});
+            study.time_course.push_back(
+                {"", keys.front(), 1.0 * second, second + 1.0, Estimate::of(1.0, Interval{0.0, 1.0}), 12});
         StudyQuality quality;
         quality.accuracy_deg = value;
         quality.lost = quality.samples = 1.0;
@@ -252,6 +252,23 @@ TEST_CASE("small numbers in figures are written out, and none is written as 0", 
     CHECK(texts_of(2.9e-9).find("< 0.000001") != std::string::npos);
 }
 
+TEST_CASE("a label that is longer than its axis gets several lines, and is whole", "[unit]") {
+    const std::string x = "share of the time for which gaze was on the surface of the object, of all trials",
+                      y = "mean time until the first fixation of the area that the task asks about (s)";
+    MeasuringPen pen;
+    const glm::dvec2 corner(3.0, 4.0), size(50.0, 40.0);
+    ChartAxes(pen, corner, size, {0.0, 1.0, x}, {0.0, 20.0, y});
+    for (const Box& text : pen.texts) {
+        INFO(text.text);
+        CHECK(text.low.x >= corner.x);
+        CHECK(text.low.y >= corner.y);
+        CHECK(text.high.x <= corner.x + size.x);
+        CHECK(text.high.y <= corner.y + size.y);
+    }
+    CHECK(without_spaces(pen.all_text).find(without_spaces(x)) != std::string::npos);
+    CHECK(without_spaces(pen.all_text).find(without_spaces(y)) != std::string::npos);
+}
+
 TEST_CASE("56 curves are unlike each other", "[unit]") {
     std::set<std::string> looks;
     for (std::size_t i = 0; i < 56; ++i) {
@@ -261,6 +278,14 @@ TEST_CASE("56 curves are unlike each other", "[unit]") {
         looks.insert(pen.drawn);
     }
     CHECK(looks.size() == 56);
+    // Lines without markers: eight colours in four ways of dashing.
+    std::set<std::string> lines;
+    for (std::size_t i = 0; i < 32; ++i) {
+        MeasuringPen pen;
+        CurveStyle(i).draw_curve(pen, {{0.0, 0.0}, {5.0, 0.0}});
+        lines.insert(pen.drawn);
+    }
+    CHECK(lines.size() == 32);
     // Neighbours within a round differ without colour, too, and so does each round from the one before.
     const auto without_colour = [](std::size_t i) {
         MeasuringPen pen;
