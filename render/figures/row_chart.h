@@ -35,9 +35,9 @@ struct RowChart {
     /// Column before which the bars stand; nothing: no bars.
     std::optional<std::size_t> bars_before;
     std::string bars_head;
-    double least = 0.0;         ///< of the bars' axis at the most
-    std::optional<double> most; ///< of the bars' axis at the least; nothing: as the rows have it
-    std::string note{};         ///< below the rows
+    double least = 0.0;              ///< of the bars' axis at the most
+    std::optional<double> most = {}; ///< of the bars' axis at the least; nothing: as the rows have it
+    std::string note{};              ///< below the rows
 };
 
 /// As wide as a column of a journal where everything fits into one, or as a page; wider only where a page

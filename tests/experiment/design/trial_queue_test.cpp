@@ -159,6 +159,9 @@ TEST_CASE("what is not to be repeated counts, however it went, but for a rejecte
         CHECK_FALSE(verdict_on(broken).counts);
         CHECK(verdict_on(broken).comes_again == protocol.repeat.rejected);
     }
+    CHECK(verdict_on({.is_tracker_lost = true}).failure == TrialFailure::tracker_lost);
+    CHECK(verdict_on({.has_clock_jumped = true}).failure == TrialFailure::clock_jumped);
+    CHECK(verdict_on({.is_broken_off = true}).failure == TrialFailure::broken_off);
     CHECK(verdict_on({.is_repeated = true, .is_tracker_lost = true}).failure == TrialFailure::tracker_lost);
     CHECK(verdict_on({.is_repeated = true, .is_tracker_lost = true}).comes_again == RepeatWhen::now);
     protocol.repeat.missed_refreshes = RepeatWhen::now;

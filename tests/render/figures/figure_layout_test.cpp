@@ -6,6 +6,7 @@
 
 #include "render/figures/axes.h"
 #include "render/figures/legend.h"
+#include "render/figures/row_chart.h"
 #include "render/figures/study_figures.h"
 #include "tests/experiment/report/made_up_study.h"
 
@@ -232,6 +233,22 @@ TEST_CASE("each number of the figures of rows stands below a head that says what
         CHECK(cells.size() >= 6);
         if (figure.name == "table_1")
             CHECK(std::ranges::includes(heads, cells));
+    }
+}
+
+TEST_CASE("each column of rows has its head, and so have the bars", "[unit]") {
+    const RowChart chart{
+        .columns = {{"material", true}, {"area (mm²)"}, {"p after Holm"}},
+        .rows = {{{"gold", "12.5", "0.031"}, {3.0, {}}}, {{"clay", "9.5", "0.5"}, {2.0, {}}}},
+        .bars_before = 2,
+        .bars_head = "share of gaze"};
+    const std::vector<StudyFigure> figures = figures_of(chart, "rows");
+    REQUIRE(figures.size() == 1);
+    MeasuringPen pen;
+    figures.front().draw(pen);
+    for (const char* const head : {"material", "area (mm²)", "p after Holm", "share of gaze"}) {
+        INFO(head);
+        CHECK(without_spaces(pen.all_text).find(without_spaces(head)) != std::string::npos);
     }
 }
 
