@@ -191,4 +191,8 @@ TEST_CASE("feedback on a block counts answers, those that are correct, and their
     CHECK(in_numbers("{percent_correct} % of {trials}, {missed} missed, {median_s} s", trials) ==
           "67 % of 4, 1 missed, 0.60 s");
     CHECK(in_numbers("{percent_correct}", {}) == "–");
+    // Of an even number, the mean of the two in the middle.
+    CHECK(in_numbers("{median_s}",
+                     {{judged(true, 0.9)}, {judged(true, 0.3)}, {judged(true, 0.4)}, {judged(false, 0.7)}}) ==
+          "0.55");
 }

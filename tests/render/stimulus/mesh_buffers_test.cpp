@@ -65,3 +65,45 @@ TEST_CASE("a ball over a floor is open by (1 + n.z) / 2 everywhere, without a gr
     CAPTURE(largest_grain);
     CHECK(largest_grain < 0.004);
 }
+
+TEST_CASE("a floor before a wall grows lighter without stripes", "[unit]") {
+    // The floor a fine grid, its rows along the wall; both face each other.
+    constexpr int rows = 90, columns = 60;
+    constexpr double step = 0.05;
+    Mesh mesh;
+    for (int row = 0; row < rows; ++row)
+        for (int column = 0; column < columns; ++column)
+            mesh.positions.emplace_back(step * (row + 1), step * (column - columns / 2), 0.0);
+    for (int row = 0; row + 1 < rows; ++row) {
+        for (int column = 0; column + 1 < columns; ++column) {
+            const auto at = [&](int r, int c) { return static_cast<std::uint32_t>(r * columns + c); };
+            mesh.triangles.emplace_back(at(row, column), at(row + 1, column), at(row + 1, column + 1));
+            mesh.triangles.emplace_back(at(row, column), at(row + 1, column + 1), at(row, column + 1));
+        }
+    }
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    for (const glm::vec2 corner : {glm::vec2(-4, 0), {4, 0}, {4, 3}, {-4, 3}})
+        mesh.positions.emplace_back(0.0, corner.x, corner.y);
+    mesh.triangles.emplace_back(first, first + 1, first + 2);
+    mesh.triangles.emplace_back(first, first + 2, first + 3);
+    mesh.triangle_parts.assign(mesh.triangles.size(), PartIndex{0});
+    mesh.part_names = {"body"};
+    const std::vector<glm::vec4> openness = openness_of_vertices(mesh);
+    std::vector<double> means;
+    for (int row = 10; row + 10 < rows; ++row) {
+        double sum = 0.0;
+        for (int column = 15; column < columns - 15; ++column)
+            sum += double{openness[static_cast<std::size_t>(row * columns + column)].w};
+        means.push_back(sum / (columns - 30));
+    }
+    // What grows smoothly has no differences of the fourth order; a stripe has.
+    double squares = 0.0;
+    for (std::size_t i = 2; i + 2 < means.size(); ++i) {
+        const double stripe =
+            means[i - 2] - 4.0 * means[i - 1] + 6.0 * means[i] - 4.0 * means[i + 1] + means[i + 2];
+        squares += stripe * stripe;
+    }
+    const double stripes = std::sqrt(squares / static_cast<double>(means.size() - 4));
+    CAPTURE(stripes);
+    CHECK(stripes < 3e-5);
+}
