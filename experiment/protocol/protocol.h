@@ -33,6 +33,7 @@
 #include "experiment/protocol/point_settings.h"
 #include "experiment/protocol/procedure_settings.h"
 #include "experiment/protocol/protocol_sources.h"
+#include "experiment/protocol/recorded_course.h"
 #include "experiment/protocol/sitting_settings.h"
 #include "experiment/protocol/slot.h"
 #include "experiment/protocol/trial_table.h"
@@ -237,7 +238,9 @@ struct BackgroundSettings : ListEntry {
 };
 
 /// [[motion]]: how an object turns. [animation] is the only one.
-struct MotionSettings : ListEntry, Animation {};
+struct MotionSettings : ListEntry, Animation {
+    std::vector<RecordedCourse> courses; ///< of `recorded`, in the order of its tables
+};
 
 /// [screens]: what is shown between the animations.
 struct ScreenSettings {

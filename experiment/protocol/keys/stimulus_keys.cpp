@@ -165,6 +165,14 @@ std::vector<Key> motion() {
              "view, or angle_deg; light_deg. Only t_s is needed."},
             {"between", member_of<M>(&A::between),
              "What is between two of its rows: the former, or a straight way at one speed."},
+            {"recorded", member_of<M>(&A::recorded), left_out("none"),
+             "Of `recorded`: tables of how observers turned objects, as `courses` of `overt export --format "
+             "tsv`, by their paths from the protocol's folder. Several, or one of several observers: the "
+             "observers of this session have them in turn, by their numbers."},
+            {"matched_by", member_of<M>(&A::matched_by),
+             "Of `recorded`: whether a trial shows again one with the same stimulus (but for the motion) in "
+             "the same slot, in the order of the recording where there are several, or the one with its own "
+             "number."},
             {"playback", member_of<M>(&A::playback),
              "The frames hold a whole period of the sine, or one sweep from end to end that is played forth "
              "and "
@@ -184,6 +192,16 @@ std::vector<Key> motion() {
              "before `to_deg`."},
             {"to_deg", turn, &O::to, range(-360, 720, "deg"),
              "Of observer: how far counter-clockwise. 360 deg after `from_deg` it goes all round."},
+            {"elevation_step_deg", turn, &O::elevation_step,
+             range(0, 90, "deg").left_out("0: it turns about the vertical alone"),
+             "Of observer: from one elevation to the next. Each turn is a pose at each elevation, so that "
+             "there are as many pictures as turns times elevations."},
+            {"elevation_from_deg", turn, &O::elevation_from, range(-90, 90, "deg"),
+             "Of observer: the lowest elevation, a turn about the horizontal line to the observer's right. "
+             "At positive ones the object is seen more from above. It comes up at 0, or as near as there is "
+             "one."},
+            {"elevation_to_deg", turn, &O::elevation_to, range(-90, 90, "deg"),
+             "Of observer: the highest, a whole number of steps above."},
             {"start",
              turn,
              &O::start,
@@ -196,14 +214,15 @@ std::vector<Key> motion() {
              &O::with,
              {},
              "Of observer: turned by dragging with the mouse and by its wheel, by held keys, or by either."},
-            {"keys", turn, &O::keys, left_out("left, right"),
+            {"keys", turn, &O::keys, left_out("left, right, and with elevations up, down"),
              "Of observer: the key that turns the front to the left, and the one that turns it to the "
-             "right."},
+             "right; with elevations also those that take it up and down."},
             {"speed_deg_s", turn, &O::speed_deg_s, range(1, 1000, "deg/s"),
              "Of observer: how fast it turns while a key is held. It stops when the key is let go."},
             {"drag_deg", turn, &O::drag_deg, range(1, 3600, "deg"),
-             "Of observer: how far a drag over the width of its image turns it. The wheel turns it by a "
-             "pose."},
+             "Of observer: how far a drag over the width of its image turns it, or a drag as long up or "
+             "down. "
+             "The wheel turns it by a pose."},
             {"simulated_turn_deg", turn, &O::simulated_turn_deg, range(0, 720, "deg"),
              "Of observer: standard deviation of the turns that a simulated observer makes by its keys, one "
              "after the other."},
