@@ -62,7 +62,7 @@ PathProbe::PathProbe(const Protocol& protocol, std::span<const Object> objects)
         for (std::size_t material = 0; material < protocol.materials.size(); ++material) {
             if (!covered.empty() && measured)
                 break;
-            const BakeScene scene(object.mesh, protocol.materials[material]);
+            const BakeScene scene(object.mesh, protocol.materials[material], object.appearance);
             if (covered.empty()) {
                 covered = covered_pixels(scene, view, {{0.0}});
                 traced_share_[i] = share_of(covered);

@@ -33,6 +33,8 @@ std::string text_of(const MaterialSettings& material) {
     const MaterialKindRow& row = row_of(material.kind);
     std::string text = fmt::format("kind = {}", row.name);
     for (const std::string_view name : row.keys) {
+        if (name == "base" && !material.is_of_file())
+            continue; // frames describe themselves as they did before the key
         for (const Key& key : protocol_keys().section("material").keys) {
             if (key.rule.name == name)
                 text += fmt::format(", {} = {}", name, text_of(key, material));

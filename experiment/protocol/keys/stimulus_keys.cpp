@@ -241,10 +241,12 @@ std::vector<Key> object() {
          "\"scholar\"; or one of 24 novel shapes with the areas trunk, crest, left and right: \"shape-01\" "
          "to \"shape-24\"."},
         {"mesh", &S::mesh, left_out("see `shipped` and `lut`"),
-         "A PLY, OBJ or STL file of triangles, by its path from the protocol's folder."},
-        {"up", &S::up, one_of(axes), "The axis of the mesh file that points up."},
+         "A PLY, OBJ, STL or glTF file (.gltf, .glb) of triangles, by its path from the protocol's folder. "
+         "See docs/objects.md."},
+        {"up", &S::up, one_of(axes).left_out("\"z\", and \"y\" of glTF"),
+         "The axis of the mesh file that points up."},
         {"scale", &S::scale, range(1e-9, 1e9), "Factor on the coordinates of the mesh file."},
-        {"unit", &S::unit, one_of(units),
+        {"unit", &S::unit, one_of(units).left_out("\"mm\", and \"m\" of glTF"),
          "Unit of the mesh file's coordinates times `scale`. Surface points, maps and the camera are in "
          "millimetres, whatever it is; with \"own\", for a mesh whose unit is unknown, in the file's, and "
          "every export says so."},
@@ -253,6 +255,9 @@ std::vector<Key> object() {
          "belongs to. Lines `# part 1 rim` name parts. Each part is an area, as are the groups of a mesh "
          "file; "
          "beside `areas` both hold, and a triangle may belong to several."},
+        {"parts_by", &S::parts_by, left_out("\"group\", and \"material\" of glTF"),
+         "What of the mesh file divides it into parts, each of which is an area: its groups (`g` and `o` of "
+         "OBJ, the nodes of glTF), or its materials (`usemtl` of OBJ, the materials of glTF)."},
         {"weld_tolerance", &S::weld_tolerance, range(0, 0.01),
          "Vertices of the mesh that are no farther apart than this share of the diagonal of its box are one: "
          "what some programs write for a corner differs by rounding. 0: only those at the very same place."},
@@ -301,7 +306,8 @@ std::vector<Key> material() {
         {"multiple_scattering", &M::multiple_scattering, left_out("false, as frames always were"),
          "Of a rough metal: whether the light counts that leaves by several micro-mirrors, too. Without it "
          "rough metals are too dark: by 4 % at a roughness of 0.13, by 38 % at 0.6."},
-        {"ior", &M::ior, range(1.01, 3), "Index of refraction of the clear surface of a plastic."},
+        {"ior", &M::ior, range(1.01, 3),
+         "Index of refraction of the clear surface of a plastic, and of what is no metal."},
         {"body", &M::body,
          "What `reflectance` is of: of the light that comes out of a plastic, as a colour measured on it is, "
          "or "
@@ -326,6 +332,9 @@ std::vector<Key> material() {
          "Share of red, green and blue light that a matt surface returns, or the body of a plastic; the "
          "colour of "
          "`metallic-roughness`."},
+        {"base", &M::base,
+         "Whose colour it has: `given`, its `reflectance`; or `own`, the colour that the object's file gives "
+         "each place, in place of it. See docs/objects.md."},
     });
 }
 
