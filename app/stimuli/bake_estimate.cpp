@@ -192,6 +192,8 @@ std::string needs_of_person(const BakeEstimate& estimate, const Protocol& protoc
             errors_of(wanted->quality, protocol));
     }
     text += fmt::format("  Quality live: {}.\n", what_live_lacks);
+    if (std::ranges::any_of(protocol.materials, &MaterialSettings::is_of_file))
+        text += "  It shows no pictures on surfaces: objects have the mean colour of their own.\n";
     return text +
            fmt::format(
                "  Times are estimated from small pictures that were traced just now, on {}, if nothing "

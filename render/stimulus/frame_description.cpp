@@ -63,6 +63,8 @@ ImageAttributes describe_stimulus(const Protocol& protocol, std::span<const Obje
         {"overt:camera_vertical_fov_deg", fmt::format("{}", camera.vertical_fov.value)},
         {"overt:light", light.probe},
         {"overt:light_rotation_deg", fmt::format("{}", light.rotation_deg + pose.light.value)}};
+    if (material.is_of_file() && object.appearance)
+        words.emplace_back("overt:surface_sha256", object.appearance_hash);
     if (!pose.object.is_turn())
         words.emplace_back(move_attribute, text_of_move(pose.object));
     return words;

@@ -281,7 +281,7 @@ TEST_CASE("a glTF file that lies about its bytes is refused at the place in its 
              m.json["accessors"][0].erase("bufferView");
              m.json["accessors"][0]["count"] = 2000000000;
          },
-         "no \"bufferView\""},
+         "few bytes"},
         {"replaced elements that fall",
          [](GlbMaker& m) {
              m.json["accessors"][0]["sparse"] = {
@@ -428,7 +428,7 @@ TEST_CASE("a small file that places its mesh a million times over is refused", "
                        maker.json["scenes"][0]["nodes"].push_back(i);
                    }
                }),
-               Catch::Contains("few bytes"));
+               Catch::Contains("place its meshes less often"));
 }
 
 TEST_CASE("a damaged .glb is read or refused", "[unit]") {
@@ -452,5 +452,5 @@ TEST_CASE("a damaged .glb is read or refused", "[unit]") {
         }
     });
     CHECK(read > 0);
-    CHECK(refused > 100);
+    CHECK(refused > 50);
 }
