@@ -27,6 +27,9 @@ class MaterialReader {
         look.name = name;
         look.metallic = 1.0f;
         look.roughness = 1.0f;
+        if (has_extension(of, "KHR_materials_pbrSpecularGlossiness") && !of.find("pbrMetallicRoughness"))
+            of.fail("is written in the old form of specular and glossiness; convert it to metallic-roughness "
+                    "(gltf-transform metalrough does that).");
         bool has_metallic = false;
         if (const std::optional<GltfValue> pbr = of.find("pbrMetallicRoughness")) {
             if (const std::optional<GltfValue> colour = pbr->find("baseColorFactor")) {

@@ -345,6 +345,12 @@ TEST_CASE("a glTF file that lies about its bytes is refused at the place in its 
          "without compression"},
         {"a glTF of old", [](GlbMaker& m) { m.json["asset"]["version"] = "1.0"; }, "/asset/version"},
         {"a list that is a text", [](GlbMaker& m) { m.json["nodes"] = "all"; }, "/nodes: a list"},
+        {"a material of old",
+         [](GlbMaker& m) {
+             m.json["materials"] = {
+                 {{"extensions", {{"KHR_materials_pbrSpecularGlossiness", Json::object()}}}}};
+         },
+         "/materials/0: is written in the old form"},
         {"a colour of three numbers",
          [](GlbMaker& m) {
              m.json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1}}}}}};
