@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "experiment/base/counted.h"
 #include "experiment/base/error.h"
 #include "experiment/base/safe_text.h"
 #include "experiment/scene/files/gltf_accessor.h"
@@ -310,13 +311,12 @@ class GltfReader {
             return entries ? entries->size() : 0;
         };
         if (left_primitives_ > 0)
-            remarks.push_back(fmt::format("{} of its primitives are points or lines and are left aside.",
-                                          left_primitives_));
+            remarks.push_back(
+                fmt::format("Left aside: {} of points or lines.", counted(left_primitives_, "primitive")));
         if (const std::size_t animations = count_of(root_, "animations"))
             remarks.push_back(
-                fmt::format("The file's {} animations are not played; the protocol's [[motion]] moves "
-                            "the object.",
-                            animations));
+                fmt::format("Not played: {} of the file; the protocol's [[motion]] moves the object.",
+                            counted(animations, "animation")));
         const std::size_t cameras = count_of(root_, "cameras");
         std::size_t lights = 0;
         if (const std::optional<GltfValue> extensions = root_.find("extensions"))
@@ -324,9 +324,8 @@ class GltfReader {
                 lights = count_of(*punctual, "lights");
         if (cameras + lights > 0)
             remarks.push_back(
-                fmt::format("The file's {} cameras and {} lights are left aside; [[view]] and [[light]] "
-                            "say where they stand.",
-                            cameras, lights));
+                fmt::format("Left aside: {} and {} of the file; [[view]] and [[light]] say where they stand.",
+                            counted(cameras, "camera"), counted(lights, "light")));
         if (has_variants_)
             remarks.emplace_back("The file has variants of its materials; the first is shown.");
         if (const std::optional<GltfValue> extras = root_.at("asset").find("extras")) {
