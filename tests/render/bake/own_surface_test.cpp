@@ -17,7 +17,7 @@ std::shared_ptr<SurfaceAppearance> of_one_look(glm::vec3 colour, float metallic,
     return look;
 }
 
-glm::vec3 random_direction(RandomStream& random) {
+glm::vec3 direction_above(RandomStream& random) {
     const double z = random.uniform(0.05, 1.0), azimuth = random.uniform(0.0, 6.28),
                  s = std::sqrt(1.0 - z * z);
     return {static_cast<float>(s * std::cos(azimuth)), static_cast<float>(s * std::sin(azimuth)),
@@ -30,8 +30,8 @@ double difference_of(const OwnSurface& own, const LayeredSurface& layered) {
     const OwnPoint point = own.point(0, {0.3f, 0.3f});
     double largest = 0.0;
     for (int pair = 0; pair < 300; ++pair) {
-        const glm::vec3 up(0.0f, 0.0f, 1.0f), eye = random_direction(random),
-                                              light = random_direction(random);
+        const glm::vec3 up(0.0f, 0.0f, 1.0f), eye = direction_above(random),
+                                              light = direction_above(random);
         const SurfaceEvent event{eye, up, &point};
         const Bins a = own.value(event, light), b = layered.value({eye, up}, light);
         for (std::size_t bin = 0; bin < spectral_bins; ++bin) {
