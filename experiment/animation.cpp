@@ -78,7 +78,7 @@ bool Animation::only_turns() const {
 int Animation::shown_frame_count() const { return static_cast<int>(std::lround(duration_s * frame_rate_hz)); }
 
 int Animation::steps_per_period() const {
-    if (kind == MotionKind::observer)
+    if (!has_plan())
         return frame_count;
     const int intervals = std::max(frame_count - 1, 1);
     return playback == Playback::cycle ? intervals : 2 * intervals;
@@ -90,7 +90,7 @@ AnimationFrameIndex Animation::frame_at_step(int step) const {
     const int in_period = step % steps_per_period();
     if (frame_count == 1)
         return {0};
-    if (kind == MotionKind::observer)
+    if (!has_plan())
         return {in_period};
     // The closing frame of a cycle is the first of the next.
     return {in_period <= intervals ? in_period : 2 * intervals - in_period};
@@ -124,7 +124,7 @@ PoseTable distinct_poses(const Animation& motion) {
 std::vector<double> seconds_of_poses(const Animation& animation, const PoseTable& poses, int motion) {
     OVERT_EXPECTS(poses.frames_of(motion).size() >= static_cast<std::size_t>(animation.frame_count));
     std::vector<double> seconds(poses.angles.size(), 0.0);
-    if (animation.kind == MotionKind::observer) {
+    if (!animation.has_plan()) {
         for (const PoseIndex pose : poses.frames_of(motion))
             seconds[static_cast<std::size_t>(pose.value)] += animation.duration_s / animation.frame_count;
         return seconds;
@@ -148,7 +148,7 @@ ShownPictures shown_pictures(const Animation& animation, std::span<const PoseInd
         shown.poses[static_cast<std::size_t>(shown.of_frame.back())] =
             pose_of_frame[static_cast<std::size_t>(frame)];
     }
-    if (animation.kind == MotionKind::observer) {
+    if (!animation.has_plan()) {
         for (const int picture : shown.of_frame)
             shown.seconds[static_cast<std::size_t>(picture)] += animation.duration_s / animation.frame_count;
         return shown;

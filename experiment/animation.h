@@ -50,6 +50,11 @@ template <> inline constexpr auto names_of<MotionEase> = enum_names<MotionEase>(
 enum class BetweenKeys : std::uint8_t { step, linear };
 template <> inline constexpr auto names_of<BetweenKeys> = enum_names<BetweenKeys>("step", "linear");
 
+/// Which of the recorded trials a trial shows again: one in which the same stimulus stood in the same slot,
+/// or the one with its own number.
+enum class CourseMatch : std::uint8_t { stimulus, trial };
+template <> inline constexpr auto names_of<CourseMatch> = enum_names<CourseMatch>("stimulus", "trial");
+
 /// How object and light stand in a frame. With the camera of a view it is all that a picture of an object in
 /// a material and a light depends on.
 struct Pose {
@@ -87,6 +92,8 @@ struct Animation {
     double approach = 0.0;                     ///< of `approach`: towards -y, in the unit of the mesh
     std::filesystem::path keyframes;           ///< of `keyframes`: a table
     BetweenKeys between = BetweenKeys::linear; ///< its rows
+    std::vector<std::string> recorded;         ///< of `recorded`: tables
+    CourseMatch matched_by = CourseMatch::stimulus;
     /// How object and light stand in each frame, where it does not follow from the above: by a table, or as
     /// it was recorded. Else empty.
     std::vector<Pose> given;
@@ -104,6 +111,9 @@ struct Animation {
     /// Whether anything does.
     bool moves() const;
 
+    /// See MotionLaw::has_plan.
+    bool has_plan() const { return law_of(kind).has_plan; }
+
     /// The poses that differ, in order of first appearance: what a frame store has to hold of it.
     std::vector<Pose> pictures() const;
 
@@ -119,7 +129,7 @@ struct Animation {
     /// How many frames one presentation shows: duration times rate, to the nearest whole frame.
     int shown_frame_count() const;
 
-    /// Which frame is the `step`-th shown (step >= 0). Of `observer` nobody knows beforehand: all in turn.
+    /// Which frame is the `step`-th shown (step >= 0). Without a plan nobody knows beforehand: all in turn.
     AnimationFrameIndex frame_at_step(int step) const;
 
     /// How many steps until the order of frames repeats.
@@ -151,8 +161,8 @@ struct PoseTable {
 /// Of a protocol with one motion.
 PoseTable distinct_poses(const Animation& motion);
 
-/// How long one presentation of a motion shows each pose as planned, in seconds; by PoseIndex. What the
-/// observer turns is as long in each pose as in any other.
+/// How long one presentation of a motion shows each pose as planned, in seconds; by PoseIndex. What has no
+/// plan is as long in each pose as in any other.
 std::vector<double> seconds_of_poses(const Animation& animation, const PoseTable& poses, int motion);
 
 /// The pictures of a motion: which pose each shows, and how long a presentation shows it as planned.

@@ -24,6 +24,7 @@ enum class MotionKind : std::uint8_t {
     orbit,
     approach,
     keyframes,
+    recorded,
 };
 
 /// A row is all that the rest of the program knows of a kind.
@@ -54,13 +55,17 @@ inline constexpr auto kinds_of<MotionKind> = std::to_array<MotionKindRow>({
     {"orbit", "the camera goes round object and light, which keep to one another", {"turns"}},
     {"approach", "the object comes nearer, and goes back", {"approach_mm"}},
     {"keyframes", "it goes from place to place, by a table", {"keyframes", "between"}},
+    {"recorded",
+     "it turns as observers of earlier sessions turned it, refresh by refresh",
+     {"recorded", "matched_by"}},
 });
 
 static_assert(kind_called<MotionKind>("turn") == MotionKind::turn &&
               kind_called<MotionKind>("still") == MotionKind::still &&
               kind_called<MotionKind>("observer") == MotionKind::observer &&
               kind_called<MotionKind>("orbit") == MotionKind::orbit &&
-              kind_called<MotionKind>("keyframes") == MotionKind::keyframes);
+              kind_called<MotionKind>("keyframes") == MotionKind::keyframes &&
+              kind_called<MotionKind>("recorded") == MotionKind::recorded);
 
 struct Animation;
 struct AnimationFrameIndex;
@@ -73,6 +78,9 @@ struct MotionLaw {
     Pose (*pose_of)(const Animation& motion, AnimationFrameIndex frame);
     /// Whether it moves anything at all.
     bool moves = true;
+    /// Whether each presentation goes through the frames in the same order. Else each trial has its own, and
+    /// what was shown is known by the ledger alone.
+    bool has_plan = true;
 };
 
 template <MotionKind kind> const MotionLaw& motion_law();

@@ -6,8 +6,9 @@ namespace overt {
 
 template <> const MotionLaw& motion_law<MotionKind::observer>() {
     static constexpr MotionLaw law{.pose_of = [](const Animation& motion, AnimationFrameIndex frame) -> Pose {
-        return {{motion.by_observer.angle_of(frame.value)}, {}};
-    }};
+                                       return {motion.by_observer.pose_of(frame.value), {}};
+                                   },
+                                   .has_plan = false};
     return law;
 }
 

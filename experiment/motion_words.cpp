@@ -45,6 +45,8 @@ std::string way_of(const Animation& motion) {
                                                   : fmt::format("nearer by {}", motion.approach);
     case MotionKind::keyframes:
         return "from place to place by a table";
+    case MotionKind::recorded:
+        return "as observers of earlier sessions turned it";
     }
     return {};
 }

@@ -200,6 +200,7 @@ void print_session(const SessionRecord& record) {
         fmt::print("\nThe session was not closed in order: it is running, or was killed.\n");
     print_faults(record);
     print_timing(timing_report(record));
+    print_input_delays(input_delays(record));
 }
 
 void write_plot(const SessionRecord& record, const std::filesystem::path& file) {
@@ -276,6 +277,7 @@ int show_each(const std::vector<std::filesystem::path>& sessions, const ShowOpti
         } else if (options.json) {
             nlohmann::ordered_json json = session_json(record);
             json["timing"] = to_json(timing_report(record));
+            json["input_delays"] = to_json(input_delays(record));
             list.push_back(std::move(json));
         } else {
             fmt::print("{}", session == sessions.front() ? "" : "\n");

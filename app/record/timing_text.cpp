@@ -94,6 +94,25 @@ void print_timing(const TimingReport& report) {
     print_histogram(report);
 }
 
+void print_input_delays(const std::optional<InputDelays>& delays) {
+    if (delays)
+        fmt::print(
+            "\nfrom an input to the refresh that shows it, without the display's latency: {:.1f} ms in "
+            "the median, 95 % within {:.1f} ms, at the longest {:.1f} ms, of {} that moved what was "
+            "shown\n",
+            1e3 * delays->median_s, 1e3 * delays->most_s, 1e3 * delays->longest_s,
+            counted(delays->count, "input"));
+}
+
+nlohmann::ordered_json to_json(const std::optional<InputDelays>& delays) {
+    if (!delays)
+        return {};
+    return {{"inputs", delays->count},
+            {"median_ms", 1e3 * delays->median_s},
+            {"within_95_percent_ms", 1e3 * delays->most_s},
+            {"longest_ms", 1e3 * delays->longest_s}};
+}
+
 namespace {
 
 /// Of times that nothing proves no number is claimed.

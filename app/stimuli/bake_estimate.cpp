@@ -62,7 +62,7 @@ PathProbe::PathProbe(const Protocol& protocol, std::span<const Object> objects)
         for (std::size_t material = 0; material < protocol.materials.size(); ++material) {
             if (!covered.empty() && measured)
                 break;
-            const BakeScene scene(object.mesh, protocol.materials[material]);
+            const BakeScene scene(object.mesh, protocol.materials[material], object.appearance);
             if (covered.empty()) {
                 covered = covered_pixels(scene, view, {{0.0}});
                 traced_share_[i] = share_of(covered);
@@ -192,6 +192,8 @@ std::string needs_of_person(const BakeEstimate& estimate, const Protocol& protoc
             errors_of(wanted->quality, protocol));
     }
     text += fmt::format("  Quality live: {}.\n", what_live_lacks);
+    if (std::ranges::any_of(protocol.materials, &MaterialSettings::is_of_file))
+        text += "  It shows no pictures on surfaces: objects have the mean colour of their own.\n";
     return text +
            fmt::format(
                "  Times are estimated from small pictures that were traced just now, on {}, if nothing "

@@ -109,7 +109,10 @@ bool ButtonBoxPanel::next_change(Change& into) noexcept {
     return false;
 }
 
+/// What a knob did stands in the record with what it moved.
 void ButtonBoxPanel::keep(const Change& change) noexcept {
+    if (change.change.is_turn())
+        return;
     if (changes_.size() < changes_.capacity())
         changes_.push_back(change);
     else
@@ -137,6 +140,8 @@ std::optional<ResponsePress> ButtonBoxPanel::next_press() noexcept {
 /// What an observer's button did since an answer is awaited.
 void ButtonBoxPanel::note_input(const Change& change) noexcept {
     const Hand& hand = hands_[change.hand];
+    if (change.change.is_turn())
+        return note_turn(change);
     const int button = change.change.button;
     if (awaited_ != Awaited::answer || hand.in_hand.is_operators || change.change.at < since_ || button < 0 ||
         button >= most_buttons || input_count_ == inputs_.size())
@@ -147,6 +152,24 @@ void ButtonBoxPanel::note_input(const Change& change) noexcept {
                                .uncertainty = change.change.uncertainty,
                                .device = ShortName(hand.in_hand.id),
                                .key = hand.names[static_cast<std::size_t>(button)]};
+}
+
+/// Each of its axes by itself.
+void ButtonBoxPanel::note_turn(const Change& change) noexcept {
+    const Hand& hand = hands_[change.hand];
+    if (awaited_ != Awaited::answer || hand.in_hand.is_operators || change.change.at < since_)
+        return;
+    ObserverInput input{.at = change.change.at,
+                        .uncertainty = change.change.uncertainty,
+                        .device = ShortName(hand.in_hand.id)};
+    const auto add = [&](ObserverInput::Kind kind, int steps) {
+        input.kind = kind;
+        input.steps = steps;
+        if (steps != 0 && input_count_ < inputs_.size())
+            inputs_[input_count_++] = input;
+    };
+    add(ObserverInput::Kind::dial, change.change.turn_steps);
+    add(ObserverInput::Kind::tilt, change.change.tilt_steps);
 }
 
 std::optional<ObserverInput> ButtonBoxPanel::next_input() noexcept {
@@ -237,7 +260,7 @@ void ButtonBoxPanel::write_down(SessionLog& log) {
     }
     for (Change change; next_change(change);) {
         keep(change);
-        if (recorded_.size() < recorded_.capacity())
+        if (!change.change.is_turn() && recorded_.size() < recorded_.capacity())
             recorded_.push_back(change);
     }
     if (!changes_.empty()) {

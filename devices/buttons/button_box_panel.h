@@ -50,7 +50,7 @@ class ButtonBoxPanel final : public ResponsePanel {
     std::optional<SetupKey> next_setup_key() override {
         return answering_ ? answering_->next_setup_key() : std::nullopt;
     }
-    /// Buttons of the observers' boxes by the names on them, and what the other panel tells.
+    /// Buttons of the observers' boxes by the names on them, their knobs, and what the other panel tells.
     std::optional<ObserverInput> next_input() noexcept override;
     std::optional<ResponsePress> poll() noexcept override;
     bool has_keyboard() const noexcept override { return !answering_ || answering_->has_keyboard(); }
@@ -78,6 +78,7 @@ class ButtonBoxPanel final : public ResponsePanel {
     bool next_change(Change& into) noexcept;
     void keep(const Change& change) noexcept;
     void note_input(const Change& change) noexcept;
+    void note_turn(const Change& change) noexcept;
     std::optional<ResponsePress> next_press() noexcept;
     std::optional<ResponsePress> press_of(const Hand& hand, const ButtonChange& change) noexcept;
     void write_news(SessionLog& log, Hand& hand);

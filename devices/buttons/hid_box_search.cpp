@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "devices/buttons/hid_button_box.h"
+#include "devices/buttons/hid_knob.h"
 #include "devices/buttons/iolab_box.h"
 #include "devices/hid/hid_driver.h"
 #include "experiment/base/error.h"
@@ -50,6 +51,11 @@ std::vector<std::string> hid_boxes_found() {
                 const HidDescriptor descriptor = parse_report_descriptor(hid_descriptor_of(device.path));
                 if (is_iolab(device))
                     lines.push_back(fmt::format("{}: kind iolab", describe(device)));
+                else if (is_spacemouse(device))
+                    lines.push_back(fmt::format("{}: kind spacemouse", describe(device)));
+                else if (is_dial(descriptor))
+                    lines.push_back(fmt::format("{}: kind dial, address {:04x}:{:04x}", describe(device),
+                                                device.vendor_id, device.product_id));
                 else if (HidButtons(descriptor).has_any())
                     lines.push_back(fmt::format("{}: kind hid, address {:04x}:{:04x}", describe(device),
                                                 device.vendor_id, device.product_id));

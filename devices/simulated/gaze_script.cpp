@@ -190,8 +190,9 @@ PursuedTurn::PursuedTurn(const ObservedScene& scene, int motion)
     const Animation& animation = scene.animation_of(motion);
     for (int step = 0; step < animation.steps_per_period(); ++step)
         angles_.push_back(animation.object_in(animation.frame_at_step(step)));
-    if (animation.kind == MotionKind::observer)
-        only_step_ = animation.by_observer.nearest(animation.angle);
+    if (!animation.has_plan())
+        only_step_ =
+            animation.kind == MotionKind::observer ? animation.by_observer.nearest(animation.angle) : 0;
 }
 
 std::vector<PursuedTurn> turns_of(const ObservedScene& scene) {

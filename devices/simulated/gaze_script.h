@@ -52,7 +52,7 @@ class PursuedTurn {
     SessionDuration frame_period_;
     int steps_ = 0; ///< shown in one presentation
     int motion_ = 0;
-    std::optional<int> only_step_; ///< of what the observer turns
+    std::optional<int> only_step_; ///< of what has no plan: as it stands before it is shown
 };
 
 /// How an object was turned that the observer turns: the eye goes with what is lit.
@@ -81,7 +81,7 @@ struct ObservedPresentation {
     ScreenGeometry screen;                ///< with the image where it is shown
     GazePlan plan;
     const PursuedTurn* turn = nullptr; ///< with `targets`, never null
-    const SeenTurn* seen = nullptr;    ///< of what the observer turns; else null
+    const SeenTurn* seen = nullptr;    ///< of what has no plan: as it stands before it is shown; else null
     int slot = 0;                      ///< index into the protocol's
     double weight = 1.0;               ///< how often a fixation is on it, beside the others' weights
 };

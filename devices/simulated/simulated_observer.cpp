@@ -73,7 +73,7 @@ void SimulatedObserver::presentation_begins(const Trial& trial, int show) noexce
         GazePlan plan = gaze_plan(scene_, seed_, trial.task, stimulus);
         favour_area(plan, favour);
         const Motion& motion = motions_[static_cast<std::size_t>(stimulus.motion)];
-        const bool is_turned = scene_.animation_of(stimulus.motion).kind == MotionKind::observer;
+        const bool is_turned = !scene_.animation_of(stimulus.motion).has_plan();
         FlippedTurn* const seen =
             is_turned && i < presentation.turned.size() ? &presentation.turned[i] : nullptr;
         if (seen) {

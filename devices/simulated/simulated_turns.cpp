@@ -25,8 +25,9 @@ void SimulatedTurns::clear() noexcept {
 }
 
 void SimulatedTurns::plan(std::uint64_t seed, const Trial& trial, const TurningOffer& offer) {
-    RandomStream random(seed, fmt::format("turns {} {}", offer.show, offer.place),
-                        static_cast<std::uint64_t>(trial.index));
+    RandomStream random(
+        seed, fmt::format("{} {} {}", offer.is_elevation ? "elevations" : "turns", offer.show, offer.place),
+        static_cast<std::uint64_t>(trial.index));
     planned_.erase(planned_.begin(), planned_.begin() + static_cast<std::ptrdiff_t>(next_));
     next_ = 0;
     ObserverInput input;

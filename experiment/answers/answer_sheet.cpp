@@ -161,6 +161,7 @@ bool AnswerSheet::take(const ObserverInput& input, const AnswerPlace& place) noe
     case InputKind::text:
     case InputKind::wheel:
     case InputKind::dial:
+    case InputKind::tilt:
         has_changed = let_answer(taken, place);
         break;
     }

@@ -35,6 +35,8 @@ class MatchAnswering final : public Answering {
             return by_keys ? take_key(input.key.view()) : Effect::none;
         case Kind::dial:
             return by_keys ? move(0, static_cast<int>(std::lround(input.steps))) : Effect::none;
+        case Kind::tilt:
+            return by_keys ? move(1, static_cast<int>(std::lround(input.steps))) : Effect::none;
         case Kind::wheel:
             return settings().with != AnsweredWith::keys ? move(0, static_cast<int>(std::lround(input.steps)))
                                                          : Effect::none;

@@ -67,6 +67,7 @@ std::optional<Protocol> read_text(std::string_view text, const std::filesystem::
         check_answers(examination);
         check_matches(examination);
         check_turning(examination);
+        check_recorded_motions(examination);
         check_slots(examination);
         check_points(examination);
         if (diagnostics.error_count() == errors_before + errors_in_tables(protocol, diagnostics))
@@ -83,6 +84,8 @@ std::optional<Protocol> read_text(std::string_view text, const std::filesystem::
             check_slot_memory(examination);
         if (diagnostics.error_count() == errors_before)
             check_schedule(examination);
+        if (diagnostics.error_count() == errors_before)
+            check_yoked_trials(examination);
     }
     if (diagnostics.error_count() > errors_before)
         return std::nullopt;
@@ -91,8 +94,10 @@ std::optional<Protocol> read_text(std::string_view text, const std::filesystem::
 
 /// The whole of a file, or nothing with the reason.
 std::optional<std::string> text_of(const std::filesystem::path& file, std::string& why_not) {
-    // Far more than anyone writes by hand: someone gave a mesh or a picture for the protocol.
-    constexpr std::size_t largest_bytes = 1 << 20;
+    // Far more than anyone writes by hand: someone gave a mesh or a picture for the protocol. Tables are made
+    // by programs, and one of how objects were turned has a row for each change.
+    const bool is_table = file.extension() == ".tsv" || file.extension() == ".csv";
+    const std::size_t largest_mib = is_table ? 16 : 1, largest_bytes = largest_mib << 20;
     std::error_code ignored;
     if (std::filesystem::is_directory(file, ignored)) {
         why_not = "this is a folder, not a protocol file";
@@ -101,8 +106,9 @@ std::optional<std::string> text_of(const std::filesystem::path& file, std::strin
     int error = 0;
     std::optional<std::string> text = read_whole_file(file, largest_bytes, error);
     if (!text)
-        why_not = error == EFBIG ? "larger than 1 MiB: this is no protocol file"
-                                 : fmt::format("cannot be read: {}", std::strerror(error));
+        why_not = error == EFBIG && is_table ? fmt::format("larger than {} MiB", largest_mib)
+                  : error == EFBIG           ? "larger than 1 MiB: this is no protocol file"
+                                             : fmt::format("cannot be read: {}", std::strerror(error));
     return text;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -21,6 +22,24 @@ namespace overt {
 
 namespace {
 
+std::vector<AnimationFacts::Recording> recordings_in(const MotionSettings& motion) {
+    std::vector<AnimationFacts::Recording> recordings;
+    for (const std::string_view whose : whose_courses(motion.courses)) {
+        AnimationFacts::Recording& recording =
+            recordings.emplace_back(std::string(whose), 0, std::numeric_limits<double>::infinity(), 0.0);
+        std::set<int> trials;
+        for (const RecordedCourse& course : motion.courses) {
+            if (course.whose != whose)
+                continue;
+            trials.insert(course.trial);
+            recording.shortest_s = std::min(recording.shortest_s, course.lasts_s);
+            recording.longest_s = std::max(recording.longest_s, course.lasts_s);
+        }
+        recording.trials = static_cast<int>(trials.size());
+    }
+    return recordings;
+}
+
 AnimationFacts animation_facts(const Protocol& protocol, const MotionSettings& animation) {
     const PageCycle cycle = make_page_cycle(animation, protocol.display.refresh_hz);
     AnimationFacts facts;
@@ -33,6 +52,7 @@ AnimationFacts animation_facts(const Protocol& protocol, const MotionSettings& a
     facts.refreshes = cycle.total_refreshes;
     facts.duration_s = cycle.total_refreshes / protocol.display.refresh_hz;
     facts.periods = static_cast<double>(facts.shown_frames) / animation.steps_per_period();
+    facts.recordings = recordings_in(animation);
     return facts;
 }
 

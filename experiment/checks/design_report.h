@@ -37,6 +37,13 @@ struct AnimationFacts {
     int refreshes = 0; ///< of one presentation
     double duration_s = 0.0;
     double periods = 0.0; ///< swings to and fro in one presentation
+    /// What a motion of kind "recorded" shows again.
+    struct Recording {
+        std::string whose;
+        int trials = 0;
+        double shortest_s = 0.0, longest_s = 0.0; ///< of its shows
+    };
+    std::vector<Recording> recordings = {};
 };
 
 struct VisualAngles {

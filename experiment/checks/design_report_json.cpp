@@ -105,6 +105,12 @@ Json rotations_json(const DesignReport& report) {
 }
 
 Json motion_json(const AnimationFacts& motion) {
+    Json recordings = Json::array();
+    for (const AnimationFacts::Recording& one : motion.recordings)
+        recordings.push_back({{"whose", one.whose},
+                              {"trials", one.trials},
+                              {"shortest_s", one.shortest_s},
+                              {"longest_s", one.longest_s}});
     return {{"id", motion.id},
             {"kind", name_of(motion.motion.kind)},
             {"frames", motion.frames},
@@ -117,7 +123,8 @@ Json motion_json(const AnimationFacts& motion) {
             {"amplitude_deg", motion.motion.amplitude.value},
             {"angle_deg", motion.motion.angle.value},
             {"light_amplitude_deg", motion.motion.light_amplitude.value},
-            {"playback", name_of(motion.motion.playback)}};
+            {"playback", name_of(motion.motion.playback)},
+            {"recordings", recordings}};
 }
 
 } // namespace

@@ -146,14 +146,22 @@ std::string_view swings_of(const Animation& motion) {
 std::string movement_of(const Animation& motion) {
     if (motion.kind == MotionKind::observer) {
         const ObserverTurn& by = motion.by_observer;
-        const std::string with =
-            by.with == TurnedWith::mouse ? "with the mouse"
-            : by.with == TurnedWith::keys
-                ? fmt::format("with {} and {}", by.keys.front(), by.keys.back())
-                : fmt::format("with the mouse, {} and {}", by.keys.front(), by.keys.back());
-        return fmt::format("turned by the observer {}, {} deg from pose to pose, {}", with, by.step.value,
+        const std::string keys = fmt::format("{}", fmt::join(by.keys, ", "));
+        const std::string with = by.with == TurnedWith::mouse ? "with the mouse"
+                                 : by.with == TurnedWith::keys
+                                     ? "with the keys " + keys
+                                     : fmt::format("with the mouse and the keys {}", keys);
+        const std::string elevations =
+            by.has_elevations()
+                ? fmt::format(
+                      "; tilted from {} to {} deg, {} deg from pose to pose: {} turns at {} elevations",
+                      by.elevation_from.value, by.elevation_to.value, by.elevation_step.value,
+                      by.turn_count(), by.elevation_count())
+                : std::string();
+        return fmt::format("turned by the observer {}, {} deg from pose to pose, {}{}", with, by.step.value,
                            by.is_whole() ? std::string("all round")
-                                         : fmt::format("from {} to {} deg", by.from.value, by.to.value));
+                                         : fmt::format("from {} to {} deg", by.from.value, by.to.value),
+                           elevations);
     }
     std::string words = motion.kind == MotionKind::still ? fmt::format("still at {} deg", motion.angle.value)
                                                          : way_of(motion);
@@ -168,6 +176,19 @@ std::string movement_of(const Animation& motion) {
     return words;
 }
 
+/// What a motion shows again: "courses of P01 session 1 (20 trials, 3.1 … 8.0 s) and …".
+std::string recordings_of(const AnimationFacts& animation) {
+    std::vector<std::string> recordings;
+    for (const auto& one : animation.recordings)
+        recordings.push_back(fmt::format("{} ({}, {:.3f} … {:.3f} s)", one.whose,
+                                         counted(one.trials, "trial"), one.shortest_s, one.longest_s));
+    return fmt::format("shown again: {}; {}{}", fmt::join(recordings, ", "),
+                       animation.motion.matched_by == CourseMatch::trial
+                           ? "each trial that of its number"
+                           : "each trial one with the same stimulus in the same slot",
+                       recordings.size() > 1 ? "; observers have them in turn, by their numbers" : "");
+}
+
 void add_motion(std::string& text, const DesignReport& report, const AnimationFacts& animation) {
     const bool is_one_of_several = report.motions.size() > 1;
     const bool moves = animation.distinct_poses > 1 || animation.motion.moves();
@@ -175,7 +196,8 @@ void add_motion(std::string& text, const DesignReport& report, const AnimationFa
               {fmt::format("{}{} ({}), {}, {}", is_one_of_several ? animation.id + ": " : "",
                            counted(animation.frames, "frame"), name_of(animation.motion.playback),
                            counted(animation.distinct_poses, "distinct pose"), movement_of(animation.motion)),
-               animation.motion.kind == MotionKind::observer
+               animation.motion.kind == MotionKind::recorded ? recordings_of(animation)
+               : animation.motion.kind == MotionKind::observer
                    ? fmt::format("shown: {:.3f} s, in the poses that it is turned to", animation.duration_s)
                : moves ? fmt::format("shown: {} at {:.6g} Hz = {:.3f} s = {:.4g} {}",
                                      counted(animation.shown_frames, "frame"),

@@ -28,6 +28,10 @@ bool says(const std::vector<ButtonMeaning>& meanings, ResponsePress::Key key) {
     return std::ranges::find(meanings, key, &ButtonMeaning::key) != meanings.end();
 }
 
+/// Keys of [[button_box]] that are of knobs.
+constexpr std::string_view keys_of_knobs[] = {"steps_per_count", "full_turn_steps_s", "full_tilt_steps_s",
+                                              "dead_zone"};
+
 /// Gives what the buttons mean, as far as that can be read.
 std::vector<ButtonMeaning> check_button_box(ProtocolExamination& examination, std::size_t index) {
     const Protocol& protocol = examination.protocol;
@@ -53,6 +57,14 @@ std::vector<ButtonMeaning> check_button_box(ProtocolExamination& examination, st
     if (!kind.needs_address.empty() && box.address.empty())
         examination.error({path("kind")}, fmt::format("a box of kind {} needs its \"address\"", kind.name),
                           std::string(kind.needs_address));
+    for (const std::string_view key : keys_of_knobs)
+        if (examination.is_written(path(key)) && !kind.has_key(key))
+            examination.error({path(key), path("kind")},
+                              fmt::format("\"{}\" says nothing of a box of kind {}", key, kind.name),
+                              "leave it out");
+    if (box.is_operators() && !kind.keys.front().empty())
+        examination.error({path("used_by")}, "a knob is the observer's: it answers, and decides nothing",
+                          "leave it out");
     if (kind.is_read_by_display_box) {
         if (!box.address.empty())
             examination.error({path("address")},

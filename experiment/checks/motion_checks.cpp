@@ -10,9 +10,9 @@ namespace overt {
 namespace {
 
 /// Keys of [[motion]] that are of some kinds alone.
-constexpr std::string_view keys_of_kinds[] = {"amplitude_deg", "turns",     "axis",       "pivot",
-                                              "rest_share",    "ease",      "angles_deg", "waves",
-                                              "approach_mm",   "keyframes", "between"};
+constexpr std::string_view keys_of_kinds[] = {
+    "amplitude_deg", "turns",       "axis",      "pivot",   "rest_share", "ease",      "angles_deg",
+    "waves",         "approach_mm", "keyframes", "between", "recorded",   "matched_by"};
 
 class MotionKindChecks {
   public:

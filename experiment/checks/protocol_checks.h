@@ -59,6 +59,10 @@ void check_matches(ProtocolExamination& examination);
 void check_match_levels(ProtocolExamination& examination);
 /// Objects that the observer turns.
 void check_turning(ProtocolExamination& examination);
+/// Motions that show again how observers of earlier sessions turned objects.
+void check_recorded_motions(ProtocolExamination& examination);
+/// Whether each trial finds what it is to show again. Of a protocol that is sound otherwise.
+void check_yoked_trials(ProtocolExamination& examination);
 /// Places on the screen, and in which of them each task shows its stimuli.
 void check_slots(ProtocolExamination& examination);
 /// Lists of places on surfaces, and probes there; after check_slots(), before trials are put together.

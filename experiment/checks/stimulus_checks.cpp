@@ -302,6 +302,12 @@ void check_materials(ProtocolExamination& examination) {
                 {entry_path("material", i, "metal")}, fmt::format("there is no metal \"{}\"", metal),
                 "known are \"Au\" and \"Ag\"; for another give a table, a file that ends in .csv");
         }
+        if (const std::string path = entry_path("material", i, "reflectance");
+            materials[i].base == MaterialBase::own && row_of(materials[i].kind).has_key("base") &&
+            examination.is_written(path))
+            examination.warning({path, entry_path("material", i, "base")},
+                                "\"reflectance\" has no effect on a material with base = \"own\"",
+                                "its colour is that of the object's file");
         for (const std::string_view key : keys) {
             const std::string path = entry_path("material", i, key), kind = entry_path("material", i, "kind");
             if (!row_of(materials[i].kind).has_key(key) && examination.is_written(path)) {

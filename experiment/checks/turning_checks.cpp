@@ -13,9 +13,19 @@ namespace overt {
 namespace {
 
 /// Keys of [[motion]] that only what the observer turns has, and those that it has not.
-constexpr std::string_view turning_keys[] = {
-    "step_deg", "from_deg",           "to_deg",           "start", "with", "keys", "speed_deg_s",
-    "drag_deg", "simulated_turn_deg", "simulated_pause_s"};
+constexpr std::string_view turning_keys[] = {"step_deg",
+                                             "from_deg",
+                                             "to_deg",
+                                             "start",
+                                             "with",
+                                             "keys",
+                                             "speed_deg_s",
+                                             "drag_deg",
+                                             "simulated_turn_deg",
+                                             "simulated_pause_s",
+                                             "elevation_step_deg",
+                                             "elevation_from_deg",
+                                             "elevation_to_deg"};
 constexpr std::string_view idle_keys[] = {"frame_count", "amplitude_deg", "light_amplitude_deg",
                                           "light_turns", "playback"};
 
@@ -37,6 +47,7 @@ class TurningChecks {
                 error({name}, fmt::format("\"{}\" says nothing of what the observer turns", name),
                       "leave it out; step_deg, from_deg and to_deg say which poses there are");
         check_range();
+        check_elevations();
         check_keys();
         for (std::size_t task = 0; task < examination_.protocol.tasks.size(); ++task)
             check_task(task);
@@ -74,9 +85,47 @@ class TurningChecks {
                                              motion_.angle.value, by().from.value, by().to.value));
     }
 
+    void check_elevations() {
+        if (!by().has_elevations()) {
+            for (const std::string_view name : {"elevation_from_deg", "elevation_to_deg"})
+                if (examination_.is_written(key(name)))
+                    error({name},
+                          fmt::format("\"{}\" says how far it is tilted, and nothing in which steps", name),
+                          "write elevation_step_deg, or leave it out");
+            return;
+        }
+        const double range_deg = by().elevation_to.value - by().elevation_from.value;
+        const double steps = range_deg / by().elevation_step.value;
+        if (range_deg <= 0.0)
+            error({"elevation_to_deg", "elevation_from_deg", "elevation_step_deg"},
+                  fmt::format("it can be tilted from {:g} to {:g} deg", by().elevation_from.value,
+                              by().elevation_to.value),
+                  "elevation_to_deg is larger than elevation_from_deg");
+        else if (std::abs(steps - std::round(steps)) > 1e-6)
+            error({"elevation_step_deg", "elevation_to_deg", "elevation_from_deg"},
+                  fmt::format("from {:g} to {:g} deg are {:.6g} steps of {:g} deg, which is no whole number",
+                              by().elevation_from.value, by().elevation_to.value, steps,
+                              by().elevation_step.value),
+                  fmt::format("elevation_step_deg = {:.6g} or {:.6g} would do", range_deg / std::ceil(steps),
+                              range_deg / std::max(1.0, std::floor(steps))));
+        if (by().pose_count() != motion_.frame_count)
+            error({"elevation_step_deg", "step_deg"},
+                  fmt::format("{} turns at {} elevations are {} poses, and a motion has up to {}",
+                              by().turn_count(), by().elevation_count(), by().pose_count(),
+                              motion_.frame_count),
+                  "take longer steps, or turn it less far");
+    }
+
     void check_keys() {
-        if (by().keys.size() != 2 || by().keys.front() == by().keys.back())
-            error({"keys"}, "an object is turned with two keys", "write keys = [\"left\", \"right\"]");
+        const std::size_t count = by().has_elevations() ? 4 : 2;
+        std::vector<std::string> differ = by().keys;
+        std::ranges::sort(differ);
+        if (differ.size() != count || std::ranges::adjacent_find(differ) != differ.end())
+            error({"keys"},
+                  count == 2 ? "an object is turned with two keys"
+                             : "an object is turned and tilted with four keys",
+                  count == 2 ? "write keys = [\"left\", \"right\"]"
+                             : "write keys = [\"left\", \"right\", \"up\", \"down\"]");
         if (by().with == TurnedWith::mouse && examination_.is_written(key("keys")))
             error({"keys"}, "the keys turn nothing with \"with = mouse\"",
                   "write with = \"keys\" or \"keys-and-mouse\"");

@@ -9,6 +9,7 @@
 #include "experiment/design/block_plan.h"
 #include "experiment/design/order_conflict.h"
 #include "experiment/design/orders/order_draw.h"
+#include "experiment/design/recorded_trials.h"
 
 namespace overt {
 
@@ -55,6 +56,8 @@ Schedule ScheduleMaker::make(const Observer& observer, std::uint64_t seed) {
         }
     }
     OVERT_EXPECTS(!schedule.trials.empty());
+    if (const std::optional<std::string> wrong = yoke(protocol_, observer.number, schedule.trials))
+        throw InputError(*wrong);
     return schedule;
 }
 

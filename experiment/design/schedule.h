@@ -31,7 +31,8 @@ class ScheduleMaker {
     /// A pure function of protocol, observer's number and seed. Each block has a random stream of its own,
     /// named by its id: changing, adding or removing another block reshuffles nothing in it. Every order that
     /// keeps to the limits is equally probable where Schedule::is_even says so. Throws InputError if no order
-    /// keeps to them, or the number is beyond the caps of all groups.
+    /// keeps to them, the number is beyond the caps of all groups, or a trial finds nothing to show again
+    /// (recorded_trials.h).
     Schedule make(const Observer& observer, std::uint64_t seed);
 
   private:

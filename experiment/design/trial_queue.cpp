@@ -7,6 +7,7 @@
 #include "experiment/base/error.h"
 #include "experiment/design/block_plan.h"
 #include "experiment/design/point_trials.h"
+#include "experiment/design/recorded_trials.h"
 
 namespace overt {
 
@@ -56,6 +57,8 @@ void TrialQueue::begin_block(int block) {
                     practised(protocol_, practice), block};
         fill_slots(protocol_, trial);
         trial.levels = first_points(protocol_, trial.task);
+        // What finds nothing stands.
+        (void)yoke(protocol_, schedule_.observer.number, std::span(&trial, 1), true);
         before_.push_back({SessionStep::Kind::practice, trial, 1, block});
     }
 }

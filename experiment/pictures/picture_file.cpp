@@ -55,6 +55,17 @@ PictureFile::PictureFile(std::filesystem::path file, std::string_view kind, Stra
         throw InputError(fmt::format("{}: the {} {}", file_.string(), kind_, fault));
 }
 
+PictureFile::PictureFile(std::string_view bytes, const std::string& format, std::string name,
+                         std::string_view kind, StraightColours straight)
+    : file_(std::move(name)), kind_(kind) {
+    std::string fault;
+    decoder_ = picture_library().open_bytes(bytes, format, straight == StraightColours::as_they_stand, fault);
+    if (!decoder_)
+        throw InputError(fmt::format("{}: cannot be read as a {}: {}", file_.string(), kind_, fault));
+    if (fault = fault_of(header()); !fault.empty())
+        throw InputError(fmt::format("{}: the {} {}", file_.string(), kind_, fault));
+}
+
 PictureFile::~PictureFile() = default;
 
 const PictureHeader& PictureFile::header() const { return decoder_->header(); }

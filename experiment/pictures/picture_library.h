@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "experiment/pictures/picture_header.h"
@@ -29,6 +30,10 @@ class PictureLibrary {
     /// `straight`: colours as they stand, not multiplied by alpha. Nothing and a fault if it is no picture.
     virtual std::unique_ptr<PictureDecoder> open(const std::string& file, bool straight,
                                                  std::string& fault) const = 0;
+    /// The same of a file in memory, which must outlive the decoder, by the reader of the format "png" or
+    /// "jpeg" alone, whatever the bytes are. Rows are as they are stored, whichever way a camera was held.
+    virtual std::unique_ptr<PictureDecoder> open_bytes(std::string_view bytes, const std::string& format,
+                                                       bool straight, std::string& fault) const = 0;
     /// The bytes of a file of the format that the name's ending tells. Returns the fault.
     virtual std::string encode(const std::string& name, const PictureHeader& header, PixelType type,
                                const void* pixels, std::vector<unsigned char>& bytes) const = 0;

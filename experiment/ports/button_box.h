@@ -11,13 +11,18 @@
 
 namespace overt {
 
-/// A button went down or up.
+/// A button went down or up, or a knob was turned.
 struct ButtonChange {
     int button = 0; ///< as the box numbers them, see ButtonBox::button_name()
     bool is_down = false;
     std::optional<BoxTime> device_time; ///< of the box's own clock, where it has one
     SessionTime at;                     ///< the estimate of when it happened
     SessionDuration uncertainty{};      ///< it happened within ± this of `at`
+    // Of a knob: then it is no button's. Whole steps since the last change; clockwise seen from above, and
+    // with the top towards the hand, are positive.
+    int turn_steps = 0, tilt_steps = 0;
+
+    bool is_turn() const { return turn_steps != 0 || tilt_steps != 0; }
 };
 
 struct ButtonBoxDescription {

@@ -40,9 +40,10 @@ struct ObserverInput {
         pointer_moved, ///< to `right_px`, `down_px`
         pointer_down,  ///< the button `button` of the mouse, there
         pointer_up,
-        wheel, ///< by `steps`: of the mouse away from the hand is positive
-        dial,  ///< by `steps`: clockwise is positive
-        let_go ///< the keyboard went to another window: whatever was held counts as released
+        wheel,  ///< by `steps`: of the mouse away from the hand is positive
+        dial,   ///< by `steps`: clockwise is positive
+        let_go, ///< the keyboard went to another window: whatever was held counts as released
+        tilt    ///< of a knob, by `steps`: with its top towards the hand is positive
     };
     Kind kind = Kind::key_down;
     SessionTime at{};
@@ -61,7 +62,8 @@ struct ObserverInput {
 
 /// As the record calls them.
 template <>
-inline constexpr auto names_of<ObserverInput::Kind> = enum_names<ObserverInput::Kind>(
-    "key down", "key up", "text", "pointer moved", "pointer down", "pointer up", "wheel", "dial", "let go");
+inline constexpr auto names_of<ObserverInput::Kind> =
+    enum_names<ObserverInput::Kind>("key down", "key up", "text", "pointer moved", "pointer down",
+                                    "pointer up", "wheel", "dial", "let go", "tilt");
 
 } // namespace overt

@@ -8,13 +8,15 @@
 namespace overt {
 
 struct TurningOffer {
-    int show = 0;             ///< which of the attempt's, from 0
-    int place = 0;            ///< of the object, in Trial::shown
-    SessionTime since{};      ///< from then on it can be turned
-    double lasts_s = 0.0;     ///< for so long at most
-    std::string less, more;   ///< keys that turn it clockwise and counter-clockwise; empty: the mouse does
+    int show = 0;              ///< which of the attempt's, from 0
+    int place = 0;             ///< of the object, in Trial::shown
+    SessionTime since{};       ///< from then on it can be turned
+    double lasts_s = 0.0;      ///< for so long at most
+    bool is_elevation = false; ///< the offer is of its elevation, which has one of its own
+    std::string less, more;   ///< keys that turn it clockwise and counter-clockwise, or take its front up and
+                              ///< down; empty: the mouse does
     double speed_deg_s = 0.0; ///< while one is held
-    double deg_per_px = 0.0;  ///< of a drag to the right
+    double deg_per_px = 0.0;  ///< of a drag to the right, or downwards
     double right_px = 0.0, down_px = 0.0;    ///< the middle of its image, from the middle of the screen
     double turn_sd_deg = 0.0, pause_s = 0.0; ///< as ObserverTurn has them of simulated observers
 };

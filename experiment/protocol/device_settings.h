@@ -24,6 +24,11 @@ struct ButtonBoxSettings {
     ButtonBoxUser used_by = ButtonBoxUser::observer;
     std::vector<std::string> buttons; ///< see parse_button_meaning(); of an observer's box, empty: all go on
     bool required = true;
+    double steps_per_count = 1.0; ///< of `dial`; < 0: the other way round
+    // Of `spacemouse`: steps in a second as far as it goes, which as far again is the other way round below
+    // 0; and the share of its way that is none yet.
+    double full_turn_steps_s = 30.0, full_tilt_steps_s = 30.0;
+    double dead_zone = 0.1;
 
     bool is_operators() const { return used_by == ButtonBoxUser::experimenter; }
 };

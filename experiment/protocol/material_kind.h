@@ -16,6 +16,7 @@ enum class MaterialKind : std::uint8_t {
     diffuse,
     plastic,
     metallic_roughness,
+    own,
 };
 
 struct MaterialKindRow {
@@ -40,15 +41,16 @@ inline constexpr auto material_kinds = std::to_array<MaterialKindRow>({
      "coated-conductor",
      "polished metal under a bumpy coloured coat",
      {"metal", "coat_ior", "coat_absorbance", "coat_thickness", "coat_bump", "coat_bump_width", "coat_seed"}},
-    {MaterialKind::diffuse, "diffuse", "a matt surface", {"reflectance"}},
+    {MaterialKind::diffuse, "diffuse", "a matt surface", {"reflectance", "base"}},
     {MaterialKind::plastic,
      "plastic",
      "a matt body under a clear surface, polished or rough",
-     {"reflectance", "roughness", "roughness_as", "ior", "body"}},
+     {"reflectance", "roughness", "roughness_as", "ior", "body", "base"}},
     {MaterialKind::metallic_roughness,
      "metallic-roughness",
      "what other programs call metallic-roughness, with a clear coat or without",
-     {"reflectance", "roughness", "ior", "metallic", "clear_coat", "clear_coat_roughness"}},
+     {"reflectance", "roughness", "ior", "metallic", "clear_coat", "clear_coat_roughness", "base"}},
+    {MaterialKind::own, "own", "what the object's file says: its colours, pictures and metals", {"ior"}},
 });
 
 constexpr const MaterialKindRow& row_of(MaterialKind kind) {

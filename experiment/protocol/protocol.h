@@ -33,6 +33,7 @@
 #include "experiment/protocol/point_settings.h"
 #include "experiment/protocol/procedure_settings.h"
 #include "experiment/protocol/protocol_sources.h"
+#include "experiment/protocol/recorded_course.h"
 #include "experiment/protocol/sitting_settings.h"
 #include "experiment/protocol/slot.h"
 #include "experiment/protocol/trial_table.h"
@@ -237,7 +238,9 @@ struct BackgroundSettings : ListEntry {
 };
 
 /// [[motion]]: how an object turns. [animation] is the only one.
-struct MotionSettings : ListEntry, Animation {};
+struct MotionSettings : ListEntry, Animation {
+    std::vector<RecordedCourse> courses; ///< of `recorded`, in the order of its tables
+};
 
 /// [screens]: what is shown between the animations.
 struct ScreenSettings {
@@ -256,14 +259,22 @@ struct ScreenSettings {
     std::string farewell_text = "# Thank you\nThis is the end.";
 };
 
+/// What of a mesh file divides it into parts: its groups (`g` and `o` of OBJ, the nodes of glTF), or what its
+/// triangles are made of (`usemtl`, the materials of glTF).
+enum class PartsBy : std::uint8_t { group, material };
+template <> inline constexpr auto names_of<PartsBy> = enum_names<PartsBy>("group", "material");
+
 /// [[object]]
 struct ObjectSettings : ListEntry {
     std::string shipped;        ///< name of an object that overt makes itself, or empty
-    std::filesystem::path mesh; ///< PLY, OBJ or STL, or empty; resolved against the protocol's folder
-    std::string up = "z";       ///< axis of the file that points up: x, y, z, -x, -y, -z
+    std::filesystem::path mesh; ///< PLY, OBJ, STL or glTF, or empty; resolved against the protocol's folder
+    /// Axis of the file that points up: x, y, z, -x, -y, -z; empty: that of its format.
+    std::string up;
     double scale = 1.0;
-    std::string unit = "mm";      ///< of the file: mm, cm, m, in, which all become millimetres; or own
-    double weld_tolerance = 1e-6; ///< of vertices, as a share of the diagonal of the mesh's box
+    /// Of the file: mm, cm, m, in, which all become millimetres; or own; empty: that of its format.
+    std::string unit;
+    std::optional<PartsBy> parts_by; ///< left out: as is usual for the file's format
+    double weld_tolerance = 1e-6;    ///< of vertices, as a share of the diagonal of the mesh's box
     std::filesystem::path
         labels; ///< a label for each triangle or vertex of the mesh, or empty; resolved likewise
     /// Coordinate-encoded maps made by another program, or empty: path with # for the digits of the frame
@@ -283,6 +294,10 @@ template <> inline constexpr auto names_of<PlasticBody> = enum_names<PlasticBody
 /// What `roughness` is: the GGX alpha itself, or its square root, as programs that call it perceived have it.
 enum class RoughnessAs : std::uint8_t { alpha, root };
 template <> inline constexpr auto names_of<RoughnessAs> = enum_names<RoughnessAs>("alpha", "root");
+
+/// Whose colour a material has: the one it is given, or that which the object's file gives each place.
+enum class MaterialBase : std::uint8_t { given, own };
+template <> inline constexpr auto names_of<MaterialBase> = enum_names<MaterialBase>("given", "own");
 
 /// [[material]]
 struct MaterialSettings : ListEntry {
@@ -304,13 +319,18 @@ struct MaterialSettings : ListEntry {
     double ior = 1.5;                      ///< of plastic and metallic_roughness
     PlasticBody body = PlasticBody::light; ///< of plastic
     // Of metallic_roughness.
-    double metallic = 0.0;             ///< share of metal
-    double clear_coat = 0.0;           ///< share that a clear coat covers
-    double clear_coat_roughness = 0.0; ///< root of its alpha
+    double metallic = 0.0;                   ///< share of metal
+    double clear_coat = 0.0;                 ///< share that a clear coat covers
+    double clear_coat_roughness = 0.0;       ///< root of its alpha
+    MaterialBase base = MaterialBase::given; ///< of diffuse, plastic, metallic_roughness
+
+    /// Whether it is of what the object's file says of the surface.
+    bool is_of_file() const { return kind == MaterialKind::own || base == MaterialBase::own; }
 
     /// GGX alpha of what the kind has of rough surface, below a clear coat.
     double alpha() const {
-        const bool is_root = kind == MaterialKind::metallic_roughness || roughness_as == RoughnessAs::root;
+        const bool is_root = kind == MaterialKind::metallic_roughness || kind == MaterialKind::own ||
+                             roughness_as == RoughnessAs::root;
         return is_root && kind != MaterialKind::rough_conductor ? roughness * roughness : roughness;
     }
 };

@@ -129,6 +129,12 @@ constexpr RowColumn<Animation> animation_columns[] = {
     column<&Animation::by_observer, &ObserverTurn::from>("from_deg", "likewise, the angle of the first", "0"),
     column<&Animation::by_observer, &ObserverTurn::to>(
         "to_deg", "likewise, how far it can be turned; 360 after the first: all round", "360"),
+    column<&Animation::by_observer, &ObserverTurn::elevation_step>(
+        "elevation_step_deg", "likewise, from one elevation to the next; 0: it has none", "0"),
+    column<&Animation::by_observer, &ObserverTurn::elevation_from>("elevation_from_deg",
+                                                                   "likewise, the lowest", "0"),
+    column<&Animation::by_observer, &ObserverTurn::elevation_to>("elevation_to_deg", "likewise, the highest",
+                                                                 "0"),
     column<&Animation::turns>("turns", "of `turntable` and `orbit`: while the frames go by once", "1"),
     column<&Animation::rest_share>("rest_share", "of `trapezoid`: of its time, at both ends together",
                                    "0.25"),

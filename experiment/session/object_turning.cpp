@@ -43,7 +43,8 @@ void ObjectTurning::begin_trial(const Protocol& protocol, const Trial& trial, st
             pose =
                 static_cast<int>(stream.below(static_cast<std::uint32_t>(motion.by_observer.pose_count())));
         }
-        turned.angle_deg = motion.by_observer.angle_of(pose).value;
+        turned.at_deg = {motion.by_observer.angle_of(pose).value,
+                         motion.by_observer.elevation_of(pose).value};
     }
     if (!turned_.empty())
         taken_.reserve(most_turning_inputs);
@@ -52,13 +53,16 @@ void ObjectTurning::begin_trial(const Protocol& protocol, const Trial& trial, st
 void ObjectTurning::begin_show(const std::vector<int>& places) {
     for (Turned& turned : turned_) {
         turned.is_lit = std::ranges::find(places, turned.place) != places.end();
-        turned.is_less_held = turned.is_more_held = turned.is_dragged = false;
+        turned.let_go();
+        turned.input_at.reset(); // it stands as it was left, by nothing that came in this show
     }
 }
 
 void ObjectTurning::end_show() noexcept {
-    for (Turned& turned : turned_)
-        turned.is_lit = turned.is_less_held = turned.is_more_held = turned.is_dragged = false;
+    for (Turned& turned : turned_) {
+        turned.is_lit = false;
+        turned.let_go();
+    }
 }
 
 bool ObjectTurning::is_active() const noexcept { return std::ranges::any_of(turned_, &Turned::is_lit); }
@@ -73,14 +77,14 @@ std::vector<TurningOffer> ObjectTurning::offers(int show, SessionTime since, dou
     for (const Turned& turned : turned_) {
         if (!turned.is_lit)
             continue;
-        TurningOffer& offer = offers.emplace_back();
+        TurningOffer offer;
         offer.show = show;
         offer.place = turned.place;
         offer.since = since;
         offer.lasts_s = lasts_s;
         if (turned.by_keys()) {
-            offer.less = turned.by().keys.front();
-            offer.more = turned.by().keys.back();
+            offer.less = turned.by().keys[0];
+            offer.more = turned.by().keys[1];
         }
         offer.speed_deg_s = turned.by().speed_deg_s;
         offer.deg_per_px = turned.deg_per_px();
@@ -88,6 +92,14 @@ std::vector<TurningOffer> ObjectTurning::offers(int show, SessionTime since, dou
         offer.down_px = turned.top_px + 0.5 * turned.height_px;
         offer.turn_sd_deg = turned.by().simulated_turn_deg;
         offer.pause_s = turned.by().simulated_pause_s;
+        offers.push_back(offer);
+        // A hand has one mouse: who drags goes to the side alone.
+        if (!turned.by().has_elevations() || !turned.by_keys())
+            continue;
+        offer.is_elevation = true;
+        offer.less = turned.by().keys[2];
+        offer.more = turned.by().keys[3];
+        offers.push_back(offer);
     }
     return offers;
 }
@@ -98,22 +110,30 @@ bool ObjectTurning::Turned::is_at(double right_px, double down_px) const {
 }
 
 /// Where it can be turned all round the angle goes on, else it stays at the ends.
-double ObjectTurning::Turned::within(double deg) const {
-    return by().is_whole() ? deg
-                           : std::clamp(deg, by().from.value, by().angle_of(by().pose_count() - 1).value);
+glm::dvec2 ObjectTurning::Turned::within(glm::dvec2 deg) const noexcept {
+    const int last = by().pose_count() - 1;
+    if (!by().is_whole())
+        deg.x = std::clamp(deg.x, by().from.value, by().angle_of(last).value);
+    deg.y = std::clamp(deg.y, by().elevation_of(0).value, by().elevation_of(last).value);
+    return deg;
+}
+
+void ObjectTurning::Turned::let_go() noexcept {
+    is_held.fill(false);
+    is_dragged = false;
 }
 
 /// Time may go back by as much as an input came late.
 void ObjectTurning::Turned::go_to(SessionTime now) noexcept {
-    if (is_less_held != is_more_held)
-        angle_deg =
-            within(from_deg + (is_more_held ? 1.0 : -1.0) * by().speed_deg_s * to_seconds(now - since));
+    const glm::dvec2 way(double(is_held[1]) - double(is_held[0]), double(is_held[3]) - double(is_held[2]));
+    if (way != glm::dvec2(0.0))
+        at_deg = within(from_deg + way * (by().speed_deg_s * to_seconds(now - since)));
 }
 
 /// From now on held keys turn it from where it is then.
-void ObjectTurning::Turned::turn(double by_deg, SessionTime at) noexcept {
+void ObjectTurning::Turned::turn(glm::dvec2 by_deg, SessionTime at) noexcept {
     go_to(at);
-    angle_deg = from_deg = within(angle_deg + by_deg);
+    at_deg = from_deg = within(at_deg + by_deg);
     since = at;
 }
 
@@ -135,15 +155,23 @@ bool ObjectTurning::take(const ObserverInput& input) noexcept {
         case Kind::pointer_up:
             has_moved = take_pointer(turned, input);
             break;
+        case Kind::tilt:
+            has_moved = turned.by_keys() && turned.by().has_elevations();
+            if (has_moved)
+                turned.turn({0.0, turned.by().elevation_step.value * input.steps}, input.at);
+            break;
         case Kind::wheel:
         case Kind::dial:
             has_moved = input.kind == Kind::dial ? turned.by_keys() : turned.by_mouse();
             if (has_moved)
-                turned.turn(turned.by().step.value * input.steps, input.at);
+                // It goes round with a knob: clockwise is less.
+                turned.turn(
+                    {turned.by().step.value * (input.kind == Kind::dial ? -input.steps : input.steps), 0.0},
+                    input.at);
             break;
         case Kind::let_go:
-            turned.turn(0.0, input.at);
-            turned.is_less_held = turned.is_more_held = turned.is_dragged = false;
+            turned.turn(glm::dvec2(0.0), input.at);
+            turned.let_go();
             break;
         case Kind::text:
             break;
@@ -158,34 +186,35 @@ bool ObjectTurning::take(const ObserverInput& input) noexcept {
 }
 
 bool ObjectTurning::take_key(Turned& turned, const ObserverInput& input) noexcept {
-    const std::string_view key = input.key.view();
-    const bool is_less = key == turned.by().keys.front(), is_more = key == turned.by().keys.back();
-    if (!turned.by_keys() || (!is_less && !is_more))
+    const std::vector<std::string>& keys = turned.by().keys;
+    const auto key = static_cast<std::size_t>(std::ranges::find(keys, input.key.view()) - keys.begin());
+    if (!turned.by_keys() || key >= std::min(keys.size(), turned.is_held.size()) ||
+        (key > 1 && !turned.by().has_elevations()))
         return false;
     const bool is_down = input.kind == ObserverInput::Kind::key_down;
-    bool& held = is_less ? turned.is_less_held : turned.is_more_held;
     // One that was let go without having been pressed here was held before.
-    if (held == is_down)
+    if (turned.is_held[key] == is_down)
         return is_down;
-    turned.turn(0.0, input.at);
-    held = is_down;
+    turned.turn(glm::dvec2(0.0), input.at);
+    turned.is_held[key] = is_down;
     return true;
 }
 
 bool ObjectTurning::take_pointer(Turned& turned, const ObserverInput& input) noexcept {
     if (!turned.by_mouse())
         return false;
+    const glm::dvec2 at_px(input.right_px, input.down_px);
     if (input.kind == ObserverInput::Kind::pointer_down) {
         if (input.button > 1 || !turned.is_at(input.right_px, input.down_px))
             return false;
         turned.is_dragged = true;
-        turned.dragged_px = input.right_px;
+        turned.dragged_px = at_px;
         return true;
     }
     if (!turned.is_dragged)
         return false;
-    turned.turn((input.right_px - turned.dragged_px) * turned.deg_per_px(), input.at);
-    turned.dragged_px = input.right_px;
+    turned.turn((at_px - turned.dragged_px) * turned.deg_per_px(), input.at);
+    turned.dragged_px = at_px;
     turned.is_dragged = input.kind != ObserverInput::Kind::pointer_up;
     return true;
 }
@@ -199,7 +228,7 @@ void ObjectTurning::go_to(SessionTime now) noexcept {
 std::optional<ObjectTurning::Shown> ObjectTurning::pose_of(int place) const noexcept {
     for (const Turned& turned : turned_)
         if (turned.place == place)
-            return Shown{{turned.by().nearest({turned.angle_deg})}, turned.input_at};
+            return Shown{{turned.by().nearest({turned.at_deg.x}, {turned.at_deg.y})}, turned.input_at};
     return std::nullopt;
 }
 
@@ -208,7 +237,7 @@ void ObjectTurning::note(const ObserverInput& input, std::size_t turned) noexcep
         ++lost_inputs_;
         return;
     }
-    taken_.push_back({input, turned, turned_[turned].angle_deg});
+    taken_.push_back({input, turned, turned_[turned].at_deg.x});
 }
 
 void ObjectTurning::add_to(std::vector<AnswerInput>& inputs) const {

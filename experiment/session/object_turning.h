@@ -1,6 +1,7 @@
 /// Objects that the observer turns: inputs go in, the pose that each shows comes out.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -30,7 +31,8 @@ class ObjectTurning {
     bool is_active() const noexcept;
     /// The mouse turns something, so that its pointer has to be seen.
     bool shows_pointer() const noexcept;
-    /// For observers who do not see the screen, one for each that can be turned now.
+    /// For observers who do not see the screen, one for each that can be turned now, and one for its
+    /// elevation.
     std::vector<TurningOffer> offers(int show, SessionTime since, double lasts_s) const;
 
     /// Whether the input turned something, or began or ended it: then it is nobody else's.
@@ -40,7 +42,7 @@ class ObjectTurning {
 
     struct Shown {
         AnimationFrameIndex frame;
-        std::optional<SessionTime> input_at = {}; ///< of the latest input that moved it
+        std::optional<SessionTime> input_at = {}; ///< of the latest input of this show that moved it
     };
     /// Nothing: the place is not turned by the observer.
     std::optional<Shown> pose_of(int place) const noexcept;
@@ -57,14 +59,14 @@ class ObjectTurning {
         std::string slot;
         // The image, in pixels from the middle of the screen.
         double left_px = 0.0, top_px = 0.0, width_px = 0.0, height_px = 0.0;
-        double angle_deg = 0.0;
+        glm::dvec2 at_deg{0.0}; ///< turn and elevation
         // Held keys turn it from there, since then.
-        double from_deg = 0.0;
+        glm::dvec2 from_deg{0.0};
         SessionTime since{};
         bool is_lit = false;
-        bool is_less_held = false, is_more_held = false;
+        std::array<bool, 4> is_held{}; ///< of ObserverTurn::keys
         bool is_dragged = false;
-        double dragged_px = 0.0; ///< where the pointer was last
+        glm::dvec2 dragged_px{0.0}; ///< where the pointer was last
         std::optional<SessionTime> input_at = {};
 
         const ObserverTurn& by() const { return motion->by_observer; }
@@ -72,9 +74,10 @@ class ObjectTurning {
         bool by_mouse() const { return by().with != TurnedWith::keys; }
         bool is_at(double right_px, double down_px) const;
         double deg_per_px() const { return by().drag_deg / width_px; }
-        double within(double deg) const;
+        glm::dvec2 within(glm::dvec2 deg) const noexcept;
+        void let_go() noexcept;
         void go_to(SessionTime now) noexcept;
-        void turn(double by_deg, SessionTime at) noexcept;
+        void turn(glm::dvec2 by_deg, SessionTime at) noexcept;
     };
     struct Taken {
         ObserverInput input;

@@ -58,6 +58,7 @@ TrialRun::Attempt TrialRun::run(const Trial& trial, const std::optional<Trial>& 
     running.plan = plan_trial(state_.protocol, seed_, trial, is_practice);
     probes_.begin_trial(trial);
     turning_.begin_trial(state_.protocol, trial, seed_, is_practice);
+    recorded_.begin_trial(state_.protocol, trial);
     asking_.begin_trial(trial, running.plan, turning_, is_practice);
     run_steps(running);
     asking_.finish(attempt.outcome);
@@ -85,8 +86,8 @@ void TrialRun::begin_show(Running& running, std::size_t number) {
     const Trial& trial = running.trial;
     lit_ = trial.only(step.places);
     const auto cycle_of = [&](const Stimulus& stimulus) {
-        const bool is_turned = state_.protocol.motion_of(stimulus).kind == MotionKind::observer;
-        // What the observer turns shows one frame, whichever that is now.
+        const bool is_turned = !state_.protocol.motion_of(stimulus).has_plan();
+        // What the observer turns, or another did, shows one frame, whichever that is now.
         const std::optional<AnimationFrameIndex> only =
             is_turned && !step.still() ? std::optional(AnimationFrameIndex{0}) : step.still();
         return cut_to(cycles_[static_cast<std::size_t>(stimulus.motion)], step.refreshes, only);
@@ -115,7 +116,9 @@ void TrialRun::begin_show(Running& running, std::size_t number) {
 
 void TrialRun::begin_steering(const PlannedStep& step) {
     steered_.clear();
-    turning_.begin_show(step.still() ? std::vector<int>() : step.places);
+    const std::vector<int> moving = step.still() ? std::vector<int>() : step.places;
+    turning_.begin_show(moving);
+    recorded_.begin_show(moving);
     const Task& task = state_.protocol.tasks[static_cast<std::size_t>(lit_.task)];
     for (std::size_t i = 0; i < step.places.size(); ++i) {
         const int place = step.places[i];
@@ -136,8 +139,20 @@ void TrialRun::begin_steering(const PlannedStep& step) {
     }
 }
 
-/// Before a flip: what of it the observer has moved by now.
-void TrialRun::steer() noexcept {
+/// Has what is lit as the i-th show a frame at the next flip, whatever the cycle says.
+void TrialRun::turn_to(std::size_t lit, AnimationFrameIndex frame) noexcept {
+    const PageCycleEntry entry{frame, poses_.pose_of(lit_.shown(lit).stimulus.motion, frame), 1};
+    if (lit == 0)
+        shown_.entries.front() = entry;
+    else
+        slots_.turn_to(lit, entry);
+}
+
+/// Before a flip: what of it the observer has moved by now, or moved in the session that is shown again.
+void TrialRun::steer(const std::vector<int>& places) noexcept {
+    for (std::size_t i = 0; i < places.size(); ++i)
+        if (const auto frame = recorded_.frame_of(places[i], ledger_.next_refresh()))
+            turn_to(i, *frame);
     if (steered_.empty())
         return;
     turning_.go_to(state_.now());
@@ -154,12 +169,7 @@ void TrialRun::steer() noexcept {
             continue;
         if (pose->input_at && (!next.input_at || *pose->input_at > *next.input_at))
             next.input_at = pose->input_at;
-        const Stimulus& stimulus = lit_.shown(steered.lit).stimulus;
-        const PageCycleEntry entry{pose->frame, poses_.pose_of(stimulus.motion, pose->frame), 1};
-        if (steered.lit == 0)
-            shown_.entries.front() = entry;
-        else
-            slots_.turn_to(steered.lit, entry);
+        turn_to(steered.lit, pose->frame);
     }
 }
 
@@ -238,7 +248,7 @@ void TrialRun::present(Running& running, std::size_t number) {
         if (watch_.has_come())
             break;
         // Show the frame that the plan has next, or that the observer moved to, and learn when it was lit.
-        steer();
+        steer(step.places);
         state_.markers.before_flip(ledger_.next_refresh(), ledger_.next().frame, presenter);
         const std::span<const AnimationFrameIndex> frames =
             slots_.frames(ledger_.next().frame, ledger_.next_refresh());

@@ -12,6 +12,7 @@
 #include "experiment/session/drift_checks.h"
 #include "experiment/session/gaze_watch.h"
 #include "experiment/session/object_turning.h"
+#include "experiment/session/recorded_turning.h"
 #include "experiment/session/shown_probes.h"
 #include "experiment/session/step_screens.h"
 #include "experiment/session/tracker_feed.h"
@@ -77,7 +78,8 @@ class TrialRun {
     void begin_show(Running& running, std::size_t number);
     /// Finds what of a show the observer moves. Each attempt at its flips.
     void begin_steering(const PlannedStep& step);
-    void steer() noexcept;
+    void turn_to(std::size_t lit, AnimationFrameIndex frame) noexcept;
+    void steer(const std::vector<int>& places) noexcept;
     void note_steered(const FlipRecord& flip) noexcept;
     void note_flip(const FlipRecord& flip) noexcept;
     void note_show(Running& running, std::size_t number);
@@ -101,6 +103,7 @@ class TrialRun {
     ShownProbes probes_;
     AnswerAsking asking_;
     ObjectTurning turning_;
+    RecordedTurning recorded_;
     std::uint64_t seed_;            ///< of the session, from which steps are drawn
     std::vector<PageCycle> cycles_; ///< by motion
     PoseTable poses_;

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <deque>
+#include <iterator>
 #include <tuple>
 
 #include <fmt/format.h>
 
 #include "experiment/base/error.h"
+#include "experiment/protocol/all_stimuli.h"
 #include "experiment/scene/areas.h"
 #include "experiment/scene/files/mesh_reader.h"
 #include "experiment/scene/files/ply_writer.h"
@@ -40,8 +42,12 @@ namespace {
 
 MeshImport import_of(const ObjectSettings& settings) {
     MeshImport import;
-    import.up = up_axis_named(settings.up);
-    import.scale = settings.scale * mm_of_unit(settings.unit);
+    const bool is_gltf = is_gltf_name(settings.mesh);
+    import.up = settings.up.empty() ? (is_gltf ? UpAxis::y : UpAxis::z) : up_axis_named(settings.up);
+    const std::string_view own_unit = is_gltf ? "m" : "mm";
+    import.scale = settings.scale * mm_of_unit(settings.unit.empty() ? own_unit : settings.unit);
+    if (settings.parts_by)
+        import.parts_by_material = *settings.parts_by == PartsBy::material;
     import.labels = settings.labels;
     import.weld_tolerance = settings.weld_tolerance;
     import.regions = area_regions(settings);
@@ -164,13 +170,50 @@ struct MadeMesh {
     ContentHash hash;
     glm::dvec3 origin{0.0};
     std::vector<std::string> remarks;
+    std::shared_ptr<const SurfaceAppearance> appearance;
+    ContentHash appearance_hash;
 };
+
+/// Whether a material of the protocol asks for how the object looks by its file.
+bool asks_for_appearance(const Protocol& protocol) {
+    return std::ranges::any_of(protocol.materials, &MaterialSettings::is_of_file);
+}
+
+std::string as_percent(double share) { return fmt::format("{:.0f} %", 100.0 * share); }
+
+/// What was read of each material of the file, a sentence each.
+std::vector<std::string> look_remarks(const SurfaceAppearance& appearance, const Mesh& mesh) {
+    std::vector<std::string> remarks = appearance.remarks;
+    const std::vector<MeanLook> looks = mean_looks(appearance, mesh);
+    double all = 0.0;
+    for (const MeanLook& look : looks)
+        all += look.area;
+    for (std::size_t i = 0; i < looks.size(); ++i) {
+        const auto& [look, area, largest, overexposed] = looks[i];
+        if (!(area > 0.0))
+            continue;
+        const std::string name = appearance.materials.empty() ? "" : appearance.materials[i].name;
+        const double mean = static_cast<double>(look.colour.x + look.colour.y + look.colour.z) / 3.0;
+        remarks.push_back(fmt::format(
+            "Surface {}, {} of the area: reflectance {:.2f} {:.2f} {:.2f} in the mean, {} metal, roughness "
+            "{:.2f}.",
+            name.empty() ? "without a name" : fmt::format("\"{}\"", name), as_percent(area / all),
+            look.colour.x, look.colour.y, look.colour.z, as_percent(static_cast<double>(look.metallic)),
+            look.roughness));
+        if (mean > 0.9 || overexposed > 0.01)
+            remarks.push_back(fmt::format(
+                "Its colours are very bright, at the limit on {} of its area: a scan that was exposed to "
+                "white, or a colour that was never set.",
+                as_percent(overexposed)));
+    }
+    return remarks;
+}
 
 /// Whether two objects of a protocol are of one mesh, by what it says of them.
 bool are_of_one_mesh(const ObjectSettings& a, const ObjectSettings& b) {
     const auto made_from = [](const ObjectSettings& of) {
-        return std::tie(of.shipped, of.mesh, of.up, of.scale, of.unit, of.weld_tolerance, of.labels,
-                        of.areas);
+        return std::tie(of.shipped, of.mesh, of.up, of.scale, of.unit, of.weld_tolerance, of.labels, of.areas,
+                        of.parts_by);
     };
     return made_from(a) == made_from(b);
 }
@@ -188,19 +231,28 @@ std::vector<std::string> overlap_remarks(const Mesh& mesh, const ObjectSettings&
     return remarks;
 }
 
-MadeMesh make_mesh(const ObjectSettings& settings, const std::filesystem::path& cache) {
+MadeMesh make_mesh(const ObjectSettings& settings, const std::filesystem::path& cache, bool with_appearance) {
     MadeMesh made;
     Mesh mesh;
     if (!settings.shipped.empty()) {
         mesh = shipped_sculpture(settings.shipped, cache);
     } else {
         MeshCleaningReport report;
-        mesh = import_mesh(settings.mesh, import_of(settings), report);
+        SurfaceAppearance appearance;
+        mesh =
+            import_mesh(settings.mesh, import_of(settings), report, with_appearance ? &appearance : nullptr);
         made.remarks = describe(report);
         for (std::string& remark : overlap_remarks(mesh, settings))
             made.remarks.push_back(std::move(remark));
         made.origin = report.origin;
-        order_for_drawing(mesh);
+        std::vector<CornersFrom> from;
+        order_for_drawing(mesh, appearance.says_something() ? &from : nullptr);
+        if (appearance.says_something()) {
+            appearance = rearranged(std::move(appearance), from);
+            std::ranges::move(look_remarks(appearance, mesh), std::back_inserter(made.remarks));
+            made.appearance_hash = hash_of_appearance(appearance);
+            made.appearance = std::make_shared<const SurfaceAppearance>(std::move(appearance));
+        }
     }
     made.hash = hash_of_mesh(mesh);
     made.mesh = std::move(mesh);
@@ -224,6 +276,8 @@ Object place_object(const ObjectSettings& settings, const Protocol& protocol, co
     object.mesh_hash = made->hash;
     object.origin = made->origin;
     object.remarks = made->remarks;
+    object.appearance = made->appearance;
+    object.appearance_hash = made->appearance_hash;
     for (std::size_t i = 0; i < object.scenes.size(); ++i) {
         const ViewSettings& view = protocol.view_at(static_cast<int>(i));
         SceneView& scene = object.scenes[i];
@@ -251,7 +305,7 @@ Object load_object(const ObjectSettings& settings, const Protocol& protocol,
                    const std::filesystem::path& cache) {
     if (!has_mesh_of_its_own(settings))
         return place_object(settings, protocol, nullptr);
-    const MadeMesh made = make_mesh(settings, cache);
+    const MadeMesh made = make_mesh(settings, cache, asks_for_appearance(protocol));
     return place_object(settings, protocol, &made);
 }
 
@@ -293,6 +347,49 @@ void add_points(Object& object, const Protocol& protocol, const PointListSetting
         object.points.push_back(std::move(point));
 }
 
+namespace {
+
+/// Throws InputError if the file's colours hold the light of photographs and nobody said how they are meant.
+void expect_lit(const Object& object, const MaterialSettings& material) {
+    if (material.kind != MaterialKind::own)
+        return;
+    for (const FileMaterial& of_file : object.appearance->materials)
+        if (of_file.is_unlit)
+            throw InputError(fmt::format(
+                "object \"{}\": its file says of \"{}\" that it is shown without light "
+                "(KHR_materials_unlit): its "
+                "colours are photographs, with the light of the room in them. If they are to be taken for "
+                "what the surface reflects, write kind = \"diffuse\" and base = \"own\" for the material "
+                "\"{}\"",
+                object.id, of_file.name, material.id));
+}
+
+/// Throws InputError if a stimulus that is to be rendered needs a look that its object's file does not give.
+void expect_appearances(const Protocol& protocol, std::span<const Object> objects) {
+    if (!asks_for_appearance(protocol))
+        return;
+    for (const Stimulus& stimulus : all_stimuli(protocol)) {
+        const auto index = static_cast<std::size_t>(stimulus.object);
+        const Object& object = objects[index];
+        const MaterialSettings& material = protocol.material_of(stimulus);
+        if (!material.is_of_file() || !object.has_mesh() || find_frames(protocol, stimulus))
+            continue;
+        if (object.appearance) {
+            expect_lit(object, material);
+            continue;
+        }
+        const std::filesystem::path& file = protocol.objects[index].mesh;
+        throw InputError(fmt::format(
+            "{}object \"{}\" is to be shown in the material \"{}\", which is of what the object's file says "
+            "of its surface; {}: give a glTF, an OBJ with its .mtl or a PLY with colours, or a material of "
+            "another kind",
+            file.empty() ? "" : file.string() + ": ", object.id, material.id,
+            file.empty() ? "it is made by overt and has none" : "it says nothing"));
+    }
+}
+
+} // namespace
+
 std::vector<Object> load_objects(const Protocol& protocol, const std::filesystem::path& cache) {
     std::vector<Object> objects;
     std::deque<MadeMesh> meshes;
@@ -303,7 +400,7 @@ std::vector<Object> load_objects(const Protocol& protocol, const std::filesystem
             if (are_of_one_mesh(settings, protocol.objects[earlier]))
                 made = mesh_of[earlier];
         if (!made && has_mesh_of_its_own(settings)) {
-            MadeMesh own = make_mesh(settings, cache);
+            MadeMesh own = make_mesh(settings, cache, asks_for_appearance(protocol));
             // Files of two names may hold one mesh.
             for (const MadeMesh& other : meshes)
                 if (other.hash == own.hash)
@@ -313,6 +410,7 @@ std::vector<Object> load_objects(const Protocol& protocol, const std::filesystem
         mesh_of.push_back(made);
         objects.push_back(place_object(settings, protocol, made));
     }
+    expect_appearances(protocol, objects);
     for (const PointListSettings& list : protocol.point_lists)
         for (std::size_t i = 0; i < objects.size(); ++i)
             add_points(objects[i], protocol, list, i);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -11,6 +12,7 @@
 #include "experiment/protocol/protocol.h"
 #include "experiment/scene/making/mesh_parts.h"
 #include "experiment/scene/shared_mesh.h"
+#include "experiment/scene/surface_appearance.h"
 #include "experiment/scene/viewing.h"
 #include "experiment/screen_geometry.h"
 #include "experiment/stimulus/object_points.h"
@@ -28,8 +30,11 @@ struct Object {
     /// Without triangles if the protocol gives none: then its stimuli are frames. Where it gives ready-made
     /// maps, the part names are those of the maps. Objects of one protocol that are of one shape share it.
     SharedMesh mesh;
-    ContentHash mesh_hash;  ///< see hash_of_mesh
-    glm::dvec3 origin{0.0}; ///< of the mesh's coordinates in those of its file, turned and scaled alike
+    ContentHash mesh_hash; ///< see hash_of_mesh
+    /// How the surface looks by its file, where a material of the protocol asks for that; else nothing.
+    std::shared_ptr<const SurfaceAppearance> appearance;
+    ContentHash appearance_hash; ///< see hash_of_appearance; empty without one
+    glm::dvec3 origin{0.0};      ///< of the mesh's coordinates in those of its file, turned and scaled alike
     std::vector<SceneView> scenes;    ///< by view
     std::vector<ObjectPoint> points;  ///< of the protocol's lists, list by list
     std::vector<std::string> remarks; ///< on the mesh, for the experimenter

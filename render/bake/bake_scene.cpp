@@ -11,6 +11,7 @@
 #include "render/bake/layered_surface.h"
 #include "render/bake/light_colour.h"
 #include "render/bake/material_model.h"
+#include "render/bake/own_surface.h"
 
 namespace overt {
 
@@ -45,9 +46,19 @@ CoatShape coat_shape(const MaterialSettings& material, double half_height) {
             material.coat_bump_width * half_height, static_cast<std::uint64_t>(material.coat_seed)};
 }
 
+/// Of a mesh that says nothing of its surface.
+std::shared_ptr<const SurfaceAppearance> of_one_colour(const MaterialSettings& material) {
+    SurfaceAppearance appearance;
+    FileMaterial& only = appearance.materials.emplace_back();
+    only.colour =
+        glm::vec3(glm::dvec3(material.reflectance[0], material.reflectance[1], material.reflectance[2]));
+    return std::make_shared<const SurfaceAppearance>(std::move(appearance));
+}
+
 } // namespace
 
-BakeScene::BakeScene(const Mesh& mesh, const MaterialSettings& material)
+BakeScene::BakeScene(const Mesh& mesh, const MaterialSettings& material,
+                     std::shared_ptr<const SurfaceAppearance> appearance)
     : material_(material), model_(&model_of(material)), centre_(mesh.bounds().centre()) {
     if (mesh.triangles.empty())
         throw InputError("a mesh without triangles cannot be baked");
@@ -81,6 +92,9 @@ BakeScene::BakeScene(const Mesh& mesh, const MaterialSettings& material)
     tree_ = std::make_unique<SurfaceTree>(std::move(surfaces));
     if (model_->layers)
         layers_ = std::make_unique<LayeredSurface>(model_->layers(material_, reflectance_, metal_));
+    if (material_.is_of_file())
+        own_ = std::make_unique<OwnSurface>(appearance ? std::move(appearance) : of_one_colour(material_),
+                                            material_);
 }
 
 BakeScene::~BakeScene() = default;

@@ -6,20 +6,25 @@
 
 #include "experiment/protocol/protocol.h"
 #include "experiment/scene/mesh.h"
+#include "experiment/scene/surface_appearance.h"
 #include "render/bake/conductor.h"
 #include "render/bake/surface_tree.h"
 
 namespace overt {
 
 class LayeredSurface;
+class OwnSurface;
 struct MaterialModel;
 
 /// Built once for a stimulus and used for all its poses, from any number of threads.
 class BakeScene {
   public:
-    /// The mesh may go afterwards. Throws InputError for an unknown metal and for what the material does not
-    /// allow, GraphicsError if Embree refuses.
-    BakeScene(const Mesh& mesh, const MaterialSettings& material);
+    /// The mesh may go afterwards. `appearance`: of the mesh, for a material that is of it
+    /// (MaterialSettings::is_of_file); without one such a material has the same reflectance everywhere.
+    /// Throws InputError for an unknown metal and for what the material does not allow, GraphicsError if
+    /// Embree refuses.
+    BakeScene(const Mesh& mesh, const MaterialSettings& material,
+              std::shared_ptr<const SurfaceAppearance> appearance = nullptr);
     ~BakeScene();
     BakeScene(BakeScene&&) noexcept;
     BakeScene& operator=(BakeScene&&) noexcept;
@@ -40,8 +45,9 @@ class BakeScene {
     const SurfaceTree& tree() const { return *tree_; }                                 ///< all surfaces
     const SurfaceTree& body_tree() const { return coat_body_ ? *coat_body_ : *tree_; } ///< the mesh itself
     const ConductorTable& metal() const { return metal_; }
-    const Bins& reflectance() const { return reflectance_; }         ///< of a body with a colour
-    const LayeredSurface& layers() const { return *layers_; }        ///< only of a layered material
+    const Bins& reflectance() const { return reflectance_; }  ///< of a body with a colour
+    const LayeredSurface& layers() const { return *layers_; } ///< only of a layered material
+    const OwnSurface* own() const { return own_.get(); } ///< only of a material that is of the file's surface
     const Bins& coat_absorbance() const { return coat_absorbance_; } ///< per unit of length
 
   private:
@@ -55,6 +61,7 @@ class BakeScene {
     std::unique_ptr<TracedSurface> body_surface_, coat_surface_; // the trees hold their addresses
     std::unique_ptr<SurfaceTree> tree_, coat_body_;
     std::unique_ptr<LayeredSurface> layers_;
+    std::unique_ptr<OwnSurface> own_;
 };
 
 } // namespace overt

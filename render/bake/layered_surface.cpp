@@ -26,13 +26,6 @@ RowPlace row_place(float cosine, int rows) {
     return {row, place - static_cast<float>(row)};
 }
 
-/// Density with which visible normals lead on in `out`: G1(v) D(h) / (4 cos_v) (Walter et al. 2007, eq. 14;
-/// Heitz 2018).
-float mirror_density(glm::vec3 to_eye, glm::vec3 out, float alpha) {
-    return ggx_visible_share(to_eye, alpha) * ggx_density(glm::normalize(to_eye + out), alpha) /
-           (4.0f * to_eye.z);
-}
-
 } // namespace
 
 LobeAlbedo::LobeAlbedo(double alpha, const std::function<double(double)>& reflectance)
@@ -139,9 +132,9 @@ float LayeredSurface::density(const SurfaceEvent& event, glm::vec3 onward) const
         return 0.0f;
     const Chances chance = chances(to_eye.z);
     float density = chance.even * out.z / pi_of_lobe;
-    density += chance.mirrors * mirror_density(to_eye, out, mirrors.alpha);
+    density += chance.mirrors * ggx_mirror_density(to_eye, out, mirrors.alpha);
     if (coat)
-        density += chance.coat * mirror_density(to_eye, out, coat->alpha);
+        density += chance.coat * ggx_mirror_density(to_eye, out, coat->alpha);
     return density;
 }
 
@@ -153,7 +146,7 @@ Bins LayeredSurface::value(const SurfaceEvent& event, glm::vec3 onward) const {
         return value;
     const float towards = std::min(1.0f, glm::dot(to_eye, glm::normalize(to_eye + out)));
     const auto add_mirrors = [&](const Mirrors& of, float share) {
-        Bins mirrored = Bins::filled(share * mirror_density(to_eye, out, of.alpha) *
+        Bins mirrored = Bins::filled(share * ggx_mirror_density(to_eye, out, of.alpha) *
                                      ggx_visible_share(out, of.alpha) / out.z);
         of.reflectance.multiply_into(mirrored, towards);
         add(value, mirrored);

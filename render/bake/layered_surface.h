@@ -86,6 +86,12 @@ double outer_reflectance(double ior);
 // What the kinds are made of. `reflectance`: the bins of MaterialSettings::reflectance.
 LayeredSurface plastic_surface(const MaterialSettings& material, const Bins& reflectance);
 LayeredSurface metallic_roughness_surface(const MaterialSettings& material, const Bins& reflectance);
+/// The clear coat of a metallic-roughness; nothing without one.
+std::optional<LayeredSurface::Mirrors> clear_coat_of(const MaterialSettings& material);
+
+/// The nearest alpha that a lobe can have.
+float usable_alpha(double alpha);
+
 LayeredSurface rough_metal_surface(const MaterialSettings& material, const ConductorTable& metal);
 
 } // namespace overt

@@ -108,6 +108,17 @@ const std::array<Spectrum, 3>& light_basis() {
     return basis;
 }
 
+const std::array<Spectrum, 3>& reflectance_basis() {
+    static const std::array<Spectrum, 3> basis = [] {
+        std::array<Spectrum, 3> made{};
+        for (int channel = 0; channel < 3; ++channel)
+            made[static_cast<std::size_t>(channel)] =
+                weighted(absorbance_basis(), bands_from_rec709()[channel]);
+        return made;
+    }();
+    return basis;
+}
+
 Spectrum absorbance_of(const std::array<double, 3>& rgb) {
     return weighted(absorbance_basis(), {rgb[0], rgb[1], rgb[2]});
 }

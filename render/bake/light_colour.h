@@ -35,6 +35,10 @@ const std::array<Spectrum, 3>& absorbance_basis();
 /// Absorbance (optical depth) given in red, green and blue, over the spectrum.
 Spectrum absorbance_of(const std::array<double, 3>& rgb);
 
+/// Reflectances of the colours (1, 0, 0), (0, 1, 0) and (0, 0, 1) under D65: sums of them have the colour
+/// that they are made of. A bin may be negative or exceed 1.
+const std::array<Spectrum, 3>& reflectance_basis();
+
 /// Reflectance whose colour under D65 is the given one; cut to 0 … 1 in each bin.
 Spectrum reflectance_of(const std::array<double, 3>& rec709);
 

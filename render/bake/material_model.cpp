@@ -19,6 +19,8 @@ const MaterialModel& model_of(MaterialKind kind) {
 const MaterialModel& rough_metal_with_all_light(); // material_rough_conductor.cpp
 
 const MaterialModel& model_of(const MaterialSettings& material) {
+    if (material.is_of_file())
+        return material_model<MaterialKind::own>();
     return material.kind == MaterialKind::rough_conductor && material.multiple_scattering
                ? rough_metal_with_all_light()
                : model_of(material.kind);

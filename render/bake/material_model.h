@@ -12,11 +12,13 @@ namespace overt {
 class BakeScene;
 class ConductorTable;
 class LayeredSurface;
+struct OwnPoint;
 
 /// Where a path from the eye meets a surface, seen from its front.
 struct SurfaceEvent {
     glm::vec3 to_eye{0.0f};
-    glm::vec3 normal{0.0f}; ///< for shading; faces the eye
+    glm::vec3 normal{0.0f};              ///< for shading; faces the eye
+    const OwnPoint* point = nullptr; ///< what is there, of a surface that is not the same everywhere
 };
 
 /// What the shader of live frames is told (stimulus.frag).
@@ -57,7 +59,8 @@ template <MaterialKind kind> const MaterialModel& material_model();
 
 const MaterialModel& model_of(MaterialKind kind);
 
-/// The same, and of a rough metal with all light between its mirrors the one that has it.
+/// The same, but of a rough metal with all light between its mirrors the one that has it, and of a material
+/// with base = own that of `own`, whose surface then is as the kind has it (OwnSurface).
 const MaterialModel& model_of(const MaterialSettings& material);
 
 /// What a layered kind's model consists of, but for its cost and its live approximation.

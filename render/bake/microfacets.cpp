@@ -67,6 +67,11 @@ glm::vec3 ggx_visible_normal(glm::vec3 towards_eye, float alpha, glm::vec2 place
     return glm::normalize(glm::vec3(alpha * normal.x, alpha * normal.y, std::max(1e-6f, normal.z)));
 }
 
+float ggx_mirror_density(glm::vec3 to_eye, glm::vec3 out, float alpha) {
+    return ggx_visible_share(to_eye, alpha) * ggx_density(glm::normalize(to_eye + out), alpha) /
+           (4.0f * to_eye.z);
+}
+
 glm::vec3 cosine_direction(glm::vec2 place) {
     const glm::vec2 disc = disc_place(place);
     return {disc.x, disc.y, std::sqrt(std::max(0.0f, 1.0f - glm::dot(disc, disc)))};

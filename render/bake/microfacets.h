@@ -26,6 +26,10 @@ float ggx_density(glm::vec3 micro_normal, float alpha);
 /// Fresnel times ggx_visible_share(out), shadowing and masking taken as independent.
 glm::vec3 ggx_visible_normal(glm::vec3 towards_eye, float alpha, glm::vec2 place);
 
+/// Density per solid angle with which the mirrors that are seen from `to_eye` lead on in `out`, both in the
+/// local frame: G1(v) D(h) / (4 cos_v) (Walter et al. 2007, eq. 14; Heitz 2018).
+float ggx_mirror_density(glm::vec3 to_eye, glm::vec3 out, float alpha);
+
 /// Direction with density cosine / pi about +z.
 glm::vec3 cosine_direction(glm::vec2 place);
 

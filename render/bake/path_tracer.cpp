@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "render/bake/material_model.h"
+#include "render/bake/own_surface.h"
 
 namespace overt {
 
@@ -73,6 +74,8 @@ bool PathTracer::add_sample(const PathRay& from_eye, SampleSequence& sequence, B
 void PathTracer::follow(SurfaceHit hit, PathRay ray, SampleSequence& sequence, Bins& sum) {
     Bins carried = Bins::filled(1.0f);
     const bool aims = light_->aim() != nullptr && scene_->model().density != nullptr;
+    const OwnSurface* const own = scene_->own();
+    OwnPoint point;
     // Density of the path's direction where it could have been aimed, too; 0: where not.
     float density = 0.0f;
     for (int event = 0; event < most_events; ++event) {
@@ -87,7 +90,11 @@ void PathTracer::follow(SurfaceHit hit, PathRay ray, SampleSequence& sequence, B
             ray.origin = hit.position - scene_->step_off() * surface_normal;
         } else {
             const glm::vec3 to_eye = -ray.direction;
-            const SurfaceEvent surface{to_eye, facing(normal, to_eye)};
+            SurfaceEvent surface{to_eye, facing(normal, to_eye)};
+            if (own) {
+                point = own->point(hit.triangle, hit.place);
+                surface.point = &point;
+            }
             if (aims)
                 add_aimed(surface, hit, surface_normal, carried, sequence, sum);
             const glm::vec3 onward = scene_->model().scatter(*scene_, surface, sequence, carried);

@@ -123,16 +123,21 @@ LayeredSurface metallic_roughness_surface(const MaterialSettings& material, cons
     }
     if (metallic > 0.0f)
         surface.evens.push_back(between_mirrors(alpha, metal, metallic));
-    if (material.clear_coat > 0.0) {
-        constexpr double coat_ior = 1.5; // KHR_materials_clearcoat
-        const auto share = static_cast<float>(material.clear_coat);
-        surface.coat =
-            mirrors_of(usable(material.clear_coat_roughness * material.clear_coat_roughness),
-                       ConductorTable([share](double cosine) {
-                           return Bins::filled(share * static_cast<float>(fresnel_of(coat_ior, cosine)));
-                       }));
-    }
+    surface.coat = clear_coat_of(material);
     return surface;
 }
+
+std::optional<LayeredSurface::Mirrors> clear_coat_of(const MaterialSettings& material) {
+    if (!(material.clear_coat > 0.0))
+        return std::nullopt;
+    constexpr double coat_ior = 1.5; // KHR_materials_clearcoat
+    const auto share = static_cast<float>(material.clear_coat);
+    return mirrors_of(usable(material.clear_coat_roughness * material.clear_coat_roughness),
+                      ConductorTable([share](double cosine) {
+                          return Bins::filled(share * static_cast<float>(fresnel_of(coat_ior, cosine)));
+                      }));
+}
+
+float usable_alpha(double alpha) { return static_cast<float>(usable(alpha)); }
 
 } // namespace overt

@@ -101,6 +101,7 @@ SurfaceHit SurfaceTree::first_hit(const PathRay& ray, float limit, bool coherent
         return hit;
     hit.surface = static_cast<int>(cast.hit.geomID);
     hit.triangle = cast.hit.primID;
+    hit.place = {cast.hit.u, cast.hit.v};
     hit.distance = cast.ray.tfar;
     hit.position = ray.origin + cast.ray.tfar * ray.direction;
     hit.triangle_normal = glm::normalize(glm::vec3(cast.hit.Ng_x, cast.hit.Ng_y, cast.hit.Ng_z));

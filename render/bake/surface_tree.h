@@ -32,6 +32,7 @@ struct PathRay {
 struct SurfaceHit {
     int surface = -1; ///< -1: none
     std::uint32_t triangle = 0;
+    glm::vec2 place{0.0f}; ///< in the triangle: shares of its second and third corner
     float distance = 0.0f;
     glm::vec3 position{0.0f};
     glm::vec3 triangle_normal{0.0f}; ///< unit length, on the side of the triangle's front

@@ -33,6 +33,8 @@ std::string text_of(const MaterialSettings& material) {
     const MaterialKindRow& row = row_of(material.kind);
     std::string text = fmt::format("kind = {}", row.name);
     for (const std::string_view name : row.keys) {
+        if (name == "base" && !material.is_of_file())
+            continue; // frames describe themselves as they did before the key
         for (const Key& key : protocol_keys().section("material").keys) {
             if (key.rule.name == name)
                 text += fmt::format(", {} = {}", name, text_of(key, material));
@@ -61,6 +63,8 @@ ImageAttributes describe_stimulus(const Protocol& protocol, std::span<const Obje
         {"overt:camera_vertical_fov_deg", fmt::format("{}", camera.vertical_fov.value)},
         {"overt:light", light.probe},
         {"overt:light_rotation_deg", fmt::format("{}", light.rotation_deg + pose.light.value)}};
+    if (material.is_of_file() && object.appearance)
+        words.emplace_back("overt:surface_sha256", object.appearance_hash);
     if (!pose.object.is_turn())
         words.emplace_back(move_attribute, text_of_move(pose.object));
     return words;

@@ -2,7 +2,7 @@
 
 #include "experiment/spectra/metal_table.h"
 #include "render/bake/frame_baker.h"
-#include "render/bake/layered_surface.h"
+#include "render/bake/own_surface.h"
 #include "render/image/gallery_probe.h"
 #include "render/stimulus/stimulus_renderer.h"
 
@@ -34,7 +34,7 @@ void add_to(ContentHasher& hasher, const SceneView& scene) {
 }
 
 void add_to(ContentHasher& hasher, const MaterialSettings& material) {
-    static_assert(value_count<MaterialSettings>() == 18, "what was added counts here, or is of no light");
+    static_assert(value_count<MaterialSettings>() == 19, "what was added counts here, or is of no light");
     const MaterialSettings& m = material;
     hasher.add(static_cast<int>(m.kind))
         .add(std::string_view(is_metal_file(m.metal) ? hash_of_file(m.metal) : m.metal));
@@ -54,6 +54,8 @@ void add_to(ContentHasher& hasher, const MaterialSettings& material) {
         for (const double number : {m.ior, m.metallic, m.clear_coat, m.clear_coat_roughness})
             hasher.add(number);
     }
+    if (m.is_of_file())
+        hasher.add(std::string_view("of the file")).add(static_cast<int>(m.base)).add(own_surface_version);
 }
 
 void add_to(ContentHasher& hasher, const BakeSettings& settings) {
@@ -89,6 +91,8 @@ ContentHash traced_key(const Object& object, int view, const MaterialSettings& m
     hasher.add(std::string_view(object.mesh_hash)).add(std::string_view(surroundings));
     add_to(hasher, object.scene(view));
     add_to(hasher, material);
+    if (material.is_of_file())
+        hasher.add(std::string_view(object.appearance_hash));
     add_to(hasher, settings);
     hasher.add(settings.target_error_de > 0.0 ? exposure : 0.0).add(static_cast<int>(observer));
     return hasher.finish();
@@ -101,6 +105,8 @@ ContentHash live_key(const Object& object, int view, const MaterialSettings& mat
     hasher.add(std::string_view(object.mesh_hash)).add(std::string_view(surroundings)).add(exposure);
     add_to(hasher, object.scene(view));
     add_to(hasher, material);
+    if (material.is_of_file())
+        hasher.add(std::string_view(object.appearance_hash));
     // The same pictures as ever where the light does not move.
     if (turn.value != 0.0)
         hasher.add(turn.value);

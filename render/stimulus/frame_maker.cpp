@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "experiment/base/whole_file.h"
+#include "render/bake/own_surface.h"
 
 namespace overt {
 
@@ -99,9 +100,14 @@ void FrameMaker::draw_live_frame(const Stimulus& stimulus, const Pose& pose, con
     }
     live_light_ = stimulus.light;
     live_size_px_ = scene.view.image_px;
-    if (live_material_ != stimulus.material)
-        renderer_->set_material(cache_->material_of(stimulus));
+    const MaterialSettings& material = cache_->material_of(stimulus);
+    const Object& object = cache_->object_of(stimulus);
+    if (live_material_ != stimulus.material || (material.is_of_file() && live_object_ != stimulus.object))
+        renderer_->set_material(material.is_of_file() && object.appearance
+                                    ? on_average(material, *object.appearance, object.mesh)
+                                    : material);
     live_material_ = stimulus.material;
+    live_object_ = stimulus.object;
     LinearImage image = renderer_->draw(maps_->buffers_of(stimulus.object, true), scene, pose);
     if (writing.valid())
         writing.get();
@@ -125,7 +131,8 @@ SpectralFrame FrameMaker::trace(const Stimulus& stimulus, const Pose& pose, cons
     light_->turn_to(pose.light);
     if (!scene_ || scene_object_ != stimulus.object || scene_material_ != stimulus.material) {
         scene_.reset();
-        scene_.emplace(cache_->object_of(stimulus).mesh, material);
+        const Object& object = cache_->object_of(stimulus);
+        scene_.emplace(object.mesh, material, object.appearance);
         scene_object_ = stimulus.object;
         scene_material_ = stimulus.material;
     }

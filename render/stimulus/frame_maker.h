@@ -43,7 +43,7 @@ class FrameMaker {
     int scene_object_ = -1, scene_material_ = -1;
     std::optional<StimulusRenderer> renderer_;
     // That the renderer is prepared for.
-    int live_light_ = -1, live_material_ = -1;
+    int live_light_ = -1, live_material_ = -1, live_object_ = -1;
     glm::ivec2 live_size_px_{0};
 };
 

@@ -33,7 +33,7 @@ void StimulusRenderer::set_material(const MaterialSettings& material) {
     live_ = &model_of(material.kind).live;
     mirrored_ = texture_of(*context_, live_->mirrored(probe_, material));
     const bool coated = live_->shading == LiveApproximation::Shading::coated_metal;
-    reflectance_ = row_of(material.kind).has_key("reflectance")
+    reflectance_ = row_of(material.kind).has_key("reflectance") || material.kind == MaterialKind::own
                        ? glm::dvec3(material.reflectance[0], material.reflectance[1], material.reflectance[2])
                        : linear_rec709_of(normal_reflectance(load_metal(material.metal),
                                                              coated ? material.coat_ior : 1.0));

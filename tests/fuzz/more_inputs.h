@@ -32,10 +32,29 @@ inline void take_mesh(std::string_view bytes) {
     whatever_it_says([&] { read_mesh_file(file); });
     whatever_it_says([&] {
         MeshCleaningReport report;
+        SurfaceAppearance appearance;
+        const Mesh mesh = import_mesh(file, {}, report, &appearance);
+        mean_looks(appearance, mesh);
+    });
+    whatever_it_says([&] {
+        MeshCleaningReport report;
         MeshImport import;
         import.up = UpAxis::y;
         import.weld_tolerance = bytes.size() % 2 == 0 ? 0.0 : 0.01;
         import_mesh(file, import, report);
+    });
+}
+
+/// As a .glb or .gltf, with its materials and pictures.
+inline void take_gltf(std::string_view bytes) {
+    const ScratchFolder folder("overt-fuzz");
+    const std::filesystem::path file = put(folder, "fuzz.glb", bytes);
+    whatever_it_says([&] {
+        MeshCleaningReport report;
+        SurfaceAppearance appearance;
+        const Mesh mesh = import_mesh(file, {}, report, &appearance);
+        hash_of_appearance(appearance);
+        mean_looks(appearance, mesh);
     });
 }
 

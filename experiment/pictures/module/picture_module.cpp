@@ -79,9 +79,9 @@ PictureHeader header_of(const OIIO::ImageSpec& spec) {
 /// numbers 1 to 8).
 class Layout {
   public:
-    Layout(const OIIO::ImageSpec& spec, bool has_windows)
+    Layout(const OIIO::ImageSpec& spec, bool has_windows, bool as_stored)
         : stored_px_(spec.width, spec.height), window_px_(stored_px_),
-          orientation_(std::clamp(spec.get_int_attribute("Orientation", 1), 1, 8)) {
+          orientation_(as_stored ? 1 : std::clamp(spec.get_int_attribute("Orientation", 1), 1, 8)) {
         if (has_windows) {
             window_px_ = {spec.full_width, spec.full_height};
             stored_at_ = {spec.x - spec.full_x, spec.y - spec.full_y};
@@ -137,9 +137,12 @@ bool has_values(const OIIO::ImageSpec& spec) {
 
 class OiioDecoder final : public PictureDecoder {
   public:
-    explicit OiioDecoder(std::unique_ptr<OIIO::ImageInput> input)
-        : input_(std::move(input)), is_exr_(input_->format_name() == std::string_view("openexr")),
-          header_(header_of(input_->spec())), layout_(input_->spec(), is_exr_) {
+    /// `memory`: that it reads from, if it is not a file. `as_stored`: not turned upright.
+    explicit OiioDecoder(std::unique_ptr<OIIO::ImageInput> input,
+                         std::unique_ptr<OIIO::Filesystem::IOProxy> memory = nullptr, bool as_stored = false)
+        : memory_(std::move(memory)), input_(std::move(input)),
+          is_exr_(input_->format_name() == std::string_view("openexr")), header_(header_of(input_->spec())),
+          layout_(input_->spec(), is_exr_, as_stored) {
         // Each file is read by one thread: several are read at once.
         input_->threads(1);
         header_.format = input_->format_name();
@@ -230,6 +233,7 @@ class OiioDecoder final : public PictureDecoder {
         return {};
     }
 
+    std::unique_ptr<OIIO::Filesystem::IOProxy> memory_; // outlives its reader
     std::unique_ptr<OIIO::ImageInput> input_;
     bool is_exr_;
     PictureHeader header_;
@@ -258,6 +262,20 @@ class OiioLibrary final : public PictureLibrary {
             return std::make_unique<OiioDecoder>(std::move(input));
         }
         fault = OIIO::geterror();
+        return nullptr;
+    }
+    std::unique_ptr<PictureDecoder> open_bytes(std::string_view bytes, const std::string& format,
+                                               bool straight, std::string& fault) const override {
+        auto memory = std::make_unique<OIIO::Filesystem::IOMemReader>(const_cast<char*>(bytes.data()),
+                                                                      bytes.size()); // it only reads
+        auto input = OIIO::ImageInput::create(format);
+        OIIO::ImageSpec wish, spec;
+        if (straight)
+            wish.attribute("oiio:UnassociatedAlpha", 1);
+        if (input && input->set_ioproxy(memory.get()) && input->open("in memory." + format, spec, wish))
+            return std::make_unique<OiioDecoder>(std::move(input), std::move(memory), true);
+        fault = input ? input->geterror() : OIIO::geterror();
+        input.reset();
         return nullptr;
     }
     std::string encode(const std::string& name, const PictureHeader& header, PixelType type,

@@ -1,5 +1,7 @@
 #include "experiment/protocol/files/protocol_reader.h"
 
+#include <algorithm>
+#include <cmath>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -7,6 +9,7 @@
 #include "experiment/keys/key_walk.h"
 #include "experiment/protocol/files/keyframes.h"
 #include "experiment/protocol/files/old_words.h"
+#include "experiment/protocol/files/recorded_courses.h"
 #include "experiment/protocol/files/written_series.h"
 #include "experiment/protocol/keys/protocol_keys.h"
 #include "experiment/protocol/protocol_sources.h"
@@ -108,6 +111,9 @@ void complete(Protocol& protocol) {
         if (!motion.moves() && !protocol.places.is_written(fmt::format("motion[{}].frame_count", i)))
             motion.frame_count = 1;
         // What the observer turns has a frame for each pose.
+        if (motion.by_observer.has_elevations() &&
+            !protocol.places.is_written(fmt::format("motion[{}].keys", i)))
+            motion.by_observer.keys = {"left", "right", "up", "down"};
         if (motion.kind == MotionKind::observer)
             motion.frame_count = std::clamp(motion.by_observer.pose_count(), 1, most_frames);
     }
@@ -187,6 +193,52 @@ void read_keyframes(ProtocolExamination& examination, const IncludeReader& reade
     }
 }
 
+/// Reads a table of courses; its text stands beside those of included files.
+void read_courses_of(ProtocolExamination& examination, const IncludeReader& reader, std::size_t motion,
+                     const std::string& file) {
+    Protocol& protocol = examination.protocol;
+    const std::string path = fmt::format("motion[{}].recorded", motion);
+    UnreadFile why_not;
+    const IncludedText* const text =
+        text_beside(protocol.included, protocol.file, folder_of(protocol, path) / file, reader,
+                    examination.diagnostics(), why_not);
+    if (!text)
+        return examination.error({path}, fmt::format("recorded \"{}\": {}", file, why_not.message),
+                                 why_not.hint);
+    const std::string name = text->file.string();
+    const auto table = parse_delimited(text->text, name, text->number, examination.diagnostics());
+    if (table)
+        add_courses(*table, protocol.motions[motion], name, examination.diagnostics());
+}
+
+/// What motions of kind "recorded" show again. Left out, a presentation lasts as long as the longest of it.
+void read_courses(ProtocolExamination& examination, const IncludeReader& reader) {
+    Protocol& protocol = examination.protocol;
+    for (std::size_t i = 0; i < protocol.motions.size(); ++i) {
+        if (protocol.motions[i].kind != MotionKind::recorded)
+            continue;
+        for (const std::string& file : protocol.motions[i].recorded)
+            read_courses_of(examination, reader, i, file);
+        MotionSettings& motion = protocol.motions[i];
+        if (motion.courses.empty())
+            continue;
+        motion.frame_count = static_cast<int>(motion.given.size());
+        if (motion.frame_count > most_frames)
+            examination.error({fmt::format("motion[{}].recorded", i)},
+                              fmt::format("the tables have {} different poses, and a motion has up to {}",
+                                          motion.frame_count, most_frames),
+                              "round the angles, or take fewer recordings");
+        if (!protocol.places.is_written(fmt::format("motion[{}].duration_s", i)))
+            motion.duration_s =
+                std::max(1.0,
+                         std::ceil(
+                             std::ranges::max_element(motion.courses, {}, &RecordedCourse::lasts_s)->lasts_s *
+                                 motion.frame_rate_hz -
+                             1e-6)) /
+                motion.frame_rate_hz;
+    }
+}
+
 } // namespace
 
 bool read_written_keys(ProtocolExamination& examination, std::string_view text, const IncludeReader& reader) {
@@ -212,6 +264,8 @@ bool read_written_keys(ProtocolExamination& examination, std::string_view text, 
         read_trial_tables(examination, reader);
     if (joined.toml.is_whole)
         read_keyframes(examination, reader);
+    if (joined.toml.is_whole)
+        read_courses(examination, reader);
     return joined.toml.is_whole;
 }
 

@@ -9,7 +9,9 @@ std::vector<Key> button_box() {
         {"kind", &B::kind, explanation_of_kinds<ButtonBoxKind>()},
         {"address", &B::address, left_out("the first of its kind"),
          "Of `xid`, the serial port, such as /dev/ttyUSB0, or usb:0403:f1c0 for a chip that has none. Of "
-         "`iolab` and `hid`, /dev/hidrawN, or vendor:product as lsusb shows them; `hid` needs it."},
+         "`iolab`, `hid`, `dial` and `spacemouse`, /dev/hidrawN, or vendor:product as lsusb shows them; "
+         "`hid` "
+         "and `dial` need it."},
         {"used_by", &B::used_by, "In whose hand it lies."},
         {"buttons", &B::buttons, left_out("all of the observer's go on"),
          "The name of a button and what it means, such as `[\"1 answer gold\", \"2 answer imitation\"]`. Of "
@@ -19,6 +21,18 @@ std::vector<Key> button_box() {
         {"required", &B::required,
          "Whether a session needs it. `false`: where it is not found, a session goes on without it, which is "
          "said and recorded."},
+        {"steps_per_count", &B::steps_per_count, range(-1000, 1000),
+         "Of `dial`: steps for each count that it tells. A step is a level of a match, or a pose of an "
+         "object "
+         "that is turned, which goes round with the knob; less than 0: the other way round."},
+        {"full_turn_steps_s", &B::full_turn_steps_s, range(-1000, 1000),
+         "Of `spacemouse`: steps in a second when it is twisted as far as it goes; less than 0: the other "
+         "way "
+         "round; 0: it does not turn."},
+        {"full_tilt_steps_s", &B::full_tilt_steps_s, range(-1000, 1000),
+         "Of `spacemouse`: the same of its pitch, which goes through elevations, or the second column of a "
+         "match."},
+        {"dead_zone", &B::dead_zone, range(0, 0.9), "Of `spacemouse`: share of its way that is none yet."},
     };
 }
 

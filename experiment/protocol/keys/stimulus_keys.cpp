@@ -165,6 +165,14 @@ std::vector<Key> motion() {
              "view, or angle_deg; light_deg. Only t_s is needed."},
             {"between", member_of<M>(&A::between),
              "What is between two of its rows: the former, or a straight way at one speed."},
+            {"recorded", member_of<M>(&A::recorded), left_out("none"),
+             "Of `recorded`: tables of how observers turned objects, as `courses` of `overt export --format "
+             "tsv`, by their paths from the protocol's folder. Several, or one of several observers: the "
+             "observers of this session have them in turn, by their numbers."},
+            {"matched_by", member_of<M>(&A::matched_by),
+             "Of `recorded`: whether a trial shows again one with the same stimulus (but for the motion) in "
+             "the same slot, in the order of the recording where there are several, or the one with its own "
+             "number."},
             {"playback", member_of<M>(&A::playback),
              "The frames hold a whole period of the sine, or one sweep from end to end that is played forth "
              "and "
@@ -184,6 +192,16 @@ std::vector<Key> motion() {
              "before `to_deg`."},
             {"to_deg", turn, &O::to, range(-360, 720, "deg"),
              "Of observer: how far counter-clockwise. 360 deg after `from_deg` it goes all round."},
+            {"elevation_step_deg", turn, &O::elevation_step,
+             range(0, 90, "deg").left_out("0: it turns about the vertical alone"),
+             "Of observer: from one elevation to the next. Each turn is a pose at each elevation, so that "
+             "there are as many pictures as turns times elevations."},
+            {"elevation_from_deg", turn, &O::elevation_from, range(-90, 90, "deg"),
+             "Of observer: the lowest elevation, a turn about the horizontal line to the observer's right. "
+             "At positive ones the object is seen more from above. It comes up at 0, or as near as there is "
+             "one."},
+            {"elevation_to_deg", turn, &O::elevation_to, range(-90, 90, "deg"),
+             "Of observer: the highest, a whole number of steps above."},
             {"start",
              turn,
              &O::start,
@@ -196,14 +214,15 @@ std::vector<Key> motion() {
              &O::with,
              {},
              "Of observer: turned by dragging with the mouse and by its wheel, by held keys, or by either."},
-            {"keys", turn, &O::keys, left_out("left, right"),
+            {"keys", turn, &O::keys, left_out("left, right, and with elevations up, down"),
              "Of observer: the key that turns the front to the left, and the one that turns it to the "
-             "right."},
+             "right; with elevations also those that take it up and down."},
             {"speed_deg_s", turn, &O::speed_deg_s, range(1, 1000, "deg/s"),
              "Of observer: how fast it turns while a key is held. It stops when the key is let go."},
             {"drag_deg", turn, &O::drag_deg, range(1, 3600, "deg"),
-             "Of observer: how far a drag over the width of its image turns it. The wheel turns it by a "
-             "pose."},
+             "Of observer: how far a drag over the width of its image turns it, or a drag as long up or "
+             "down. "
+             "The wheel turns it by a pose."},
             {"simulated_turn_deg", turn, &O::simulated_turn_deg, range(0, 720, "deg"),
              "Of observer: standard deviation of the turns that a simulated observer makes by its keys, one "
              "after the other."},
@@ -222,10 +241,12 @@ std::vector<Key> object() {
          "\"scholar\"; or one of 24 novel shapes with the areas trunk, crest, left and right: \"shape-01\" "
          "to \"shape-24\"."},
         {"mesh", &S::mesh, left_out("see `shipped` and `lut`"),
-         "A PLY, OBJ or STL file of triangles, by its path from the protocol's folder."},
-        {"up", &S::up, one_of(axes), "The axis of the mesh file that points up."},
+         "A PLY, OBJ, STL or glTF file (.gltf, .glb) of triangles, by its path from the protocol's folder. "
+         "See docs/objects.md."},
+        {"up", &S::up, one_of(axes).left_out("\"z\", and \"y\" of glTF"),
+         "The axis of the mesh file that points up."},
         {"scale", &S::scale, range(1e-9, 1e9), "Factor on the coordinates of the mesh file."},
-        {"unit", &S::unit, one_of(units),
+        {"unit", &S::unit, one_of(units).left_out("\"mm\", and \"m\" of glTF"),
          "Unit of the mesh file's coordinates times `scale`. Surface points, maps and the camera are in "
          "millimetres, whatever it is; with \"own\", for a mesh whose unit is unknown, in the file's, and "
          "every export says so."},
@@ -234,6 +255,9 @@ std::vector<Key> object() {
          "belongs to. Lines `# part 1 rim` name parts. Each part is an area, as are the groups of a mesh "
          "file; "
          "beside `areas` both hold, and a triangle may belong to several."},
+        {"parts_by", &S::parts_by, left_out("\"group\", and \"material\" of glTF"),
+         "What of the mesh file divides it into parts, each of which is an area: its groups (`g` and `o` of "
+         "OBJ, the nodes of glTF), or its materials (`usemtl` of OBJ, the materials of glTF)."},
         {"weld_tolerance", &S::weld_tolerance, range(0, 0.01),
          "Vertices of the mesh that are no farther apart than this share of the diagonal of its box are one: "
          "what some programs write for a corner differs by rounding. 0: only those at the very same place."},
@@ -282,7 +306,8 @@ std::vector<Key> material() {
         {"multiple_scattering", &M::multiple_scattering, left_out("false, as frames always were"),
          "Of a rough metal: whether the light counts that leaves by several micro-mirrors, too. Without it "
          "rough metals are too dark: by 4 % at a roughness of 0.13, by 38 % at 0.6."},
-        {"ior", &M::ior, range(1.01, 3), "Index of refraction of the clear surface of a plastic."},
+        {"ior", &M::ior, range(1.01, 3),
+         "Index of refraction of the clear surface of a plastic, and of what is no metal."},
         {"body", &M::body,
          "What `reflectance` is of: of the light that comes out of a plastic, as a colour measured on it is, "
          "or "
@@ -307,6 +332,9 @@ std::vector<Key> material() {
          "Share of red, green and blue light that a matt surface returns, or the body of a plastic; the "
          "colour of "
          "`metallic-roughness`."},
+        {"base", &M::base,
+         "Whose colour it has: `given`, its `reflectance`; or `own`, the colour that the object's file gives "
+         "each place, in place of it. See docs/objects.md."},
     });
 }
 

@@ -13,16 +13,38 @@ namespace overt {
 struct ObserverTurns {
     int step = 0;           ///< which of the attempt's, from 1; 0: the only one that shows anything
     double seconds = 0.0;   ///< from the first refresh to the last
-    Degrees start{}, end{}; ///< of the object
-    Degrees net{}, path{};  ///< sum of all turns, counter-clockwise ones positive, and of their sizes
+    Degrees start{}, end{}; ///< of the object, about the vertical
+    Degrees start_elevation{}, end_elevation{};
+    Degrees net{};          ///< sum of all turns about the vertical, counter-clockwise ones positive
+    Degrees path{};         ///< sum of the angles between poses that follow one another
     double turning_s = 0.0; ///< time between refreshes whose poses differ
     int changes = 0;        ///< of the pose
-    int reversals = 0;      ///< changes against the direction of the one before
+    int reversals = 0;      ///< turns about the vertical against the direction of the one before
     int poses = 0;          ///< that differ
     /// From the latest input of each picture that contains a further one, to the refresh that it was lit at,
     /// without the display's latency. Nothing: no input moved it.
     std::optional<double> median_delay_s = {}, longest_delay_s = {};
 };
+
+/// How long what observers did took to be seen: from the latest input that a picture contains to the refresh
+/// that it was lit at, of each picture that contains a further one. Without the display's latency.
+struct InputDelays {
+    int count = 0; ///< pictures
+    double median_s = 0.0;
+    double most_s = 0.0; ///< 95 % of them take no longer: the smallest of which that is true
+    double longest_s = 0.0;
+    friend constexpr bool operator==(const InputDelays&, const InputDelays&) = default;
+};
+
+/// Of all that observers moved in the presentations of trials that count: what they turned, and what they set
+/// to match. Nothing where they moved nothing.
+std::optional<InputDelays> input_delays(const SessionRecord& record);
+
+/// The same of delays in seconds, in any order.
+std::optional<InputDelays> summary_of(std::vector<double> delays_s);
+
+/// The delays in flips and what they contain, in the order of refreshes.
+std::vector<double> delays_in(std::span<const FlipRecord> flips, std::span<const SteeredFlip> steered);
 
 /// Of a presentation (TrialRecord::seen_in), a row for each of its shows; none where the observer turned
 /// nothing.

@@ -259,7 +259,7 @@ std::vector<RecordedShow> shows_of(const SessionHeader& header, const TrialRecor
             show.is_lit = step->lights(trial.place);
             show.plan = planned_in(*step, std::move(show.plan),
                                    flips[end - 1].refresh_in_trial - show.first_refresh + 1);
-            if (header.animation_of(trial.trial.stimulus).kind == MotionKind::observer)
+            if (!header.animation_of(trial.trial.stimulus).has_plan())
                 show.plan = as_turned(flips.subspan(begin, end - begin), show.plan.total_refreshes);
         } else { // of an attempt that was cut off
             show.is_lit = std::ranges::any_of(flips.subspan(begin, end - begin),

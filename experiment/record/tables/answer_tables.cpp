@@ -193,6 +193,7 @@ RowLayout<AnswerInputRow> answer_inputs_layout() {
                {"pointer up", "let it go"},
                {"wheel", "turned its wheel"},
                {"dial", "turned a knob"},
+               {"tilt", "tilted a knob"},
                {"let go", "what is typed went to another window"}}},
              [](auto& row) { return name_of(row.taken.input.kind); }},
             {session_seconds("at_s", "When"), [](auto& row) { return row.taken.input.at; }},
@@ -218,7 +219,8 @@ RowLayout<AnswerInputRow> answer_inputs_layout() {
              }},
             {{"steps", "Of a wheel or a knob, by how many steps"},
              [](auto& row) {
-                 const bool turns = row.taken.input.kind == Kind::wheel || row.taken.input.kind == Kind::dial;
+                 const bool turns = row.taken.input.kind == Kind::wheel ||
+                                    row.taken.input.kind == Kind::dial || row.taken.input.kind == Kind::tilt;
                  return Fixed{when(turns, row.taken.input.steps), 3};
              }},
             {{"state",

@@ -36,24 +36,25 @@ ExportTables::ExportTables(const SessionHeader& header, const SharedColumns& sha
       points(points_layout(header)), probes(probes_layout(shared, header)),
       gauges(gauges_layout(shared, header)), gauge_changes(gauge_changes_layout()),
       settings(settings_layout(shared, header)), moves(moves_layout(shared, header)),
-      turns(turns_layout(shared, header)), participants(participants_layout(participant)),
-      has_slots_(shared.has_slots), has_points_(!header.points.empty()) {
+      turns(turns_layout(shared, header)), courses(courses_layout(shared, header)),
+      participants(participants_layout(participant)), has_slots_(shared.has_slots),
+      has_points_(!header.points.empty()) {
     const std::vector<LeadingColumn> leading{
         {{"observer", "Label of the observer"}, header.schedule.observer.label},
         {{"session", "Which session of this observer, from 1"}, std::to_string(header.session_number), true}};
     const auto lead = [&](auto&... layouts) { (layouts.lead_with(leading), ...); };
     lead(trials, presentations, flips, samples, gaze_events, events, responses, stimuli, display_box, buttons,
          key_presses, markers, steps, given_answers, answer_inputs, points, probes, gauges, gauge_changes,
-         settings, moves, turns);
+         settings, moves, turns, courses);
 }
 
 std::vector<const Table*> ExportTables::all() const {
-    std::vector<const Table*> tables{&trials.table(),        &flips.table(),         &samples.table(),
-                                     &gaze_events.table(),   &events.table(),        &responses.table(),
-                                     &stimuli.table(),       &display_box.table(),   &buttons.table(),
-                                     &key_presses.table(),   &markers.table(),       &steps.table(),
-                                     &given_answers.table(), &answer_inputs.table(), &settings.table(),
-                                     &moves.table(),         &turns.table(),         &participants.table()};
+    std::vector<const Table*> tables{
+        &trials.table(),        &flips.table(),         &samples.table(),     &gaze_events.table(),
+        &events.table(),        &responses.table(),     &stimuli.table(),     &display_box.table(),
+        &buttons.table(),       &key_presses.table(),   &markers.table(),     &steps.table(),
+        &given_answers.table(), &answer_inputs.table(), &settings.table(),    &moves.table(),
+        &turns.table(),         &courses.table(),       &participants.table()};
     if (has_slots_)
         tables.push_back(&presentations.table());
     if (has_points_)

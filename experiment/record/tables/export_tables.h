@@ -57,6 +57,7 @@ class ExportTables {
     RowLayout<SettingRow> settings;
     RowLayout<MoveRow> moves;
     RowLayout<TurnRow> turns;
+    RowLayout<CourseRow> courses;
     RowLayout<ParticipantRow> participants;
 
     std::vector<const Table*> all() const;

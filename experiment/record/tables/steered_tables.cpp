@@ -10,6 +10,8 @@ namespace overt {
 namespace {
 
 constexpr int setting_decimals = 9;
+/// So exact that poses are those of the protocol's steps again when they are read.
+constexpr int course_decimals = 9;
 
 std::vector<RowLayout<TrialRecord>::Column> steered_attempt_columns() {
     return {{{"trial", "Position of the trial in the observer's order, from 1"}, number_of_trial},
@@ -103,6 +105,12 @@ RowLayout<MoveRow> moves_layout(const SharedColumns& shared, const SessionHeader
                           setting_decimals};
          }},
         {shared.angle, [&header](auto& row) { return angle_of(header, row.lit.pose); }},
+        {{"elevation_deg", "As in courses", "deg"},
+         [&header](auto& row) {
+             return of_maybe(item_of(header.poses.angles, row.lit.pose.value), [](const ObjectPose& pose) {
+                 return Fixed{elevation_of(pose).value, angle_decimals};
+             });
+         }},
         {session_seconds("input_s", "The latest input that moved what was lit; n/a: none had"),
          [](auto& row) { return row.moved.input_at; }},
         {{"delay_s", "From that input to the refresh, without the display's latency", "s"},
@@ -116,7 +124,10 @@ RowLayout<MoveRow> moves_layout(const SharedColumns& shared, const SessionHeader
 
 RowLayout<TurnRow> turns_layout(const SharedColumns& shared, const SessionHeader& header) {
     RowLayout<TurnRow> layout{
-        "turns", "A row for each show of an object that the observer turned, of trials that count.", {}};
+        "turns",
+        "A row for each show of an object that the observer turned, or that turned as another had turned it, "
+        "of trials that count.",
+        {}};
     layout.add<TrialRecord>({{shared.trial, number_of_trial},
                              {shared.task, task_of(header)},
                              {shared.slot, slot_of_seen(header)}});
@@ -131,12 +142,17 @@ RowLayout<TurnRow> turns_layout(const SharedColumns& shared, const SessionHeader
         {{"start_deg", "Turn of the object at first, counter-clockwise seen from above", "deg"},
          degrees(&ObserverTurns::start)},
         {{"end_deg", "The same at last", "deg"}, degrees(&ObserverTurns::end)},
-        {{"net_deg", "Sum of all turns, clockwise ones negative", "deg"}, degrees(&ObserverTurns::net)},
-        {{"path_deg", "Sum of their sizes", "deg"}, degrees(&ObserverTurns::path)},
+        {{"net_deg", "Sum of all turns about the vertical, clockwise ones negative", "deg"},
+         degrees(&ObserverTurns::net)},
+        {{"start_elevation_deg", "Elevation at first, as in courses", "deg"},
+         degrees(&ObserverTurns::start_elevation)},
+        {{"end_elevation_deg", "The same at last", "deg"}, degrees(&ObserverTurns::end_elevation)},
+        {{"path_deg", "Sum of the angles from pose to pose, whatever they are about", "deg"},
+         degrees(&ObserverTurns::path)},
         {{"turning_s", "Time between refreshes whose poses differ", "s"},
          [](auto& row) { return from_seconds(row.turns.turning_s); }},
         {{"changes", "Changes of the pose"}, [](auto& row) { return row.turns.changes; }},
-        {{"reversals", "Changes against the direction of the one before"},
+        {{"reversals", "Turns about the vertical against the direction of the one before"},
          [](auto& row) { return row.turns.reversals; }},
         {{"poses", "Poses that were seen"}, [](auto& row) { return row.turns.poses; }},
         {{"median_delay_s",
@@ -152,6 +168,64 @@ RowLayout<TurnRow> turns_layout(const SharedColumns& shared, const SessionHeader
          }},
     });
     return layout;
+}
+
+RowLayout<CourseRow> courses_layout(const SharedColumns& shared, const SessionHeader& header) {
+    RowLayout<CourseRow> layout{
+        "courses",
+        "A row for each pose that was lit of an object that the observer turned, where it changed, and one "
+        "for the end of each show, of trials that count. A motion of kind \"recorded\" shows it again.",
+        {}};
+    layout.add<TrialRecord>({{shared.trial, number_of_trial}, {shared.slot, slot_of_seen(header)}});
+    layout.add<TrialRecord>(shared.of_stimulus<TrialRecord>(shown_in));
+    layout.add<CourseRow>({
+        {{"step", "Which of the attempt's steps, from 1"}, [](auto& row) { return row.step; }},
+        {{"t_s",
+          "Since the show's first refresh, in refreshes by the protocol's rate; missed ones count, and the "
+          "picture before them stood",
+          "s"},
+         [](auto& row) { return from_seconds(row.t_s); }},
+        {{"angle_deg", "Turn of the object from then on, counter-clockwise seen from above", "deg"},
+         [](auto& row) {
+             return Fixed{row.pose.angle.value, course_decimals};
+         }},
+        {{"elevation_deg",
+          "After it, turn about the horizontal line to the observer's right; positive: seen more from above",
+          "deg"},
+         [](auto& row) {
+             return Fixed{elevation_of(row.pose).value, course_decimals};
+         }},
+    });
+    return layout;
+}
+
+void write_courses(TableWriter& writer, const RowLayout<CourseRow>& layout, const SessionRecord& record,
+                   const TrialRecord& seen, const std::optional<TrialLedger>& ledger) {
+    const SessionHeader& header = record.header();
+    if (!ledger || header.animation_of(seen.trial.stimulus).has_plan())
+        return;
+    const std::span<const FlipRecord> flips = ledger->fit.flips();
+    for (const RecordedShow& show : shows_of(header, seen, flips)) {
+        if (!show.is_lit)
+            continue;
+        std::optional<PoseIndex> before;
+        const auto write = [&](const FlipRecord& flip, int refreshes) {
+            layout.write(writer, {seen, flip.step, refreshes / header.display.refresh_hz,
+                                  header.poses.object_of(flip.pose)});
+        };
+        const FlipRecord* last = nullptr;
+        for (const FlipRecord& flip : flips.subspan(show.begin, show.end - show.begin)) {
+            if (flip.shown == no_frame)
+                continue;
+            last = &flip;
+            if (before == flip.pose)
+                continue;
+            before = flip.pose;
+            write(flip, flip.refresh_in_trial - show.first_refresh);
+        }
+        if (last)
+            write(*last, last->refresh_in_trial - show.first_refresh + 1);
+    }
 }
 
 std::int64_t write_moves(TableWriter& writer, const RowLayout<MoveRow>& layout, const SessionRecord& record,

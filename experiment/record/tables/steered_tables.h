@@ -36,6 +36,21 @@ struct TurnRow {
 };
 RowLayout<TurnRow> turns_layout(const SharedColumns& shared, const SessionHeader& header);
 
+/// A pose that was lit of an object that the observer turned.
+struct CourseRow {
+    const TrialRecord& seen;
+    int step = 0;     ///< as ObserverTurns has it
+    double t_s = 0.0; ///< since the show's onset, in refreshes of the protocol's rate
+    const ObjectPose& pose;
+    operator const TrialRecord&() const { return seen; }
+};
+RowLayout<CourseRow> courses_layout(const SharedColumns& shared, const SessionHeader& header);
+
+/// Writes a row for each pose of a presentation that differs from the one before, and one for the end of each
+/// show. Throws RecordError.
+void write_courses(TableWriter& writer, const RowLayout<CourseRow>& layout, const SessionRecord& record,
+                   const TrialRecord& seen, const std::optional<TrialLedger>& ledger);
+
 /// Writes the rows of a presentation; gives how many. Throws RecordError.
 std::int64_t write_moves(TableWriter& writer, const RowLayout<MoveRow>& layout, const SessionRecord& record,
                          const TrialRecord& seen, const std::optional<TrialLedger>& ledger);

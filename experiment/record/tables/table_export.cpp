@@ -221,6 +221,7 @@ void TableExport::write_trial(const TrialRecord& trial) {
         write_moves(writer(tables_.moves), tables_.moves, record_, seen, ledger);
         for (const ObserverTurns& turns : observer_turns(record_, seen, ledger))
             write(tables_.turns, TurnRow{seen, turns});
+        write_courses(writer(tables_.courses), tables_.courses, record_, seen, ledger);
         const SampleCounts& samples = aside_.at({trial.id, seen.place}).samples;
         of_trial.on_object += samples.on_object;
         of_trial.off_plan += samples.off_plan;

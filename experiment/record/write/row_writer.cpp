@@ -480,7 +480,7 @@ void RowWriter::write_answers(const TrialOutcome& outcome) {
         using Kind = ObserverInput::Kind;
         const bool points = input.kind == Kind::pointer_moved || input.kind == Kind::pointer_down ||
                             input.kind == Kind::pointer_up;
-        const bool turns = input.kind == Kind::wheel || input.kind == Kind::dial;
+        const bool turns = input.kind == Kind::wheel || input.kind == Kind::dial || input.kind == Kind::tilt;
         const auto of = [](bool is_there, auto value) {
             return is_there ? std::optional(value) : std::nullopt;
         };

@@ -12,6 +12,7 @@
 
 #include "experiment/base/error.h"
 #include "experiment/base/memory_for.h"
+#include "experiment/scene/files/gltf_reader.h"
 #include "experiment/scene/files/mesh_source.h"
 #include "experiment/scene/files/obj_reader.h"
 #include "experiment/scene/files/ply_reader.h"
@@ -52,6 +53,41 @@ void turn_and_scale(std::vector<glm::dvec3>& places, const MeshImport& import) {
                 fmt::format("the scale {} makes coordinates too large for a 32-bit float.", import.scale));
         }
     }
+}
+
+/// Makes parts of what the triangles are made of, if that is not the same everywhere. Materials of one name
+/// are one.
+void divide_by_materials(RawMesh& raw) {
+    raw.triangle_labels = {};
+    raw.part_names = {};
+    const std::vector<std::uint16_t>& materials = raw.triangle_materials;
+    if (std::ranges::all_of(materials, [&](std::uint16_t index) { return index == materials.front(); }))
+        return;
+    std::map<std::string_view, PartLabel> first_of_name;
+    std::vector<PartLabel> label_of(raw.material_names.size());
+    for (std::size_t i = 0; i < label_of.size(); ++i)
+        label_of[i] =
+            first_of_name.try_emplace(raw.material_names[i], static_cast<PartLabel>(i)).first->second;
+    raw.triangle_labels.reserve(materials.size());
+    for (const std::uint16_t index : materials)
+        raw.triangle_labels.push_back(label_of[index]);
+    for (const PartLabel label : raw.triangle_labels)
+        raw.part_names.try_emplace(label, raw.material_names[static_cast<std::size_t>(label)]);
+}
+
+/// What to do with a file of a format that is not read; empty for all others.
+std::string_view remedy_for_format(const MeshSource& source, const std::string& extension) {
+    constexpr std::string_view in_blender =
+        "this format is not read; convert it to glTF (in Blender: File, Export, glTF 2.0, .glb).";
+    const std::string_view bytes = source.bytes();
+    constexpr std::array extensions{std::string_view(".fbx"),  std::string_view(".blend"),
+                                    std::string_view(".usdz"), std::string_view(".usdc"),
+                                    std::string_view(".usd"),  std::string_view(".usda"),
+                                    std::string_view(".3mf"),  std::string_view(".dae")};
+    const bool is_known = std::ranges::find(extensions, extension) != extensions.end() ||
+                          bytes.starts_with("Kaydara FBX Binary") || bytes.starts_with("BLENDER") ||
+                          bytes.starts_with("PXR-USDC") || bytes.starts_with("PK\x03\x04");
+    return is_known ? in_blender : std::string_view();
 }
 
 /// Groups of a file that are more than parts can be are no reason to do without a region that is given.
@@ -115,11 +151,15 @@ void bring_near(std::vector<glm::dvec3>& places, MeshCleaningReport& report) {
         place -= report.origin;
 }
 
-RawMesh read_opened(const std::filesystem::path& path) {
+RawMesh read_opened(const std::filesystem::path& path, MeshWanted wanted) {
     const MeshSource source(path);
     const std::string extension = lower_extension(path);
+    if (is_gltf(source) || is_gltf_name(path))
+        return read_gltf(source, wanted);
+    if (const std::string_view remedy = remedy_for_format(source, extension); !remedy.empty())
+        source.fail(remedy);
     if (is_ply(source))
-        return read_ply(source);
+        return read_ply(source, wanted);
     switch (stl_form(source)) {
     case StlForm::binary:
         return read_binary_stl(source);
@@ -133,16 +173,21 @@ RawMesh read_opened(const std::filesystem::path& path) {
     if (source.bytes().starts_with("\xFF\xFE") || source.bytes().starts_with("\xFE\xFF"))
         source.fail("this is text in UTF-16, which no mesh format is; save it as UTF-8 or ASCII.");
     if (extension == ".obj" || is_obj(source))
-        return read_obj(source);
+        return read_obj(source, wanted);
     if (extension == ".ply")
         source.fail("the file is called .ply but does not begin with the line 'ply'.");
-    source.fail("this is no mesh in a known format (PLY, OBJ or STL); export it as one of them.");
+    source.fail("this is no mesh in a known format (PLY, OBJ, STL or glTF); export it as one of them.");
 }
 
 } // namespace
 
-RawMesh read_mesh_file(const std::filesystem::path& path) {
-    return with_memory_for(path, [&] { return read_opened(path); });
+RawMesh read_mesh_file(const std::filesystem::path& path, MeshWanted wanted) {
+    return with_memory_for(path, [&] { return read_opened(path, wanted); });
+}
+
+bool is_gltf_name(const std::filesystem::path& path) {
+    const std::string extension = lower_extension(path);
+    return extension == ".gltf" || extension == ".glb";
 }
 
 UpAxis up_axis_named(std::string_view name) {
@@ -174,18 +219,28 @@ glm::dmat3 z_up_from_file(UpAxis up) {
     return {x, y, z};
 }
 
-Mesh import_mesh(const std::filesystem::path& path, const MeshImport& import, MeshCleaningReport& report) {
-    RawMesh raw = read_mesh_file(path);
+Mesh import_mesh(const std::filesystem::path& path, const MeshImport& import, MeshCleaningReport& report,
+                 SurfaceAppearance* appearance) {
+    RawMesh raw = read_mesh_file(path, appearance ? MeshWanted::appearance : MeshWanted::shape);
+    if (import.parts_by_material.value_or(is_gltf_name(path)))
+        divide_by_materials(raw);
     if (!import.labels.empty())
         label_by_file(raw, import.labels);
     try {
         MeshCleaningReport of_file;
         of_file.vertices_read = raw.positions.size();
         of_file.crossing_faces = raw.crossing_faces;
+        of_file.part_remarks = std::move(raw.remarks);
+        if (appearance) {
+            *appearance = std::move(raw.appearance);
+            // Names of materials that nothing is known of are of no use to a look.
+            if (appearance->materials.size() == raw.material_names.size())
+                appearance->triangle_materials = std::move(raw.triangle_materials);
+        }
         const UnusedVertices unused = drop_unused_vertices(raw);
         std::vector<glm::dvec3> places = std::move(raw.positions);
         raw.positions = {};
-        if (!import.regions.empty() && import.labels.empty())
+        if ((!import.regions.empty() || is_gltf_name(path)) && import.labels.empty())
             forget_too_many_parts(raw, of_file);
         Mesh mesh = mesh_with_labelled_parts(std::move(raw));
         if (!import.regions.empty())
@@ -195,7 +250,11 @@ Mesh import_mesh(const std::filesystem::path& path, const MeshImport& import, Me
         bring_near(places, of_file);
         mesh.positions.assign(places.begin(), places.end());
         places = {};
-        report = clean_mesh(mesh, import.weld_tolerance * mesh.bounds().diagonal());
+        std::vector<CornersFrom> from;
+        report =
+            clean_mesh(mesh, import.weld_tolerance * mesh.bounds().diagonal(), appearance ? &from : nullptr);
+        if (appearance)
+            *appearance = rearranged(std::move(*appearance), from);
         report.vertices_read = of_file.vertices_read;
         report.crossing_faces = of_file.crossing_faces;
         report.unreferenced_vertices_dropped += unused.with_place;

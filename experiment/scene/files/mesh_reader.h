@@ -8,6 +8,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,11 +22,15 @@
 
 namespace overt {
 
-/// Reads a PLY, OBJ or STL file as it is. The format is told by the content, and by the file's extension only
-/// where the content does not say. Throws InputError with the file and the place for a file that cannot be
-/// read, is of no known format, is cut off, or contradicts itself; see ply_reader.h, obj_reader.h,
-/// stl_reader.h.
-RawMesh read_mesh_file(const std::filesystem::path& path);
+/// Reads a PLY, OBJ, STL or glTF file as it is. The format is told by the content, and by the file's
+/// extension only where the content does not say. Throws InputError with the file and the place for a file
+/// that cannot be read, is of no known format, is cut off, or contradicts itself; see ply_reader.h,
+/// obj_reader.h, stl_reader.h, gltf_reader.h.
+RawMesh read_mesh_file(const std::filesystem::path& path, MeshWanted wanted = MeshWanted::shape);
+
+/// Whether the file is one of glTF by its name, .gltf or .glb: then +y points up in it and its unit is the
+/// metre, whatever program wrote it.
+bool is_gltf_name(const std::filesystem::path& path);
 
 /// Axis of the file's coordinates that points up.
 enum class UpAxis : std::uint8_t { x, y, z, minus_x, minus_y, minus_z };
@@ -45,6 +50,8 @@ struct MeshImport {
     std::filesystem::path labels; ///< an id map, see label_by_file(); empty: the labels of the mesh file
     /// As a share of the diagonal of the mesh's box; 0: only vertices at equal coordinates are welded.
     double weld_tolerance = 0.0;
+    /// What of the file divides it into parts; left out: its groups, of glTF its materials.
+    std::optional<bool> parts_by_material = {};
     /// Regions of parts in the file's coordinates, beside the parts that the file labels (label_parts).
     std::vector<PartRegion> regions;
 };
@@ -55,6 +62,10 @@ struct MeshImport {
 /// names. Vertices that no face uses have no say in that, nor in what is welded. Throws InputError, naming
 /// the file, as read_mesh_file and label_parts do, for a scale that is not positive or makes coordinates
 /// overflow, and for a mesh without any area.
-Mesh import_mesh(const std::filesystem::path& path, const MeshImport& import, MeshCleaningReport& report);
+///
+/// `appearance`, if it is given, gets how the surface looks, for the triangles of the mesh that is returned;
+/// pictures are read only then. It is left empty where the file says nothing of it.
+Mesh import_mesh(const std::filesystem::path& path, const MeshImport& import, MeshCleaningReport& report,
+                 SurfaceAppearance* appearance = nullptr);
 
 } // namespace overt

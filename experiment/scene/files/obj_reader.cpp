@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "experiment/scene/files/mesh_text.h"
+#include "experiment/scene/files/obj_look.h"
 #include "experiment/scene/making/face_cutting.h"
 
 namespace overt {
@@ -18,8 +19,9 @@ namespace {
 class ObjReader {
   public:
     // `refused`: the vertex, counted from 0, whose coordinates are known to be none.
-    explicit ObjReader(const MeshSource& source, std::optional<std::size_t> refused = {})
-        : source_(source), text_(source, 0, 1, LineJoining::backslash), refused_(refused) {}
+    ObjReader(const MeshSource& source, bool wants_look, std::optional<std::size_t> refused = {})
+        : source_(source), text_(source, 0, 1, LineJoining::backslash), look_(text_, wants_look),
+          refused_(refused) {}
 
     RawMesh read() {
         do {
@@ -30,15 +32,22 @@ class ObjReader {
                 read_face();
             } else if (statement == "o" || statement == "g") {
                 begin_group();
+            } else if (statement == "vt" && look_.is_wanted()) {
+                read_place();
+            } else if (statement == "usemtl") {
+                look_.use_material(text_.rest_of_line());
+            } else if (statement == "mtllib") {
+                look_.add_libraries(text_.rest_of_line());
             }
         } while (text_.to_next_line());
         expect_known_vertices();
         if (mesh_.triangles.empty())
             source_.fail("this OBJ file has no faces (lines 'f ...').");
         if (const auto vertex = first_used_without_place(mesh_); vertex && !refused_)
-            return ObjReader(source_, vertex).read();
+            return ObjReader(source_, look_.is_wanted(), vertex).read();
         fans_.cut();
         keep_groups_if_several();
+        look_.finish(mesh_, source_);
         return std::move(mesh_);
     }
 
@@ -57,20 +66,47 @@ class ObjReader {
             position[axis] = std::numeric_limits<double>::quiet_NaN();
         }
         mesh_.positions.push_back(position);
+        if (look_.is_wanted())
+            read_colour();
+    }
+
+    // Three numbers behind the coordinates; a single one is a weight.
+    void read_colour() {
+        glm::vec3 colour;
+        for (int channel = 0; channel < 3; ++channel) {
+            const std::optional<double> value = MeshText::number_in(text_.next_in_line());
+            if (!value)
+                return;
+            colour[channel] = static_cast<float>(*value);
+        }
+        look_.add_vertex_colour(mesh_.positions.size() - 1, colour);
+    }
+
+    void read_place() {
+        const auto owner = [] { return std::string("this place on a picture (vt)"); };
+        const double u = text_.coordinate('u', owner);
+        // A picture may have one row alone.
+        const std::optional<double> v = MeshText::number_in(text_.next_in_line());
+        look_.add_place(u, v && is_coordinate(*v) ? *v : 0.0);
     }
 
     void read_face() {
         fans_.begin_face();
+        look_.begin_face();
+        const std::size_t first = mesh_.triangles.size();
         int corners = 0;
         for (std::string_view word = text_.next_in_line(); !word.empty(); word = text_.next_in_line()) {
             if (word.front() == '#')
                 break;
-            fans_.add_corner(vertex_index(word));
+            const std::uint32_t vertex = vertex_index(word);
+            fans_.add_corner(vertex);
+            look_.add_corner(vertex, word);
             ++corners;
         }
         mesh_.triangle_labels.resize(mesh_.triangles.size(), group_);
         if (corners < 3)
             text_.fail(fmt::format("this face has {} corners; a face has at least 3.", corners));
+        look_.end_face(first, mesh_.triangles.size());
     }
 
     std::uint32_t vertex_index(std::string_view corner) {
@@ -136,6 +172,7 @@ class ObjReader {
     MeshText text_;
     RawMesh mesh_;
     FaceFans fans_{mesh_};
+    ObjLook look_;
     std::optional<std::size_t> refused_;
     std::int64_t highest_ = 0; ///< largest vertex number used before its vertex was read
     TextPlace highest_place_;
@@ -159,6 +196,8 @@ bool is_obj(const MeshSource& source) {
     return false;
 }
 
-RawMesh read_obj(const MeshSource& source) { return ObjReader(source).read(); }
+RawMesh read_obj(const MeshSource& source, MeshWanted wanted) {
+    return ObjReader(source, wanted == MeshWanted::appearance).read();
+}
 
 } // namespace overt

@@ -104,9 +104,16 @@ PlyProperty property_in(MeshText& text, const PlyHeader& header) {
     return property;
 }
 
-// `comment part LABEL NAME`; every other comment is passed over.
+// `comment part LABEL NAME` and `comment TextureFile NAME`; every other comment is passed over.
 void read_comment(MeshText& text, PlyHeader& header) {
-    if (text.next_in_line() != "part")
+    const std::string_view word = text.next_in_line();
+    if (word == "TextureFile") {
+        std::string name(text.rest_of_line());
+        name.erase(0, name.find_first_not_of(" \t"));
+        name.erase(name.find_last_not_of(" \t") + 1);
+        header.picture_files.push_back(std::move(name));
+    }
+    if (word != "part")
         return;
     const std::optional<std::int64_t> label = MeshText::integer_in(text.next_in_line());
     if (!label || static_cast<std::int64_t>(static_cast<PartLabel>(*label)) != *label)

@@ -50,6 +50,7 @@ struct PlyHeader {
     PlyFormat format = PlyFormat::text;
     std::vector<PlyElement> elements;
     std::map<PartLabel, std::string> part_names; ///< from lines `comment part LABEL NAME`
+    std::vector<std::string> picture_files;      ///< from lines `comment TextureFile NAME`
     std::size_t body_offset = 0;                 ///< byte after the header
     std::size_t body_line = 1;                   ///< line after the header
 

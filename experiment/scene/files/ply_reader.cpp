@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "experiment/scene/files/ply_header.h"
+#include "experiment/scene/files/ply_look.h"
 #include "experiment/scene/files/ply_values.h"
 #include "experiment/scene/files/triangle_labels.h"
 #include "experiment/scene/making/face_cutting.h"
@@ -45,7 +46,9 @@ template <class Values> PartLabel label_in(Values& values, PlyType type) {
 // by its row (`refused`).
 template <class Values>
 std::vector<PartLabel> read_vertices(Values& values, const PlyElement& element, std::uint64_t refused,
-                                     RawMesh& mesh) {
+                                     RawMesh& mesh, PlyLook* look) {
+    const PlyLookColumns columns = look ? PlyLookColumns::of(element) : PlyLookColumns();
+    const bool has_colour = columns.colour[0] != none, has_place = columns.place[0] != none;
     const std::size_t x = find_property(element, {"x"}, false).value();
     const std::size_t y = find_property(element, {"y"}, false).value();
     const std::size_t z = find_property(element, {"z"}, false).value();
@@ -69,6 +72,8 @@ std::vector<PartLabel> read_vertices(Values& values, const PlyElement& element, 
             }
             return std::numeric_limits<double>::quiet_NaN();
         };
+        glm::vec3 colour(0.0f);
+        glm::vec2 place(0.0f);
         for (std::size_t i = 0; i < element.properties.size(); ++i) {
             const PlyProperty& property = element.properties[i];
             if (i == x) {
@@ -79,11 +84,22 @@ std::vector<PartLabel> read_vertices(Values& values, const PlyElement& element, 
                 position.z = coordinate(property.type, 'z');
             } else if (i == label) {
                 labels[row] = label_in(values, property.type);
+            } else if (const std::size_t channel = columns.channel(i); channel < 3) {
+                colour[static_cast<int>(channel)] =
+                    PlyLook::share_of(values.coordinate(property.type, 'c'), property.type);
+            } else if (i == columns.place[0] || i == columns.place[1]) {
+                const double value = values.coordinate(property.type, 'u');
+                place[i == columns.place[0] ? 0 : 1] =
+                    is_coordinate(value) ? static_cast<float>(value) : 0.0f;
             } else {
                 skip_property(values, property);
             }
         }
         values.end_row();
+        if (has_colour)
+            look->set_vertex_colour(row, colour);
+        if (has_place)
+            look->set_vertex_place(row, place);
     }
     return labels;
 }
@@ -155,7 +171,10 @@ void read_strip(Values& values, const PlyProperty& list, std::uint64_t vertex_co
 // Faces, or strips of triangles.
 template <class Values>
 void read_faces(Values& values, const PlyElement& element, std::uint64_t vertex_count, RawMesh& mesh,
-                FaceFans& fans) {
+                FaceFans& fans, PlyLook* look) {
+    const PlyLookColumns columns = look ? PlyLookColumns::of(element) : PlyLookColumns();
+    const bool has_colour = columns.colour[0] != none;
+    std::vector<float> places;
     const bool is_strips = element.name == "tristrips";
     const std::size_t corners = find_corner_list(element).value();
     const std::size_t label = label_property(element);
@@ -174,6 +193,10 @@ void read_faces(Values& values, const PlyElement& element, std::uint64_t vertex_
     for (std::uint64_t row = 0; row < element.count; ++row) {
         values.begin_row(row);
         PartLabel face_label = 0;
+        const std::size_t first_triangle = mesh.triangles.size();
+        glm::vec3 colour(0.0f);
+        std::int64_t picture = 0;
+        places.clear();
         for (std::size_t i = 0; i < element.properties.size(); ++i) {
             const PlyProperty& property = element.properties[i];
             if (i == corners && is_strips) {
@@ -182,6 +205,16 @@ void read_faces(Values& values, const PlyElement& element, std::uint64_t vertex_
                 read_polygon(values, property, vertex_count, row, fans);
             } else if (i == label) {
                 face_label = label_in(values, property.type);
+            } else if (const std::size_t channel = columns.channel(i); channel < 3) {
+                colour[static_cast<int>(channel)] =
+                    PlyLook::share_of(values.coordinate(property.type, 'c'), property.type);
+            } else if (i == columns.corner_places) {
+                for (std::int64_t left = list_length(values, property); left > 0; --left) {
+                    const double value = values.coordinate(property.type, 'u');
+                    places.push_back(is_coordinate(value) ? static_cast<float>(value) : 0.0f);
+                }
+            } else if (i == columns.picture && is_integer(property.type)) {
+                picture = values.integer(property.type);
             } else {
                 skip_property(values, property);
             }
@@ -189,6 +222,9 @@ void read_faces(Values& values, const PlyElement& element, std::uint64_t vertex_
         values.end_row();
         if (is_labelled)
             mesh.triangle_labels.resize(mesh.triangles.size(), face_label);
+        if (look)
+            look->set_face(first_triangle, mesh.triangles.size(),
+                           has_colour ? std::optional(colour) : std::nullopt, places, picture);
     }
 }
 
@@ -203,7 +239,8 @@ template <class Values> void skip_element(Values& values, const PlyElement& elem
     }
 }
 
-template <class Values> RawMesh read_body(Values values, const PlyHeader& header, std::uint64_t refused) {
+template <class Values>
+RawMesh read_body(Values values, const PlyHeader& header, std::uint64_t refused, PlyLook* look) {
     RawMesh mesh;
     FaceFans fans(mesh);
     std::vector<PartLabel> vertex_labels;
@@ -211,9 +248,9 @@ template <class Values> RawMesh read_body(Values values, const PlyHeader& header
     for (const PlyElement& element : header.elements) {
         values.begin_element(element);
         if (element.name == "vertex") {
-            vertex_labels = read_vertices(values, element, refused, mesh);
+            vertex_labels = read_vertices(values, element, refused, mesh, look);
         } else if ((element.name == "face" || element.name == "tristrips") && element.count > 0) {
-            read_faces(values, element, vertex_count, mesh, fans);
+            read_faces(values, element, vertex_count, mesh, fans, look);
         } else {
             skip_element(values, element);
         }
@@ -229,13 +266,18 @@ template <class Values> RawMesh read_body(Values values, const PlyHeader& header
     return mesh;
 }
 
-template <class Values> RawMesh read_whole_body(const MeshSource& source, const PlyHeader& header) {
+template <class Values>
+RawMesh read_whole_body(const MeshSource& source, const PlyHeader& header, MeshWanted wanted) {
+    PlyLook look;
+    const bool wants_look = wanted == MeshWanted::appearance;
     constexpr auto nobody = std::numeric_limits<std::uint64_t>::max();
-    RawMesh mesh = read_body(Values(source, header), header, nobody);
+    RawMesh mesh = read_body(Values(source, header), header, nobody, wants_look ? &look : nullptr);
     if (mesh.triangles.empty())
         source.fail("the strips of this PLY file have no triangles; a surface is needed.");
     if (const auto vertex = first_used_without_place(mesh))
-        return read_body(Values(source, header), header, *vertex);
+        return read_body(Values(source, header), header, *vertex, nullptr);
+    if (wants_look)
+        look.finish(mesh, source, header);
     return mesh;
 }
 
@@ -246,11 +288,11 @@ bool is_ply(const MeshSource& source) {
     return bytes.starts_with("ply") && (bytes.size() == 3 || bytes[3] == '\n' || bytes[3] == '\r');
 }
 
-RawMesh read_ply(const MeshSource& source) {
+RawMesh read_ply(const MeshSource& source, MeshWanted wanted) {
     const PlyHeader header = read_ply_header(source);
     if (header.format == PlyFormat::text)
-        return read_whole_body<PlyText>(source, header);
-    return read_whole_body<PlyBinary>(source, header);
+        return read_whole_body<PlyText>(source, header, wanted);
+    return read_whole_body<PlyBinary>(source, header, wanted);
 }
 
 } // namespace overt

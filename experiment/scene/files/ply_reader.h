@@ -19,6 +19,6 @@ bool is_ply(const MeshSource& source);
 /// Throws InputError with line and column (text) or byte offset (binary) if the file is cut off or
 /// contradicts itself, and for coordinates of a face that are not finite, indices out of range and faces with
 /// fewer than three corners.
-RawMesh read_ply(const MeshSource& source);
+RawMesh read_ply(const MeshSource& source, MeshWanted wanted = MeshWanted::shape);
 
 } // namespace overt

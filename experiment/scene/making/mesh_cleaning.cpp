@@ -41,19 +41,25 @@ void weld(Mesh& mesh, double tolerance, MeshCleaningReport& report) {
     report.vertices_welded = before - mesh.positions.size();
 }
 
-// Keeps the triangles, with their parts, for whose index `keep` says so; gives the number dropped.
-template <class Keep> std::size_t drop_triangles(Mesh& mesh, const Keep& keep) {
+// Keeps the triangles, with their parts and where they come from, for whose index `keep` says so; gives the
+// number dropped.
+template <class Keep>
+std::size_t drop_triangles(Mesh& mesh, std::vector<CornersFrom>* from, const Keep& keep) {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
         if (!keep(i))
             continue;
         mesh.triangles[kept] = mesh.triangles[i];
         mesh.triangle_parts[kept] = mesh.triangle_parts[i];
+        if (from)
+            (*from)[kept] = (*from)[i];
         ++kept;
     }
     const std::size_t dropped = mesh.triangles.size() - kept;
     mesh.triangles.resize(kept);
     mesh.triangle_parts.resize(kept);
+    if (from)
+        from->resize(kept);
     return dropped;
 }
 
@@ -65,7 +71,7 @@ glm::uvec3 lowest_first(const glm::uvec3& t) {
 }
 
 // Triangles are compared within bins of the same lowest index.
-std::size_t drop_duplicates(Mesh& mesh) {
+std::size_t drop_duplicates(Mesh& mesh, std::vector<CornersFrom>* from) {
     const std::vector<glm::uvec3>& triangles = mesh.triangles;
     std::vector<std::uint32_t> bin_ends(mesh.positions.size() + 1, 0);
     for (const glm::uvec3& triangle : triangles)
@@ -91,7 +97,7 @@ std::size_t drop_duplicates(Mesh& mesh) {
         }
         begin = end;
     }
-    return drop_triangles(mesh, [&](std::size_t i) { return !repeated[i]; });
+    return drop_triangles(mesh, from, [&](std::size_t i) { return !repeated[i]; });
 }
 
 std::size_t drop_unreferenced(Mesh& mesh) {
@@ -123,22 +129,27 @@ std::string counted(std::size_t count, std::string_view one, std::string_view ma
 
 } // namespace
 
-MeshCleaningReport clean_mesh(Mesh& mesh, double weld_tolerance) {
+MeshCleaningReport clean_mesh(Mesh& mesh, double weld_tolerance, std::vector<CornersFrom>* from) {
     OVERT_EXPECTS(mesh.triangle_parts.size() == mesh.triangles.size());
     OVERT_EXPECTS(mesh.triangles.size() <= 0xffffffffu);
     MeshCleaningReport report;
     report.vertices_read = mesh.positions.size();
     report.triangles_read = mesh.triangles.size();
+    if (from) {
+        from->assign(mesh.triangles.size(), {});
+        for (std::uint32_t i = 0; i < from->size(); ++i)
+            (*from)[i].triangle = i;
+    }
     std::vector<bool> had_area(mesh.triangles.size());
     for (std::size_t i = 0; i < had_area.size(); ++i)
         had_area[i] = !is_degenerate(mesh, mesh.triangles[i]);
     weld(mesh, weld_tolerance, report);
-    report.degenerate_faces_dropped = drop_triangles(mesh, [&](std::size_t i) {
+    report.degenerate_faces_dropped = drop_triangles(mesh, from, [&](std::size_t i) {
         const bool has_area = !is_degenerate(mesh, mesh.triangles[i]);
         report.collapsed_faces_dropped += had_area[i] && !has_area ? 1 : 0;
         return has_area;
     });
-    report.duplicate_faces_dropped = drop_duplicates(mesh);
+    report.duplicate_faces_dropped = drop_duplicates(mesh, from);
     report.unreferenced_vertices_dropped = drop_unreferenced(mesh);
 
     const EdgeCounts edges = count_edges(mesh.triangles, mesh.positions.size());
@@ -150,6 +161,9 @@ MeshCleaningReport clean_mesh(Mesh& mesh, double weld_tolerance) {
     if (report.inverted && edges.bounds_volume()) {
         for (glm::uvec3& triangle : mesh.triangles)
             std::swap(triangle.y, triangle.z);
+        if (from)
+            for (CornersFrom& corners : *from)
+                std::swap(corners.corner[1], corners.corner[2]);
         report.flipped = true;
     }
     return report;

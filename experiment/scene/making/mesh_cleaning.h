@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "experiment/scene/mesh.h"
+#include "experiment/scene/surface_appearance.h"
 
 namespace overt {
 
@@ -40,8 +41,10 @@ struct MeshCleaningReport {
 /// turned (the second and third corner change places). The result may have no triangles. Cleaning a second
 /// time changes nothing. Throws InputError for an impossible tolerance.
 ///
-/// Takes up to 16 bytes for each triangle meanwhile.
-MeshCleaningReport clean_mesh(Mesh& mesh, double weld_tolerance = 0.0);
+/// Takes up to 16 bytes for each triangle meanwhile. `from`, if it is given, gets where the corners of each
+/// triangle that is left come from.
+MeshCleaningReport clean_mesh(Mesh& mesh, double weld_tolerance = 0.0,
+                              std::vector<CornersFrom>* from = nullptr);
 
 /// What an experimenter should know of it, a sentence each; empty if there is nothing to say.
 std::vector<std::string> describe(const MeshCleaningReport& report);

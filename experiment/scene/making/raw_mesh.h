@@ -12,8 +12,12 @@
 #include <glm/glm.hpp>
 
 #include "experiment/scene/mesh.h"
+#include "experiment/scene/surface_appearance.h"
 
 namespace overt {
+
+/// Whether a mesh file is read for its shape alone, or also for how its surface looks.
+enum class MeshWanted : std::uint8_t { shape, appearance };
 
 /// Number that a file gives to a part of the figure; any value, in no particular order.
 using PartLabel = std::int32_t;
@@ -27,7 +31,14 @@ struct RawMesh {
     std::vector<glm::uvec3> triangles;
     std::vector<PartLabel> triangle_labels;      ///< one per triangle, or empty if the file labels nothing
     std::map<PartLabel, std::string> part_names; ///< names that the file gives to labels; may be empty
-    std::size_t crossing_faces = 0; ///< whose outline crosses itself, so that they have no inside
+    /// What the triangles are made of, as an index into material_names for each; empty if the file does not
+    /// say.
+    std::vector<std::uint16_t> triangle_materials;
+    std::vector<std::string> material_names;
+    /// How the surface looks, if that was asked for; its triangle_materials are left to the above.
+    SurfaceAppearance appearance;
+    std::vector<std::string> remarks; ///< what the file holds that is left aside
+    std::size_t crossing_faces = 0;   ///< whose outline crosses itself, so that they have no inside
 };
 
 /// Whether a number of a mesh file can be a coordinate: finite, and no larger than a 32-bit float can be.

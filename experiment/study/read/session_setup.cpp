@@ -100,11 +100,17 @@ std::string motion_in_words(const Animation& motion) {
     if (motion.kind == MotionKind::observer) {
         const ObserverTurn& by = motion.by_observer;
         return fmt::format(
-            "the observer turned the object about the vertical, {}, from pose to pose {} deg apart",
+            "the observer turned the object about the vertical, {}, from pose to pose {} deg apart{}",
             by.is_whole() ? std::string("all round")
                           : fmt::format("from {} to {} deg", by.from.value, by.to.value),
-            by.step.value);
+            by.step.value,
+            by.has_elevations()
+                ? fmt::format(", and tilted it from {} to {} deg, {} deg apart", by.elevation_from.value,
+                              by.elevation_to.value, by.elevation_step.value)
+                : std::string());
     }
+    if (motion.kind == MotionKind::recorded)
+        return "the object turned as observers of earlier sessions had turned it, refresh by refresh";
     const bool turns = motion.kind == MotionKind::turn && motion.amplitude.value != 0.0;
     const bool is_of_old = motion.kind == MotionKind::turn || motion.kind == MotionKind::still;
     if (!is_of_old || motion.light_turns != 0) {

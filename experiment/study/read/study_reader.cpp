@@ -342,7 +342,7 @@ class StudyReader {
                 if (!is_of(session, trial, index) || motion >= trials.size())
                     continue;
                 trials[motion] += 1.0;
-                if (header.animations[motion].kind == MotionKind::observer)
+                if (!header.animations[motion].has_plan())
                     add_turned_seconds(open_[session].record(), trial, as_turned);
             }
         }
@@ -357,7 +357,7 @@ class StudyReader {
         const bool is_any_turned =
             std::ranges::any_of(as_turned, [](double turned_s) { return turned_s > 0.0; });
         for (std::size_t motion = 0; motion < trials.size(); ++motion) {
-            if (is_any_turned && header.animations[motion].kind == MotionKind::observer)
+            if (is_any_turned && !header.animations[motion].has_plan())
                 continue;
             const std::vector<double> of_motion =
                 seconds_of_poses(header.animations[motion], header.poses, static_cast<int>(motion));

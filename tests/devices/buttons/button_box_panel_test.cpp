@@ -344,3 +344,37 @@ TEST_CASE("a box reads its clock before each trial, and a button that it lacks i
     devices.observers.is_there = false;
     CHECK_THROWS_AS(devices.box(devices.observers, "pad", false, {}), DeviceError);
 }
+
+TEST_CASE(
+    "what a knob of the observer does is told axis by axis while an answer is awaited, and is no button's",
+    "[unit]") {
+    AnsweringDevices devices;
+    const auto turn = [&](Board& board, int turns, int tilts) {
+        const std::scoped_lock lock(board.mutex);
+        ButtonChange change{-1, false, {}, devices.clock.now(), 700us};
+        change.turn_steps = turns;
+        change.tilt_steps = tilts;
+        board.waiting.push_back(change);
+    };
+    devices.panel.entered(SessionPhase::stimulus, 4);
+    turn(devices.observers, 5, 0); // too early
+    CHECK(devices.says_nothing());
+    devices.panel.await_answer(devices.clock.now(), nullptr);
+    turn(devices.observers, -2, 3);
+    turn(devices.operators, 1, 1);
+    CHECK(devices.says_nothing());
+    const auto dial = devices.panel.next_input(), tilt = devices.panel.next_input();
+    REQUIRE(dial);
+    REQUIRE(tilt);
+    CHECK(dial->kind == ObserverInput::Kind::dial);
+    CHECK(dial->steps == -2.0);
+    CHECK(dial->device.view() == "pad");
+    CHECK(dial->uncertainty == 700us);
+    CHECK(tilt->kind == ObserverInput::Kind::tilt);
+    CHECK(tilt->steps == 3.0);
+    CHECK_FALSE(devices.panel.next_input());
+    turn(devices.observers, 1, 0);
+    CHECK(devices.says_nothing());
+    devices.panel.write_down(devices.log);
+    CHECK(devices.log.all.empty()); // of what it moved the record tells
+}

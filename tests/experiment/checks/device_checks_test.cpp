@@ -38,6 +38,14 @@ TEST_CASE("response boxes that cannot be meant so are errors at their keys", "[u
     check_fault(box("kind = \"iolab\"\n[[button_box]]\nid = \"pad\"\nkind = \"iolab\"\n"), "16:6",
                 "is taken already");
     check_fault(box("kind = \"joystick\"\n"), "14:8", "unknown value");
+    check_fault(box("kind = \"dial\"\n"), "14:8", "needs its \"address\"");
+    check_fault(box("kind = \"spacemouse\"\nsteps_per_count = 2\n"), "15:19",
+                "\"steps_per_count\" says nothing of a box of kind spacemouse");
+    check_fault(box("kind = \"iolab\"\ndead_zone = 0.2\n"), "15:13", "says nothing of a box of kind iolab");
+    check_fault(box("kind = \"spacemouse\"\nused_by = \"operator\"\nbuttons = [\"1 pause\"]\n"), "15:11",
+                "a knob is the observer's");
+    CHECK(found(box("kind = \"spacemouse\"\nfull_turn_steps_s = -40\ndead_zone = 0.2\n")).empty());
+    CHECK(found(box("kind = \"dial\"\naddress = \"045e:091b\"\nsteps_per_count = 0.1\n")).empty());
 }
 
 TEST_CASE("further eye trackers that cannot be meant so are errors at their keys", "[unit]") {

@@ -114,3 +114,31 @@ TEST_CASE("keys that a kind needs, or has no use for, are told at their place", 
     CHECK(lines_of("kind = \"orbit\"\naxis = [1, 0, 0]\n").size() == 1);
     CHECK(lines_of("kind = \"still\"\nlight_turns = 1\n").empty());
 }
+
+TEST_CASE("what the observer turns and tilts has a frame for each turn at each elevation", "[unit]") {
+    const std::string turned = "kind = \"observer\"\nstep_deg = 10\nfrom_deg = -30\nto_deg = 30\n";
+    const ReadText tilted(minimal_protocol,
+                          "[animation]\n" + turned +
+                              "elevation_step_deg = 5\nelevation_from_deg = -10\nelevation_to_deg = 20\n");
+    CHECK(tilted.lines().empty());
+    REQUIRE(tilted.protocol);
+    const MotionSettings& motion = tilted.protocol->motions.front();
+    CHECK(motion.frame_count == 7 * 7);
+    CHECK(motion.pictures().size() == 49);
+    CHECK(motion.by_observer.keys == std::vector<std::string>{"left", "right", "up", "down"});
+    CHECK_FALSE(motion.only_turns());
+    CHECK(lines_of(turned + "elevation_to_deg = 20\n").front() ==
+          "17:20: \"elevation_to_deg\" says how far it is tilted, and nothing in which steps");
+    CHECK(lines_of(turned + "elevation_step_deg = 7\nelevation_to_deg = 20\n").front() ==
+          "17:22: from 0 to 20 deg are 2.85714 steps of 7 deg, which is no whole number");
+    CHECK(lines_of(turned + "elevation_step_deg = 5\nelevation_to_deg = -20\n").front() ==
+          "18:20: it can be tilted from 0 to -20 deg");
+    CHECK(lines_of(turned + "with = \"keys\"\nelevation_step_deg = 5\nelevation_to_deg = 20\n"
+                            "keys = [\"left\", \"right\"]\n")
+              .front() == "20:8: an object is turned and tilted with four keys");
+    CHECK(lines_of("kind = \"observer\"\nstep_deg = 0.1\nelevation_step_deg = 0.1\nelevation_to_deg = 20\n")
+              .back() ==
+          "15:22: 3600 turns at 201 elevations are 723600 poses, and a motion has up to 10000");
+    CHECK(lines_of("kind = \"turn\"\nelevation_step_deg = 5\n").front() ==
+          "14:22: \"elevation_step_deg\" is for a motion of kind \"observer\"");
+}

@@ -100,4 +100,37 @@ TEST_CASE("path, net turn, time and reversals of a turning follow from its flips
     CHECK(*turns.median_delay_s == Approx(0.008));
     CHECK(*turns.longest_delay_s == Approx(0.010));
     CHECK_FALSE(turns_of(flips, {}, poses).median_delay_s);
+    CHECK(delays_in(flips, steered).size() == 2);
+}
+
+TEST_CASE("a path is of the angles between poses, whatever they turn about", "[unit]") {
+    PoseTable poses;
+    for (const auto& [angle, elevation] :
+         {std::pair(0.0, 0.0), std::pair(10.0, 0.0), std::pair(10.0, 20.0), std::pair(0.0, 20.0)})
+        poses.angles.push_back(turned_and_tilted({angle}, {elevation}));
+    std::vector<FlipRecord> flips;
+    for (int i = 0; i < 4; ++i)
+        flips.push_back(steered_flip_at(0, i, i, i));
+    const ObserverTurns turns = turns_of(flips, {}, poses);
+    CHECK(turns.start_elevation.value == 0.0);
+    CHECK(turns.end_elevation.value == Approx(20.0));
+    CHECK(turns.net.value == Approx(0.0).margin(1e-9));
+    // A tilt by 20 deg; and a turn of a tilted object is about its tilted axis, by as much.
+    CHECK(turns.path.value == Approx(10.0 + 20.0 + 10.0));
+    CHECK(turns.changes == 3);
+    CHECK(turns.reversals == 1);
+    CHECK(turns.poses == 4);
+}
+
+TEST_CASE("of the delays of inputs 95 % are no longer than what is said", "[unit]") {
+    CHECK_FALSE(summary_of({}));
+    CHECK(summary_of({0.02}) == InputDelays{1, 0.02, 0.02, 0.02});
+    std::vector<double> delays_s;
+    for (int i = 100; i > 0; --i)
+        delays_s.push_back(i);
+    CHECK(summary_of(delays_s) == InputDelays{100, 50.5, 95.0, 100.0});
+    delays_s.pop_back();
+    CHECK(summary_of(delays_s)->most_s == 96.0); // of 99: 94 would be too few
+    delays_s = {3.0, 1.0, 2.0};
+    CHECK(summary_of(delays_s) == InputDelays{3, 2.0, 3.0, 3.0});
 }

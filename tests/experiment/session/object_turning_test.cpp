@@ -87,6 +87,7 @@ TEST_CASE("a held key turns by its speed, from the time of the press to that of 
     turning.begin_show({0});
     turning.go_to(turned_at_s(20.0));
     CHECK(turned_frame(turning) == 162);
+    CHECK_FALSE(turning.pose_of(0)->input_at); // no input of this show is in it
     CHECK_FALSE(turning.take(turning_key(20.0, "left", TurningInput::key_up))); // it was held before
     std::vector<AnswerInput> inputs;
     turning.add_to(inputs);
@@ -138,6 +139,128 @@ TEST_CASE("a drag turns the front with the pointer, and the wheel by a pose", "[
     CHECK(turning.take(wheel));
     CHECK(turned_frame(turning) == 155);
     CHECK_FALSE(turning.take(turning_key(1.0, "right", TurningInput::key_down))); // keys turn nothing
+    ObserverInput dial = wheel;
+    dial.kind = TurningInput::dial;
+    CHECK_FALSE(turning.take(dial)); // nor does a knob
+}
+
+TEST_CASE("an object goes round with a knob, and tilts with it where it has elevations", "[unit]") {
+    ObserverTurn by = turned_by_keys();
+    by.from = Degrees{-20.0};
+    by.to = Degrees{20.0};
+    by.elevation_step = Degrees{5.0};
+    by.elevation_from = Degrees{-10.0};
+    by.elevation_to = Degrees{10.0};
+    by.keys = {"left", "right", "up", "down"};
+    const Protocol protocol = turned_protocol(by);
+    ObjectTurning turning;
+    turning.begin_trial(protocol, {}, 1, false);
+    turning.begin_show({0});
+    ObserverInput knob;
+    knob.kind = TurningInput::dial;
+    knob.at = turned_at_s(1.0);
+    knob.steps = 3.0; // clockwise seen from above
+    CHECK(turning.take(knob));
+    CHECK(by.angle_of(turned_frame(turning)).value == -6.0);
+    knob.steps = -100.0;
+    CHECK(turning.take(knob));
+    CHECK(by.angle_of(turned_frame(turning)).value == 20.0); // its end
+    knob.kind = TurningInput::tilt;
+    knob.steps = 1.0; // with its top towards the hand
+    CHECK(turning.take(knob));
+    CHECK(by.elevation_of(turned_frame(turning)).value == 5.0);
+    knob.steps = -7.0;
+    CHECK(turning.take(knob));
+    CHECK(by.elevation_of(turned_frame(turning)).value == -10.0);
+    CHECK(by.angle_of(turned_frame(turning)).value == 20.0);
+    CHECK(turning.pose_of(0)->input_at == turned_at_s(1.0));
+    ObserverTurn flat = turned_by_keys();
+    const Protocol flat_protocol = turned_protocol(flat);
+    ObjectTurning only_turns;
+    only_turns.begin_trial(flat_protocol, {}, 1, false);
+    only_turns.begin_show({0});
+    CHECK_FALSE(only_turns.take(knob));
+}
+
+TEST_CASE("with elevations each turn is a pose at each of them", "[unit]") {
+    ObserverTurn by = turned_by_keys();
+    by.from = Degrees{-30.0};
+    by.to = Degrees{30.0};
+    by.step = Degrees{10.0};
+    by.elevation_step = Degrees{15.0};
+    by.elevation_from = Degrees{-15.0};
+    by.elevation_to = Degrees{45.0};
+    CHECK(by.turn_count() == 7);
+    CHECK(by.elevation_count() == 5);
+    CHECK(by.pose_count() == 35);
+    for (int pose = 0; pose < by.pose_count(); ++pose) {
+        CAPTURE(pose);
+        CHECK(by.nearest(by.angle_of(pose), by.elevation_of(pose)) == pose);
+        CHECK(by.pose_of(pose).angle.value == by.angle_of(pose).value);
+        CHECK(elevation_of(by.pose_of(pose)).value == Approx(by.elevation_of(pose).value).margin(1e-9));
+        CHECK(by.pose_of(pose).is_turn() == (by.elevation_of(pose).value == 0.0));
+    }
+    CHECK(by.nearest({400.0}, {-90.0}) == 6); // the ends stay ends
+    CHECK(by.nearest({-400.0}, {90.0}) == 28);
+    // Of a positive one the object is seen more from above: its top comes to the observer, who is at -y.
+    const glm::dvec3 top = by.pose_of(28).tilt * glm::dvec3(0.0, 0.0, 1.0);
+    CHECK(top.y == Approx(-std::sqrt(0.5)));
+    CHECK(top.z == Approx(std::sqrt(0.5)));
+    by.to = Degrees{330.0}; // all round
+    CHECK(by.pose_count() == 36 * 5);
+    CHECK(by.nearest({350.0}, {0.0}) == by.nearest({-10.0}, {0.0}));
+}
+
+TEST_CASE("keys and drags up and down tilt an object, up to its ends, while others turn it", "[unit]") {
+    ObserverTurn by = turned_by_keys();
+    by.with = TurnedWith::both;
+    by.keys = {"left", "right", "up", "down"};
+    by.step = Degrees{10.0};
+    by.elevation_step = Degrees{10.0};
+    by.elevation_from = Degrees{-20.0};
+    by.elevation_to = Degrees{40.0};
+    by.drag_deg = 180.0;
+    const Protocol protocol = turned_protocol(by);
+    const auto pose = [&](const ObjectTurning& turning) {
+        const int frame = turned_frame(turning);
+        return std::pair(by.angle_of(frame).value, by.elevation_of(frame).value);
+    };
+    ObjectTurning turning;
+    turning.begin_trial(protocol, {}, 1, false);
+    turning.begin_show({0});
+    CHECK(pose(turning) == std::pair(0.0, 0.0));
+    CHECK(turning.take(turning_key(0.0, "down", TurningInput::key_down))); // the front goes down
+    turning.go_to(turned_at_s(0.5));
+    CHECK(pose(turning) == std::pair(0.0, 30.0));
+    CHECK(turning.take(turning_key(0.5, "right", TurningInput::key_down)));
+    turning.go_to(turned_at_s(1.5));
+    CHECK(pose(turning) == std::pair(60.0, 40.0)); // one goes on, the other has come to its end
+    CHECK(turning.take(turning_key(1.5, "right", TurningInput::key_up)));
+    CHECK(turning.take(turning_key(1.5, "down", TurningInput::key_up)));
+    CHECK(turning.take(turning_key(2.0, "up", TurningInput::key_down)));
+    turning.go_to(turned_at_s(9.0));
+    CHECK(turning.take(turning_key(9.0, "up", TurningInput::key_up)));
+    CHECK(pose(turning) == std::pair(60.0, -20.0));
+    // A drag downwards over a ninth of the width.
+    const double width_px = slot_geometry(protocol, protocol.slots.front()).image_px.x;
+    CHECK(turning.take(turning_mouse(10.0, TurningInput::pointer_down, 0.0)));
+    ObserverInput moved = turning_mouse(10.1, TurningInput::pointer_moved, 0.0);
+    moved.down_px = width_px / 9.0;
+    CHECK(turning.take(moved));
+    CHECK(pose(turning) == std::pair(60.0, 0.0));
+    CHECK(turning.offers(0, {}, 1.0).size() == 2);
+    // Without elevations the same keys, and drags, tilt nothing.
+    ObserverTurn flat = by;
+    flat.elevation_step = Degrees{0.0};
+    const Protocol flat_protocol = turned_protocol(flat);
+    ObjectTurning only_turns;
+    only_turns.begin_trial(flat_protocol, {}, 1, false);
+    only_turns.begin_show({0});
+    CHECK_FALSE(only_turns.take(turning_key(0.0, "up", TurningInput::key_down)));
+    CHECK(only_turns.take(turning_mouse(10.0, TurningInput::pointer_down, 0.0)));
+    CHECK(only_turns.take(moved));
+    CHECK(turned_frame(only_turns) == 0);
+    CHECK(only_turns.offers(0, {}, 1.0).size() == 1);
 }
 
 TEST_CASE("poses that are drawn are the trial's own, and each comes up", "[unit]") {

@@ -225,3 +225,69 @@ steps = [ { show = "centre", for_s = 1 } ]
     CHECK(inputs.front().item == "centre");
     CHECK(log.outcomes.front().given.empty());
 }
+
+TEST_CASE("what was recorded stands at each refresh as it was turned, in each show of a trial", "[unit]") {
+    constexpr std::string_view text = R"([protocol]
+name = "again"
+[[motion]]
+id = "again"
+kind = "recorded"
+recorded = ["way.tsv"]
+[[object]]
+id = "a"
+shipped = "muse"
+[[material]]
+id = "gold"
+kind = "smooth-conductor"
+[[task]]
+id = "t"
+question = "Look."
+steps = [ { show = "centre", for_s = 0.5 }, { blank = 0.1 }, { show = "centre", frame = 1, for_s = 0.1 }, { show = "centre", for_s = 0.25 } ]
+)";
+    // At 0.1 s it goes on to 4 deg, at 0.3 s back; the second show begins at 8 deg, and ends after 0.125 s.
+    constexpr std::string_view table = "observer\tsession\ttrial\tslot\tt_s\tangle_deg\n"
+                                       "P7\t1\t1\tcentre\t0.000000\t0\n"
+                                       "P7\t1\t1\tcentre\t0.100000\t4\n"
+                                       "P7\t1\t1\tcentre\t0.300000\t-2\n"
+                                       "P7\t1\t1\tcentre\t0.500000\t-2\n"
+                                       "P7\t1\t1\tcentre\t0.000000\t8\n"
+                                       "P7\t1\t1\tcentre\t0.125000\t0\n"
+                                       "P7\t1\t1\tcentre\t0.133333\t0\n";
+    Diagnostics diagnostics;
+    const std::optional<Protocol> protocol =
+        read_protocol_text(text, "p.toml", shipped_names, diagnostics, {{"way.tsv", std::string(table)}});
+    INFO(diagnostics.print());
+    REQUIRE(protocol);
+    Sitting sitting(*protocol);
+    MovesLog log;
+    const Schedule schedule = make_schedule(sitting.protocol, {"P", 1}, 1);
+    Session(sitting.protocol, schedule, {960.0, 540.0},
+            {.clock = sitting.clock,
+             .presenter = sitting.presenter,
+             .tracker = sitting.tracker,
+             .panel = sitting.panel,
+             .log = log,
+             .listeners = {},
+             .observer = "P1",
+             .can_type = true,
+             .recorder = nullptr,
+             .has_proven_times = true},
+            {})
+        .run({});
+    REQUIRE(log.trials.size() == 1);
+    CHECK(own_level(log.trials.front(), "yoked_to") == "P7 session 1 trial 1");
+    REQUIRE(log.flips.size() == 60 + 12 + 30);
+    CHECK(log.moved.empty()); // nobody moves it now
+    const PoseTable poses = poses_of(*protocol);
+    for (std::size_t i = 0; i < log.flips.size(); ++i) {
+        CAPTURE(i);
+        const double angle_deg = poses.object_of(log.flips[i].pose).angle.value;
+        CHECK(log.flips[i].planned == log.flips[i].shown);
+        CHECK(angle_deg == (i < 12   ? 0.0
+                            : i < 36 ? 4.0
+                            : i < 60 ? -2.0
+                            : i < 72 ? 4.0 // the frame that the protocol names
+                            : i < 87 ? 8.0
+                                     : 0.0)); // and in its last pose on
+    }
+}

@@ -65,6 +65,17 @@ TEST_CASE("whatever makes a traced frame changes its key, and nothing else does"
         {"other bumps", [](Inputs& i) { i.material.coat_seed += 1; }},
         {"bumps", [](Inputs& i) { i.material.coat_bump *= 1.001; }},
         {"reflectance", [](Inputs& i) { i.material.reflectance[0] *= 1.001; }},
+        {"base",
+         [](Inputs& i) {
+             i.material.kind = MaterialKind::diffuse;
+             i.material.base = MaterialBase::own;
+         }},
+        {"own", [](Inputs& i) { i.material.kind = MaterialKind::own; }},
+        {"own of another look",
+         [](Inputs& i) {
+             i.material.kind = MaterialKind::own;
+             i.object.appearance_hash = "other";
+         }},
         {"probe", [&](Inputs& i) { i.light.probe = probe.string(); }},
         {"gallery", [](Inputs& i) { i.light.probe = "gallery"; }},
         {"rotation", [](Inputs& i) { i.light.rotation_deg = 1.0; }},
@@ -101,6 +112,7 @@ TEST_CASE("whatever makes a traced frame changes its key, and nothing else does"
     same.settings.most_threads = 1;
     same.material.id = same.material.title = "another name";
     same.object.id = "another name";
+    same.object.appearance_hash = "of no account where no material asks for it";
     CHECK(same.key() == some_inputs().key());
     // Errors are judged in the light that is shown.
     Inputs judged = some_inputs();

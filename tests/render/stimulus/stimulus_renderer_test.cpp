@@ -40,6 +40,8 @@ TEST_CASE("live frames of every kind of material have light, and no two kinds th
     std::vector<LinearImage> pictures;
     for (const MaterialKindRow& row : material_kinds) {
         CAPTURE(row.name);
+        if (row.kind == MaterialKind::own)
+            continue; // drawn as one of the others, of the mean of its surface (on_average)
         renderer.set_material(gold_of(row.kind));
         const LinearImage picture = renderer.draw(buffers, scene, Pose{});
         int lit = 0;

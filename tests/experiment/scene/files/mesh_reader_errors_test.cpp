@@ -80,7 +80,7 @@ TEST_CASE("files that are not there, not files, empty or of no known format are 
     CHECK_THAT(message(folder().file("file", "") / "below"), Contains("cannot be opened"));
     CHECK_THAT(complaint("empty.ply", ""), Contains("empty.ply: ") && Contains("empty"));
     CHECK_THAT(complaint("picture.png", "\x89PNG\r\n"),
-               Contains("no mesh in a known format (PLY, OBJ or STL)"));
+               Contains("no mesh in a known format (PLY, OBJ, STL or glTF)"));
     CHECK_THAT(complaint("plan.ply", "plan\n"), Contains("does not begin with the line 'ply'"));
 }
 

@@ -1,0 +1,190 @@
+/// Dials and 3D mice, by planted report bytes.
+#include "devices/buttons/hid_knob.h"
+
+#include <catch2/catch.hpp>
+
+#include "experiment/base/error.h"
+#include "tests/devices/hid/hid_bytes.h"
+
+using namespace overt;
+using namespace overt::test;
+using namespace std::chrono_literals;
+
+namespace {
+
+/// A multi-axis controller with a button: all six axes in report 1, as newer ones have them, or translations
+/// in report 1 and rotations in report 2; the button in report 3.
+std::vector<std::byte> spacemouse_descriptor(bool is_older) {
+    DescriptorText text;
+    text.page(0x01).open(0x08, 1).open(0x00, 0).id(1);
+    text.logical(-350, 350).size(16, is_older ? 3 : 6);
+    for (int axis = 0x30; axis <= 0x35; ++axis) {
+        if (is_older && axis == 0x33)
+            text.input(0x02).close().open(0x00, 0).id(2);
+        text.usage(axis);
+    }
+    text.input(0x02).close();
+    text.page(0x09).id(3).item(0x18, 1).item(0x28, 2).logical(0, 1).size(1, 2).input(0x02).size(6, 1).input(
+        0x03);
+    return text.close().bytes;
+}
+
+/// A dial as a multi-axis controller with a button and relative counts of 8 bits.
+std::vector<std::byte> dial_descriptor(int usage = 0x37, int flags = 0x06) {
+    DescriptorText text;
+    text.page(0x01).open(0x0E, 1).id(1).open(0x08, 0);
+    text.page(0x09).usage(1).logical(0, 1).size(1, 1).input(0x02).size(7, 1).input(0x03);
+    text.page(0x01).usage(usage).logical(-127, 127).size(8, 1).input(flags);
+    return text.close().close().bytes;
+}
+
+constexpr ButtonBoxKind dial_kind = kind_called<ButtonBoxKind>("dial"),
+                        spacemouse_kind = kind_called<ButtonBoxKind>("spacemouse");
+
+ButtonBoxSettings knob_settings(ButtonBoxKind kind) {
+    ButtonBoxSettings settings;
+    settings.id = "knob";
+    settings.kind = kind;
+    return settings;
+}
+
+/// A knob, and what its reports did, as "turn tilt" or "+1", "-1" of a button.
+struct KnobInHand {
+    KnobInHand(std::vector<std::byte> descriptor, const ButtonBoxSettings& settings)
+        : knob(std::make_unique<InMemoryHidLine>(far), parse_report_descriptor(descriptor), "a knob",
+               settings, clock) {}
+
+    /// After so long since the last.
+    std::string after(SessionDuration time, std::vector<std::vector<std::byte>> reports = {}) {
+        const SessionTime now = clock.now() + time;
+        for (std::vector<std::byte>& report : reports)
+            far.arriving.push_back({now, std::move(report)});
+        clock.wait_until(now);
+        std::array<ButtonChange, 32> changes;
+        const std::size_t count = knob.poll(changes);
+        std::string words;
+        for (const ButtonChange& change : std::span(changes).first(count)) {
+            last = change;
+            words += (words.empty() ? "" : ", ") +
+                     (change.is_turn() ? fmt::format("{} {}", change.turn_steps, change.tilt_steps)
+                                       : fmt::format("{}{}", change.is_down ? "+" : "-", change.button));
+        }
+        return words;
+    }
+
+    VirtualClock clock{SessionTime(1s)};
+    HidFarEnd far{clock};
+    HidKnob knob;
+    ButtonChange last;
+};
+
+/// A report of all axes; of those that matter Rx and Rz.
+std::vector<std::byte> axes_report(int rx, int rz) {
+    const auto low = [](int value) { return value & 0xFF; };
+    const auto high = [](int value) { return (value >> 8) & 0xFF; };
+    return bytes_of({1, 0x5E, 1, 0, 0, 0, 0, low(rx), high(rx), 0x5E, 1, low(rz), high(rz)});
+}
+
+} // namespace
+
+TEST_CASE("a dial gives its counts as steps, with their signs, and its button", "[unit]") {
+    KnobInHand dial(dial_descriptor(), knob_settings(dial_kind));
+    CHECK(dial.knob.description().name == "dial");
+    CHECK(dial.after(10ms).empty());
+    CHECK(dial.after(10ms, {bytes_of({1, 0, 3})}) == "3 0");
+    CHECK(dial.last.button == -1);
+    CHECK(dial.last.at + dial.last.uncertainty >= dial.clock.now());
+    CHECK(dial.after(10ms, {bytes_of({1, 0, 0xFF}), bytes_of({1, 0, 0x81})}) == "-1 0, -127 0");
+    CHECK(dial.after(10ms, {bytes_of({1, 1, 2})}) == "2 0, +1"); // pressed and turned
+    CHECK(dial.after(10ms, {bytes_of({1, 0, 0})}) == "-1");
+    CHECK(dial.after(10ms, {bytes_of({2, 0, 5}), bytes_of({1})}).empty()); // another report, and one cut off
+
+    ButtonBoxSettings fine = knob_settings(dial_kind);
+    fine.steps_per_count = -0.25; // the other way round, four counts a step
+    KnobInHand wheel(dial_descriptor(0x38), fine);
+    CHECK(wheel.after(1ms, {bytes_of({1, 0, 3})}).empty());
+    CHECK(wheel.after(1ms, {bytes_of({1, 0, 2})}) == "-1 0"); // 1.25 steps
+    CHECK(wheel.after(1ms, {bytes_of({1, 0, 3})}) == "-1 0");
+    wheel.far.arriving.push_back({wheel.clock.now(), bytes_of({1, 0, 100})});
+    wheel.knob.begin(); // what was before a trial is forgotten
+    CHECK(wheel.after(1ms, {bytes_of({1, 0, 3})}).empty());
+    wheel.far.unplugged = true;
+    CHECK(wheel.after(1ms).empty());
+    CHECK(wheel.knob.lost());
+}
+
+TEST_CASE("a 3D mouse turns by its twist and tilts by its pitch, as long as it is held", "[unit]") {
+    ButtonBoxSettings settings = knob_settings(spacemouse_kind);
+    settings.full_turn_steps_s = 100.0;
+    settings.full_tilt_steps_s = 50.0;
+    settings.dead_zone = 0.2;
+    KnobInHand mouse(spacemouse_descriptor(false), settings);
+    CHECK(mouse.after(20ms, {axes_report(0, 350)}).empty()); // from now on
+    CHECK(mouse.after(20ms, {axes_report(0, 350)}) == "2 0");
+    CHECK(mouse.after(20ms) == "2 0"); // without a report of its own
+    CHECK(mouse.after(20ms, {axes_report(0, -350)}) == "2 0");
+    CHECK(mouse.after(20ms, {axes_report(350, 0)}) == "-2 0");
+    CHECK(mouse.after(40ms, {axes_report(-350, 0)}) == "0 2");
+    CHECK(mouse.after(40ms, {axes_report(0, 0)}) == "0 -2");
+    CHECK(mouse.after(1s).empty()); // let go
+    // Of its way 0.2 is none, and the rest goes from 0 to 1: 0.6 is half.
+    CHECK(mouse.after(1ms, {axes_report(70, 69)}).empty());
+    CHECK(mouse.after(90ms, {axes_report(0, 210)}).empty());
+    CHECK(mouse.after(40ms, {axes_report(0, 0)}) == "2 0");
+    // Beyond its range it is as far as it goes.
+    CHECK(mouse.after(1ms, {axes_report(0, 3000)}).empty());
+    CHECK(mouse.after(20ms, {axes_report(0, 0)}) == "2 0");
+    // Both at once, and a button.
+    CHECK(mouse.after(1ms, {axes_report(350, -350)}).empty());
+    CHECK(mouse.after(40ms, {axes_report(0, 0), bytes_of({3, 0b10})}) == "-4 2, +2");
+    CHECK(mouse.after(1ms, {bytes_of({3, 0})}) == "-2");
+    // A report of the release that never comes: after a tenth of a second it stands.
+    CHECK(mouse.after(1ms, {axes_report(0, 350)}).empty());
+    CHECK(mouse.after(5s) == "10 0");
+    CHECK(mouse.after(5s).empty());
+    // What is left of a step goes with the release.
+    CHECK(mouse.after(1ms, {axes_report(0, 350)}).empty());
+    CHECK(mouse.after(8ms, {axes_report(0, 0)}).empty());
+    CHECK(mouse.after(1ms, {axes_report(0, 350)}).empty());
+    CHECK(mouse.after(8ms, {axes_report(0, 0)}).empty());
+}
+
+TEST_CASE("an older 3D mouse has its rotations in a report of their own", "[unit]") {
+    ButtonBoxSettings settings = knob_settings(spacemouse_kind);
+    settings.full_turn_steps_s = -100.0; // the other way round
+    settings.full_tilt_steps_s = 0.0;    // it does not tilt
+    KnobInHand mouse(spacemouse_descriptor(true), settings);
+    const auto rotations = [](int low, int high) { return bytes_of({2, 0x5E, 1, 0, 0, low, high}); };
+    CHECK(mouse.after(1ms, {bytes_of({1, 0x5E, 1, 0x5E, 1, 0x5E, 1}), rotations(0x5E, 1)}).empty());
+    CHECK(mouse.after(50ms, {bytes_of({1, 0, 0, 0, 0, 0, 0})}) == "-5 0"); // translations change nothing
+    CHECK(mouse.after(20ms, {rotations(0, 0)}) == "-2 0");
+    CHECK(mouse.after(20ms).empty());
+}
+
+TEST_CASE("what is no knob is refused, and only those of their makers are 3D mice", "[unit]") {
+    VirtualClock clock;
+    HidFarEnd far(clock);
+    const auto open = [&](std::vector<std::byte> descriptor, ButtonBoxKind kind) {
+        return HidKnob(std::make_unique<InMemoryHidLine>(far), parse_report_descriptor(descriptor), "",
+                       knob_settings(kind), clock);
+    };
+    CHECK_THROWS_WITH(open(game_pad_descriptor(), dial_kind), Catch::Contains("no dial or wheel"));
+    CHECK_THROWS_WITH(open(dial_descriptor(0x37, 0x02), dial_kind),
+                      Catch::Contains("no dial or wheel")); // absolute
+    CHECK_THROWS_AS(open(dial_descriptor(), spacemouse_kind), DeviceError);
+    DescriptorText mouse;
+    mouse.page(0x01).open(0x02, 1).usage(0x38).logical(-127, 127).size(8, 1).input(0x06).close();
+    CHECK_FALSE(is_dial(parse_report_descriptor(mouse.bytes))); // the wheel of a mouse is the window's
+    CHECK(is_dial(parse_report_descriptor(dial_descriptor())));
+    HidDeviceInfo device;
+    device.vendor_id = 0x256f;
+    device.usages = {{0x01, 0x08}};
+    CHECK(is_spacemouse(device));
+    device.usages = {{0x01, 0x02}}; // a mouse of theirs
+    CHECK_FALSE(is_spacemouse(device));
+    device.vendor_id = 0x046d;
+    device.usages = {{0x01, 0x08}};
+    CHECK(is_spacemouse(device));
+    device.vendor_id = 0x1234;
+    CHECK_FALSE(is_spacemouse(device));
+}
