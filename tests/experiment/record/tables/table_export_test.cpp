@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiment/base/error.h"
+#include "experiment/factors.h"
 #include "experiment/record/session_schema.h"
 #include "experiment/record/tables/export_tables.h"
 #include "experiment/record/tables/table_writer.h"
@@ -163,4 +164,26 @@ TEST_CASE("an export replaces an earlier export only when asked, and other folde
                       Contains("thesis.txt"));
     CHECK(text_of(recorded.target() / "thesis.txt") == "years of work");
     CHECK(std::distance(fs::directory_iterator(recorded.root.path()), fs::directory_iterator()) == 2);
+}
+
+TEST_CASE("no column that a protocol's entry may have is called as another of a table that has it",
+          "[unit]") {
+    SessionHeader header = overt::testing::example_header();
+    REQUIRE(!header.materials.empty());
+    header.materials.front().columns = {{"hue", "red"}};
+    int tables = 0;
+    const ExportTables exported(header, pupil_words(PupilMeasure::unknown), Degrees{0.5});
+    for (const Table* const table : exported.all()) {
+        if (std::ranges::none_of(table->columns,
+                                 [](const TableColumn& column) { return column.name == "hue"; }))
+            continue;
+        ++tables;
+        for (const TableColumn& column : table->columns) {
+            INFO(table->name << ": " << column.name);
+            // Of a gaze cone, the parts of the objects as they are called.
+            if (!column.name.starts_with("p_"))
+                CHECK((column.name == "hue" || is_name_of_factor(column.name)));
+        }
+    }
+    CHECK(tables >= 5);
 }
