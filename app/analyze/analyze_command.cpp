@@ -2,6 +2,8 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <set>
+#include <string>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -18,6 +20,7 @@
 #include "experiment/base/counted.h"
 #include "experiment/base/error.h"
 #include "experiment/protocol/files/old_words.h"
+#include "experiment/study/methods/study_facts.h"
 #include "experiment/study/tables/study_tables.h"
 
 namespace overt {
@@ -89,7 +92,7 @@ void print_summary(const StudyResults& results, const std::filesystem::path& out
     const StudyGlance& glance = results.glance;
     fmt::print("{}\n{}, {}, {} ({} excluded), {} samples\n", glance.title,
                counted(glance.observers, "observer"), counted(glance.sessions, "session"),
-               counted(glance.trials, "trial"), glance.excluded_trials, glance.samples);
+               counted(glance.trials, unit_of_gaze(results)), glance.excluded_trials, glance.samples);
     std::vector<std::string> reasons;
     for (const auto& [why, count] : glance.not_counted)
         reasons.push_back(fmt::format("{} {}", count, name_of(why)));
@@ -97,10 +100,17 @@ void print_summary(const StudyResults& results, const std::filesystem::path& out
                reasons.empty() ? "" : "; ", fmt::join(reasons, ", "));
     for (const std::string& remark : results.remarks)
         fmt::print("note: {}\n", remark);
+    std::map<std::string, std::set<std::string>> levels;
+    for (const AreaRow& row : results.area_rows)
+        for (const StudyKey& key : row.keys)
+            levels[key.column].insert(key.value);
     for (const AreaRow& row : results.area_rows) {
         // The levels of single columns of the area of figure 4; of others all trials. The groups are in the
         // tables.
         if (row.keys.size() > (row.area == results.area ? 1 : 0) || !row.by_count.value)
+            continue;
+        // A column's only level is all trials once more.
+        if (!row.keys.empty() && levels[row.keys[0].column].size() < 2)
             continue;
         fmt::print("on {}, {}: {:.3f}", row.area == head_area ? "the head" : row.area,
                    row.keys.empty() ? "all" : row.keys[0].column + " " + row.keys[0].value,

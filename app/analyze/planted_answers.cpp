@@ -14,6 +14,7 @@
 #include "experiment/answers/answer_kinds.h"
 #include "experiment/base/text_number.h"
 #include "experiment/design/answer_forms.h"
+#include "experiment/fits/difference_scaling.h"
 #include "experiment/record/read/session_record.h"
 #include "experiment/study/answer_differences.h"
 
@@ -251,6 +252,49 @@ void plant_scales(StudyAnswers& answers, const Protocol& protocol) {
     }
 }
 
+/// What difference scaling makes of the probabilities of one observer's answers, by level.
+std::map<std::string, double> planted_difference_scale(const std::vector<WeighedAnswer>& own,
+                                                       const std::string& factor) {
+    AnswerList list;
+    std::vector<double> weights;
+    for (const WeighedAnswer& one : own) {
+        list.push_back(&one.answer);
+        weights.push_back(one.weight);
+    }
+    const DifferenceCounts counts = difference_counts(list, factor, weights);
+    const auto scale = counts.counts.empty()
+                           ? std::nullopt
+                           : fit_difference_scale(counts.counts, static_cast<int>(counts.series.size()));
+    std::map<std::string, double> places;
+    for (std::size_t i = 0; scale && i < counts.series.size(); ++i)
+        places[fmt::format("{}", counts.series[i])] = scale->scale[i];
+    return places;
+}
+
+void plant_difference_scales(StudyAnswers& answers, const WeighedAnswers& weighed) {
+    std::map<std::pair<AnswerOf, std::string>, std::map<std::string, double>> known; ///< by observer
+    for (AnswerScaleRow& row : answers.scales) {
+        if (row.method != "MLDS")
+            continue;
+        double sum = 0.0;
+        int count = 0;
+        for (const auto& [key, own] : weighed) {
+            if (key.task != row.of.task || key.answer != row.of.answer || key.item != row.of.item ||
+                (!row.of.observer.empty() && key.observer != row.of.observer))
+                continue;
+            const auto [made, is_new] = known.try_emplace({key, row.factor});
+            if (is_new)
+                made->second = planted_difference_scale(own, row.factor);
+            if (const auto place = made->second.find(row.level); place != made->second.end()) {
+                sum += place->second;
+                ++count;
+            }
+        }
+        if (count > 0)
+            row.planted = sum / count;
+    }
+}
+
 /// What an effect holds for, as factors and levels.
 std::vector<std::pair<std::string, std::string>> conditions_of(const SimulatedEffect& effect) {
     std::vector<std::pair<std::string, std::string>> conditions;
@@ -293,6 +337,7 @@ void add_planted_answers(StudyResults& results, const Protocol& protocol, const 
     plant_ratings(results.answers, *weighed);
     plant_differences(results.answers, *weighed);
     plant_scales(results.answers, protocol);
+    plant_difference_scales(results.answers, *weighed);
     for (AnswerMatchLineRow& row : results.answers.match_lines)
         row.planted = planted_match_slope(row, protocol);
     for (GazeChoiceRow& row : results.answers.gaze_choices)

@@ -205,6 +205,7 @@ std::vector<StudyOutcome> AnswerStudies::tested(const std::vector<std::vector<St
             if (const std::optional<double>& one = differences[static_cast<std::size_t>(i)])
                 first.push_back(*one);
         StudyOutcome outcome;
+        outcome.without_measure = count - static_cast<int>(first.size());
         if (const auto test = sign_flip_test(first, settings)) {
             outcome.p = test->p;
             outcome.estimate =

@@ -233,6 +233,20 @@ void add_remarks(PowerResults& results, const Protocol& protocol, const PowerSet
                 : curve.effect.column != "task" ? "no observer sees an object in both levels under one task"
                                                 : "no observer sees an object in both levels"));
     }
+    for (const PowerCurve& curve : results.curves) {
+        const PowerPoint& most = curve.points.back();
+        if (most.without_measure == 0)
+            continue;
+        const int simulated = settings.studies * most.observers;
+        const bool is_fitted =
+            curve.effect.measure == PowerMeasure::threshold || curve.effect.measure == PowerMeasure::slope;
+        results.remarks.push_back(fmt::format(
+            "{}: {} of {} ({:.1f} %) {} in both levels, and the tests are without them.", curve.effect.text(),
+            most.without_measure, counted(simulated, "simulated observer"),
+            100.0 * most.without_measure / simulated,
+            is_fitted ? "have no function that can be fitted, with a threshold among the levels or near them,"
+                      : "do not have the measure"));
+    }
     if (const int fewest = fewest_testable_observers(settings.alpha); settings.observers.front() < fewest)
         results.remarks.push_back(fmt::format(
             "With fewer than {} observers the tests cannot give p at most {}: 2 / 2^n is the least.", fewest,

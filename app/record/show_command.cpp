@@ -5,6 +5,7 @@
 
 #include "app/inputs/session_folders.h"
 #include "app/record/chosen_presentation.h"
+#include "app/record/picture_marks.h"
 #include "app/record/plot_canvas.h"
 #include "app/record/record_commands.h"
 #include "app/record/recorded_order.h"
@@ -245,6 +246,8 @@ void write_picture(const SessionRecord& record, const TrialRecord& trial, const 
     content.pose = header.poses.pose_of(stimulus.motion, {0});
     content.frame = read_linear_image(require_file_inside(record.directory(), preview_file(header, stimulus)),
                                       FrameEncoding::srgb);
+    const PictureMarks marks(record, trial, surface);
+    marks.draw_set(content.frame, {0});
     content.gaze_on_surface = gaze;
     content.kernel_sigma = kernel_sigma(header, stimulus);
     content.frame_caption = fmt::format("{}, {}", header.objects[static_cast<std::size_t>(object)].title,

@@ -10,6 +10,7 @@
 #include "app/cli/own_folders.h"
 #include "app/cli/progress_bar.h"
 #include "app/record/chosen_presentation.h"
+#include "app/record/picture_marks.h"
 #include "app/record/recorded_surface.h"
 #include "app/replay/movie_file.h"
 #include "app/replay/recorded_experiment.h"
@@ -50,7 +51,8 @@ class TrialPictures {
         : record_(record),
           trial_(chosen_presentation(record, attempt_at(record, *options.trial), options.slot)),
           surfaces_(record), frames_(record, trial_, lookup_of(record, trial_, surfaces_)),
-          levels_(record, trial_), experiment_(recorded_experiment(record, options.files, cache_folder())),
+          levels_(record, trial_), marks_(record, trial_, lookup_of(record, trial_, surfaces_)),
+          experiment_(recorded_experiment(record, options.files, cache_folder())),
           stimuli_(experiment_, cache_folder(),
                    options.context ? options.context : context_of(record.header())) {
         const std::string why_not = stimuli_.prepare(record, experiment_.protocol);
@@ -81,6 +83,7 @@ class TrialPictures {
             const std::vector<int> pages = stimuli_.library().page_of_frame(stimulus);
             frame =
                 stimuli_.library().page(stimulus, pages[static_cast<std::size_t>(shown.lit->frame.value)]);
+            marks_.draw_lit(frame, *shown.lit);
         }
         return with_gaze(frame, shown, record_.header().display.background);
     }
@@ -99,6 +102,7 @@ class TrialPictures {
     RecordedSurfaces surfaces_;
     ShownFrames frames_;
     ShownLevels levels_;
+    PictureMarks marks_;
     Experiment experiment_;
     mutable StimuliAgain stimuli_;
 };

@@ -23,7 +23,9 @@ const seconds_of_fixation = () => (data.knows_stimuli ? data.glance.seconds : da
   by_id('subtitle').textContent = g.simulated ? 'Gaze of simulated observers: no measurement of people.' : 'Measured gaze.';
   const card = (value, text) => by_id('cards').append(element('div', {class: 'card'}, element('b', {}, value), element('span', {}, text)));
   card(g.observers, 'observers');
-  card(g.trials, 'trials' + (g.excluded ? `, ${g.excluded} excluded` : ''));
+  const of_trials = g.presentations > g.trials;
+  card(g.trials.toLocaleString('en'), (g.trials === 1 ? 'trial' : 'trials') + (of_trials || !g.excluded ? '' : `, ${g.excluded} excluded`));
+  if (of_trials) card(g.presentations.toLocaleString('en'), 'presentations' + (g.excluded ? `, ${g.excluded} excluded` : ''));
   card(g.samples.toLocaleString('en'), 'gaze samples');
   if (data.knows_stimuli) card(g.counted.toLocaleString('en'), `fixations counted of ${g.fixations.toLocaleString('en')}`);
   else card(g.fixations.toLocaleString('en'), 'fixations on the screen');
@@ -48,13 +50,24 @@ function panels_of(rows, panel_of, bar_of) {
   return [...panels].map(([name, list]) => ({name, bars: list}));
 }
 
+// Columns of groups in which any two differ. Where a column has one level alone, its rows are those of all once more.
+const levels_of_column = column => new Set(data.groups.flatMap(g => g.keys.filter(key => key[0] === column).map(key => key[1])));
+const varied_columns = data.by.filter(column => levels_of_column(column).size > 1);
+const varied_keys = keys => keys.filter(key => !data.by.includes(key[0]) || varied_columns.includes(key[0]));
+// Rows without those that say the same of the same once more; what else tells them apart is `of`.
+function without_repeats(rows, keys_of, of = () => '') {
+  const known = new Set();
+  return rows.filter(r => { const key = JSON.stringify([varied_keys(keys_of(r)), of(r)]); return !known.has(key) && known.add(key); });
+}
+
 // A column of remarks, where there are any.
 const remark_column = (rows, of) => (rows.some(of) ? [text_column('remark', of, {long: true})] : []);
 
 // Figure 4: a panel for each factor, a bar for each of its levels; of groups one for each level of the first factor.
 function draw_figure4() {
-  const area = by_id('area4').value, rows = data.tables.surface_areas.filter(r => r.area === area);
-  const single = rows.filter(r => r.keys.length === 1), full = rows.filter(r => r.keys.length === data.by.length && r.keys.length);
+  const area = by_id('area4').value, all = data.tables.surface_areas.filter(r => r.area === area), rows = without_repeats(all, r => r.keys);
+  const of_one = all.filter(r => r.keys.length === 1), varied = of_one.filter(r => varied_columns.includes(r.keys[0][0])), single = varied.length ? varied : of_one.slice(0, 1);
+  const full = all.filter(r => r.keys.length === data.by.length && r.keys.length);
   const bar_of = r => ({label: short(r.keys.length === 1 ? r.keys : r.keys.slice(1)), estimate: r.count, each: r.each});
   bars(by_id('figure4_chart'), single.length ? panels_of(single, r => r.keys[0][0], bar_of) : panels_of(full.length ? full : rows, r => (r.keys[0] || ['', 'all'])[1], bar_of),
        {x_label: `share of fixations on the area ${area}`, most: 1, label: `Figure 4: share of fixations on the area ${area}`});
@@ -72,7 +85,7 @@ if (data.areas.length) {
 
 // All areas.
 if (data.areas.length) {
-  const rows = data.tables.surface_areas.filter(r => r.keys.length < 2);
+  const rows = without_repeats(data.tables.surface_areas.filter(r => r.keys.length < 2), r => r.keys, r => r.area);
   by_id('surface_areas_table').append(table({name: 'areas', title: 'What gaze does with each area', rows, columns: [
       text_column('area', r => r.area), ...factor_columns(rows, r => r.keys), number_column('share by count', r => r.count), number_column('by duration', r => r.duration),
       number_column('corrected for tracker error', r => r.corrected), number_column('of the surface', r => r.surface), number_column('of the exposure', r => r.exposure), number_column('share over exposure', r => r.over_exposure),
@@ -128,7 +141,7 @@ draw_figure5();
 // Maps of differences, cluster by cluster.
 {
   const rows = [];
-  for (const d of data.differences) {
+  for (const d of without_repeats(data.differences, d => d.keys, d => [d.object, d.a, d.b])) {
     if (!d.values || !d.clusters.length) rows.push({d, c: null, where: d.absent || 'no vertex beyond the threshold'});
     d.clusters.forEach((c, i) => {
       // Small ones are in the table of clusters.
@@ -166,8 +179,9 @@ draw_figure5();
       number_column('AUC (Judd)', r => r.auc), number_column('AUC (Borji)', r => r.borji), number_column('gain over exposure / bit', r => r.gain),
       number_column('gain over even gaze / bit', r => r.gain_area), number_column('observers', r => r.observers)],
       note: 'Each observer\'s fixations are told from a map of other observers, in the same condition or in another one, or from the exposure alone. A material that gaze does not care about is predicted as well by another material as by itself.'}));
-  put('reliability_body', t.reliabilities, () => ({columns: [
-      ...conditions(t.reliabilities, r => r.keys), number_column('CC of halves', r => r.split), number_column('reliability', r => r.reliability),
+  const reliabilities = without_repeats(t.reliabilities, r => r.keys, r => r.object);
+  put('reliability_body', reliabilities, () => ({columns: [
+      ...conditions(reliabilities, r => r.keys), number_column('CC of halves', r => r.split), number_column('reliability', r => r.reliability),
       number_column('observers', r => r.observers), number_column('fixations', r => r.fixations)],
       note: 'How well the map of all observers would agree with that of as many others (Cronbach\'s alpha), and the correlation of two halves that goes with it; the interval is by leaving out each observer in turn.'}));
   const errors = data.maps.filter(m => m.by === 'duration' && m.values);
@@ -182,7 +196,7 @@ draw_figure5();
 
 // Effects of the factors.
 {
-  const rows = data.tables.effects;
+  const rows = data.tables.effects.filter(r => r.effect.split(':').every(column => !data.by.includes(column) || varied_columns.includes(column)));
   if (rows.length) by_id('effects_body').append(
       table({name: 'effects', title: 'Effects of the factors', rows, columns: [
             text_column('measure', r => r.measure), text_column('effect', r => r.effect.replace(':', ' × ')), p_column('p', r => r.p), p_column('p after Holm', r => r.holm),
@@ -195,7 +209,7 @@ draw_figure5();
 
 // Gaze and the moving surface.
 {
-  const rows = data.tables.motions, found = rows.filter(r => r.gain.v !== null);
+  const rows = without_repeats(data.tables.motions, r => r.keys), found = rows.filter(r => r.gain.v !== null);
   if (found.length) {
     bars(by_id('motion_chart'), panels_of(found, r => (r.keys[0] || [''])[0], r => ({label: r.keys.length ? r.keys[0][1] : 'all', estimate: r.gain})),
          {x_label: 'gain of gaze along the surface', most: 1.1, label: 'Gain of gaze along the motion of the surface'});
@@ -207,10 +221,10 @@ draw_figure5();
 
 // Light at gaze.
 {
-  const rows = data.tables.lights, found = rows.filter(r => r.met.v !== null);
+  const rows = without_repeats(data.tables.lights, r => r.keys), found = rows.filter(r => r.met.v !== null);
   if (found.length) {
     const of = (name, key) => ({name, bars: found.filter(r => r[key].v !== null).map(r => ({label: r.keys.length ? r.keys[0][1] : 'all', estimate: r[key]}))});
-    bars(by_id('light_chart'), [of('than at the same place of the screen', 'place'), of('than on the same point of the surface', 'point')].filter(g => g.bars.length),
+    bars(by_id('light_chart'), [of('against the same place of the screen', 'place'), of('against the same point of the surface', 'point')].filter(g => g.bars.length),
          {x_label: 'more lightness met (SD)', most: 0.1, label: 'How much brighter what gaze met was than the same places at other times'});
     by_id('light_body').append(table({name: 'light', title: 'Is gaze drawn by light?', rows, columns: [
         ...factor_columns(rows, r => r.keys), number_column('lightness met', r => r.met), number_column('more than at the place of the screen', r => r.place), number_column('more than on the point of the surface', r => r.point),
@@ -226,7 +240,7 @@ function draw_course() {
   if (rows.length) {
     const end = Math.max(...rows.map(r => r.to)), step = Math.max(...rows.map(r => r.to - r.from)), names = [...new Set(rows.map(r => r.key[1]))];
     const chart = element('div');
-    by_id('course_chart').append(curve_names(names), chart, element('p', {class: 'note'}, `${rows[0].key[0]}; bars: ${level} over observers.`));
+    by_id('course_chart').append(curve_names(names), chart, element('p', {class: 'note'}, `${names.length > 1 ? `By ${rows[0].key[0]}; bars` : 'Bars'}: ${level} over observers.`));
     responsive(chart, width => {
       const frame = plot({width: Math.min(width, 1100), height: names.length > 8 ? 460 : 340, x: [0, end], y: [0, 1], x_label: 'time since onset / s', y_label: `share of fixation time on the area ${area}`});
       // Side by side, so that intervals do not hide each other, but within their stretch of time.

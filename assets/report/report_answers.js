@@ -13,6 +13,7 @@ const if_any = (rows, column) => (rows.some(r => { const cell = column.of(r); re
 const most_rows = 40;
 const rows_shown = rows => (rows.length > most_rows && rows.some(of_all) ? rows.filter(of_all) : rows);
 const on_rows = (rows, file) => (rows_shown(rows).length < rows.length ? ` Single observers are in the table ${file} beside the page.` : '');
+const has_any = (rows, of) => rows.some(r => of(r) !== null && of(r) !== undefined);
 const unique = (rows, key) => [...new Map(rows.map(r => [key(r), r])).values()];
 
 function answer_part(id, title, ...children) {
@@ -89,7 +90,7 @@ function show_curves() {
       const grid = element('div', {class: 'panels small'});
       drawn.append(element('h4', {}, 'Each observer'), grid);
       for (const c of single) {
-        const box = element('div');
+        const box = element('div', {class: 'chart'});
         grid.append(element('div', {}, element('b', {}, c.of[0]), element('span', {class: 'soft'}, ' ' + (c.threshold.v === null ? c.threshold.absent || 'no threshold' : estimate_text(c.threshold))), box));
         curve_plot(box, [c], [c.of[0]], 190);
       }
@@ -99,9 +100,9 @@ function show_curves() {
       table({name: 'psychometric_functions', title: 'Psychometric functions', rows: rows_shown(rows), columns: [
         ...answer_columns(rows), text_column('factor', r => r.factor), text_column('counted', r => r.yes), ...if_any(rows, text_column('within', r => r.column ? `${r.column} ${r.level}` : '')),
         number_column('threshold', r => r.threshold), number_column('slope', r => r.slope), ...if_any(rows, number_column('lapse rate', r => r.lapse)), number_column('guess rate', r => r.guess),
-        number_column('deviance', r => r.deviance), number_column('degrees', r => r.degrees), number_column('deviance that chance exceeds rarely', r => r.limit), number_column('answers', r => r.trials),
-        ...if_any(rows, number_column('planted threshold', r => r.planted)), ...if_any(rows, number_column('planted slope', r => r.planted_slope)), ...remark_column(rows, r => r.note)],
-        note: `guess + (1 - guess - lapse) / (1 + exp(-slope (x - threshold))), by maximum likelihood. In brackets the ${level}: of an observer by the bootstrap over answers, of all over observers. A deviance above its limit says that the function does not fit.` + on_rows(rows, 'psychometric_functions')}));
+        ...if_any(rows, number_column('deviance', r => r.deviance)), number_column('degrees', r => r.degrees), ...if_any(rows, number_column('limit of the deviance', r => r.limit)), number_column('answers', r => r.trials),
+        ...if_any(rows, number_column('planted threshold', r => r.planted)), ...if_any(rows, number_column('planted slope', r => r.planted_slope)), ...remark_column(rows, r => (r.note === r.threshold.absent ? '' : r.note))],
+        note: `guess + (1 - guess - lapse) / (1 + exp(-slope (x - threshold))), by maximum likelihood. In brackets the ${level}: of an observer by the bootstrap over answers, of all over observers.${has_any(rows, r => r.limit) ? ' A deviance above its limit says that the function does not fit.' : ''}` + on_rows(rows, 'psychometric_functions')}));
 }
 
 // Dots with intervals, in panels.
@@ -120,7 +121,7 @@ function show_scales() {
       table({name: 'answer_scales', title: 'Scales of comparisons', rows: rows_shown(rows), columns: [
         ...answer_columns(rows), text_column('method', r => r.method), text_column('factor', r => r.factor), text_column('level', r => r.level), number_column('place', r => r.value),
         ...if_any(rows, number_column('first slot adds', r => r.first)), ...if_any(rows, number_column('noise of a judgement', r => r.sigma)), number_column('judgements', r => r.trials),
-        ...if_any(rows, number_column('planted', r => r.planted)), ...remark_column(rows, r => (r.penalised ? 'penalised: the answers contradict each other nowhere' : ''))],
+        ...if_any(rows, number_column('planted', r => r.planted)), ...remark_column(rows, r => (r.penalised ? 'penalised: answers so consistent that the likelihood has no maximum' : ''))],
         note: `Large dots: all answers together, with the ${level}; small dots: single observers. Bradley-Terry in logits and Thurstone's Case V in standard deviations of a percept, with a mean of 0; MLDS from 0 to 1.` + on_rows(rows, 'answer_scales')}));
 }
 
@@ -129,13 +130,13 @@ function show_ratings() {
   if (!rows.length) return;
   const kinds = unique(rows.filter(of_all), r => r.of.slice(1).join('\t')), chart = element('div', {class: 'chart'});
   const label_of = r => (r.factor ? r.level : 'all');
-  const panels = mine => panels_of(mine.filter(of_all), r => r.factor || 'all', r => ({label: label_of(r), estimate: r.mean, each: mine.filter(o => !of_all(o) && o.factor === r.factor && o.level === r.level && o.mean.v !== null).map(o => o.mean.v)}));
+  const panels = mine => panels_of(mine.filter(of_all), r => r.factor || '', r => ({label: label_of(r), estimate: r.mean, each: mine.filter(o => !of_all(o) && o.factor === r.factor && o.level === r.level && o.mean.v !== null).map(o => o.mean.v)}));
   const show = index => dot_panels(chart, panels(rows.filter(r => same_answer(r, kinds[index]))), {x_label: `mean of ${answer_name(kinds[index].of)}`, label: 'Mean ratings'});
   answer_part('answers_body', 'Ratings and numbers', chooser('Answer', kinds.map(r => answer_name(r.of)), show), chart,
       table({name: 'ratings', title: 'Ratings and numbers', rows: rows_shown(rows), columns: [
-        ...answer_columns(rows), text_column('factor', r => r.factor || 'n/a'), text_column('level', r => r.level || 'all'), number_column('mean', r => r.mean), number_column('SD', r => r.sd), number_column('answers', r => r.ratings),
+        ...answer_columns(rows), ...if_any(rows, text_column('factor', r => r.factor)), ...if_any(rows, text_column('level', r => r.level)), number_column('mean', r => r.mean), number_column('SD', r => r.sd), number_column('answers', r => r.ratings),
         ...if_any(rows, number_column('place on a continuous quality', r => r.place)), ...if_any(rows, number_column('planted', r => r.planted))],
-        note: `Large dots: means over observers of their means, with the ${level} over observers; small dots: single observers. Place: cumulative probit model, the factor's first level being 0.` + on_rows(rows, 'ratings')}));
+        note: `Large dots: means over observers of their means, with the ${level} over observers; small dots: single observers.${has_any(rows, r => r.place) ? " Place: cumulative probit model, the factor's first level being 0." : ''}` + on_rows(rows, 'ratings')}));
 }
 
 function show_choices() {
@@ -151,7 +152,9 @@ function show_choices() {
         ...answer_columns(sums), number_column('asked', r => r.trials), number_column('missed', r => r.missed), ...if_any(sums, share_column('correct', r => r.correct)),
         ...if_any(sums, number_column('d′', r => r.d_prime)), ...if_any(sums, number_column('SE of d′', r => r.d_prime_se)), ...if_any(sums, number_column('criterion', r => r.criterion)),
         ...if_any(sums, text_column('design', r => r.design)), ...if_any(sums, number_column('d′ by the design', r => r.design_d_prime)), number_column('median time / s', r => r.median)],
-        note: `In brackets Wilson's ${level}, as if answers were independent of each other. Dots: single observers. d′ with the log-linear correction; the design is told by what was shown.` + on_rows(sums, 'answers')}),
+        note: [...(panels.length ? [`Bars with Wilson's ${level}, as if answers were independent of each other; dots: single observers.`] : []),
+          ...(has_any(sums, r => r.d_prime) || has_any(sums, r => r.design_d_prime) ? ['d′ with the log-linear correction; the design is told by what was shown.'] : []),
+          'Median time: of all answers together.'].join(' ') + on_rows(sums, 'answers')}),
       ...(rows.length ? [table({name: 'answer_choices', title: 'How often each choice was made', rows: rows_shown(rows), columns: [
         ...answer_columns(rows), text_column('choice', r => r.choice), number_column('times', r => r.chosen), number_column('of', r => r.answered), share_column('share', r => r.share)],
         note: on_rows(rows, 'answer_choices').trim()})] : []));
@@ -196,9 +199,11 @@ function show_times() {
   answer_part('answers_body', 'Response times', chooser('Answer', kinds.map(r => answer_name(r.of)), show), charts,
       table({name: 'response_times', title: 'Response times', rows: rows_shown(rows), columns: [
         ...answer_columns(rows), text_column('which', r => r.which), number_column('answers', r => r.times), number_column('median / s', r => r.median), number_column('mean / s', r => r.mean), number_column('SD / s', r => r.sd),
-        ...['μ', 'σ', 'τ'].map((name, i) => number_column(`ex-Gaussian ${name} / s`, r => r.ex[i])), number_column('log-normal: shift / s', r => r.shifted[0]), number_column('mean of log', r => r.shifted[1]), number_column('SD of log', r => r.shifted[2]),
+        ...['μ', 'σ', 'τ'].flatMap((name, i) => if_any(rows, number_column(`ex-Gaussian ${name} / s`, r => r.ex[i]))),
+        ...['shift / s', 'mean of log', 'SD of log'].flatMap((name, i) => if_any(rows, number_column(`log-normal: ${name}`, r => r.shifted[i]))),
         ...if_any(rows, text_column('fits better', better))],
-        note: `From the zero that the protocol names. In brackets the ${level} over observers. Both distributions by maximum likelihood, of an observer with 40 times at least; what fits better has the larger likelihood (both have three parameters).` + on_rows(rows, 'response_times')}));
+        note: `From the zero that the protocol names. Median of all: the mean of observers' medians, in brackets the ${level} over observers. ` + (rows.some(better) ? 'Both distributions by maximum likelihood, of an observer with 40 times at least; what fits better has the larger likelihood (both have three parameters).'
+            : 'Distributions (ex-Gaussian, shifted log-normal) are fitted to an observer with 40 times at least: nobody has so many.') + on_rows(rows, 'response_times')}));
 }
 
 function show_tracks() {
@@ -210,7 +215,7 @@ function show_tracks() {
     const y = [Math.min(...levels), Math.max(...levels)], room = 0.06 * (y[1] - y[0] || 1);
     grid.replaceChildren();
     for (const t of mine) {
-      const box = element('div');
+      const box = element('div', {class: 'chart'});
       grid.append(element('div', {}, element('b', {}, t.of[0]), element('span', {class: 'soft'}, mine.filter(o => o.of[0] === t.of[0]).length > 1 ? ` track ${t.track}` : ''), box));
       responsive(box, width => {
         const frame = plot({width, height: 190, x: [1, Math.max(2, t.steps.length)], y: [y[0] - room, y[1] + room], x_label: 'trial of the track', y_label: t.factor, label: `Track of ${t.procedure}, ${t.of[0]}`});
@@ -270,7 +275,7 @@ function show_matches() {
   answer_part('answers_body', 'Matches', chooser('Match', kinds.map(r => `${answer_name(r.of)}, ${r.along}${r.column ? ` by ${r.column}` : ''}`), show), names, box,
       table({name: 'match_lines', title: 'Lines of matches over references', rows: rows_shown(lines), columns: [
         ...answer_columns(lines), text_column('along', r => r.along), ...if_any(lines, text_column('within', r => r.column ? `${r.column} ${r.level}` : '')), number_column('slope', r => r.slope), number_column('intercept', r => r.intercept),
-        ...if_any(lines, number_column('slope, errors in both', r => r.deming)), number_column('settings', r => r.settings), ...if_any(lines, number_column('planted slope', r => r.planted))],
+        ...if_any(lines, number_column('slope, errors in both', r => r.deming)), ...if_any(lines, number_column('constancy (Brunswik)', r => r.brunswik)), ...if_any(lines, number_column('constancy (Thouless)', r => r.thouless)), number_column('settings', r => r.settings), ...if_any(lines, number_column('planted slope', r => r.planted))],
         note: `Dots: means over observers with the ${level}; broken line: a match that is the reference.` + on_rows(lines, 'match_lines')}),
       table({name: 'matches', title: 'Matches', rows: rows_shown(rows), columns: [
         ...answer_columns(rows), text_column('along', r => r.along), ...if_any(rows, text_column('within', r => r.column ? `${r.column} ${r.level}` : '')), number_column('reference', r => r.reference), number_column('match', r => r.match),
@@ -286,7 +291,7 @@ function show_reliefs() {
     if (!places.length) return;
     responsive(box, width => {
       const of = i => [Math.min(...places.map(p => p[i])), Math.max(...places.map(p => p[i]))];
-      const frame = plot({width: Math.min(width, 620), height: 320, x: of(0), y: of(1), x_label: 'true depth towards the eye', y_label: 'depth of the relief', label: 'Relief over true depth'});
+      const frame = plot({width: Math.min(width, 620), height: 320, x: of(0), y: of(1), x_label: 'true depth towards the eye (unit of the mesh)', y_label: 'depth of the relief', label: 'Relief over true depth'});
       for (const [truth, set] of places) frame.svg.append(marker(0, frame.px(truth), frame.py(set)));
       box.replaceChildren(frame.svg);
     });
@@ -296,7 +301,7 @@ function show_reliefs() {
         observer_column, text_column('answer', r => r.of[2]), text_column('shown', r => r.of[3]), number_column('points', r => r.points), number_column('settings', r => r.settings), number_column('from the true normal / deg', r => r.deviation),
         number_column('SD of repeats / deg', r => r.repeat), number_column('gain', r => r.gain), number_column('r', r => r.r), number_column('gain, affine', r => r.affine_gain), number_column('shear x', r => r.x_shear), number_column('shear y', r => r.y_shear),
         number_column('r, affine', r => r.affine_r), ...remark_column(rows, r => r.note)],
-        note: 'The relief that fits the settings best, by least squares, against the true depth: with a gain, and with a gain and shears (affine).'}));
+        note: 'The relief that fits the settings best, by least squares, against the true depth: with a gain, and with a gain and shears (affine). Depths are in the unit of the mesh, from the mean depth. Where places lie farther apart than the folds of the surface, attitudes at them do not add up to its depth, whoever sets them: gain and r are then below those of the settings.'}));
 }
 
 if (answers) {

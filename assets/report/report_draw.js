@@ -65,7 +65,7 @@ function width_of(text) {
 }
 
 // A text in pieces after which it may be broken: its words, and those that other marks join, as in names of conditions.
-const pieces_of = text => String(text).split(/(?<=[\s_\-/.:])/);
+const pieces_of = text => String(text).split(/(?<=[\s_\-/.:])(?<!\.(?=\d))/);
 
 // A text in lines no wider than `most`: broken between pieces, and within a piece that is wider than a line.
 function lines_of(text, most) {

@@ -14,6 +14,8 @@ const share_column = (name, of) => ({name: name + ' / %', of, scale: 100});
 function factor_columns(rows, keys_of) {
   const names = [];
   for (const row of rows) for (const [name] of keys_of(row)) if (!names.includes(name)) names.push(name);
+  const differ = names.filter(name => new Set(rows.map(row => (keys_of(row).find(key => key[0] === name) || [name, 'all'])[1]).filter(value => value !== 'all')).size > 1);
+  if (differ.length) names.splice(0, names.length, ...differ);
   names.sort((a, b) => (data.by.indexOf(a) + 1 || 1e9) - (data.by.indexOf(b) + 1 || 1e9));
   return names.map(name => text_column(name, row => (keys_of(row).find(key => key[0] === name) || [name, 'all'])[1]));
 }

@@ -80,8 +80,12 @@ void check_columns(ProtocolExamination& examination, std::size_t list) {
                 examination.error({path}, fmt::format("\"{}\" is no name for a column", column.name),
                                   "letters a to z, digits and _, beginning with a letter");
             else if (is_name_of_factor(column.name))
-                examination.error({path}, fmt::format("tables have a column \"{}\" already", column.name),
-                                  "call it otherwise");
+                examination.error(
+                    {path}, fmt::format("tables have a column \"{}\" already", column.name),
+                    fmt::format(
+                        "call it otherwise; in place of a series of it write an entry for each value, "
+                        "with the number in a column of another name: columns = {{ {} = 30 }}",
+                        column.name == "angle_deg" ? "turned_deg" : "my_" + column.name));
             for (std::size_t earlier = 0; earlier < list; ++earlier)
                 for (const ListEntry* other : entries_of(protocol, earlier))
                     if (std::ranges::find(other->columns, column.name, &NamedWord::name) !=

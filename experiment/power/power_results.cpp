@@ -26,11 +26,12 @@ std::string of_studies(const PowerPoint& point) {
 
 void summarise(PowerCurve& curve, double alpha) {
     for (PowerPoint& point : curve.points) {
-        point.found = point.without_test = 0;
+        point.found = point.without_test = point.without_measure = 0;
         std::vector<double> estimates;
         for (const StudyOutcome& study : point.studies) {
             point.found += study.p && *study.p <= alpha;
             point.without_test += !study.p;
+            point.without_measure += study.without_measure;
             if (study.estimate)
                 estimates.push_back(*study.estimate);
         }

@@ -17,6 +17,9 @@ struct StudyOutcome {
     std::optional<double> p; ///< nothing: there was nothing to test
     /// Mean over observers of the difference of shares; the same of WSS in deg^2; CC of the maps.
     std::optional<double> estimate;
+    /// Of answers: observers who do not have the measure in both levels, such as a threshold that could not
+    /// be fitted. The test is without them.
+    int without_measure = 0;
 };
 
 /// All studies with one number of observers.
@@ -25,6 +28,7 @@ struct PowerPoint {
     std::vector<StudyOutcome> studies;
     int found = 0;                ///< p at most alpha
     int without_test = 0;         ///< count as not found
+    int without_measure = 0;      ///< StudyOutcome::without_measure, summed over the studies
     Interval interval;            ///< Wilson's, 95 %, of the share found
     double median_estimate = 0.0; ///< over the studies with a test; 0 without any
     double share() const { return static_cast<double>(found) / static_cast<double>(studies.size()); }

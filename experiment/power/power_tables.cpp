@@ -44,6 +44,10 @@ RowLayout<CurveRow> curve_layout() {
     to.count("found", "Of these, with p at most alpha", of_point(&PowerPoint::found));
     to.count("without_test", "Of these, with nothing to test; they count as not found",
              of_point(&PowerPoint::without_test));
+    to.count("observers_without_measure",
+             "Simulated observers of all the studies who do not have the measure in both levels, such as a "
+             "threshold or a slope that could not be fitted; the tests are without them. Of gaze always 0",
+             of_point(&PowerPoint::without_measure));
     to.number("power", "Share that found the effect", "", of_point(&PowerPoint::share), share_digits);
     to.number("power_low", "Lower end of its interval of 95 % (Wilson)", "",
               of_point([](auto& point) { return point.interval.low; }), share_digits);
@@ -62,6 +66,8 @@ RowLayout<OutcomeRow> outcome_layout() {
     to.count("study", "Number of the study; one with fewer observers has the first of those of one with more",
              &OutcomeRow::study);
     to.number("p", "Of the test", "", [](const OutcomeRow& row) { return row.outcome.p; });
+    to.count("observers_without_measure", "Observers of the study without the measure in both levels",
+             [](const OutcomeRow& row) { return row.outcome.without_measure; });
     to.number("estimate", "Difference of shares of fixations, difference of WSS in deg^2, or CC", "",
               [](const OutcomeRow& row) { return row.outcome.estimate; });
     return to;
@@ -89,6 +95,7 @@ std::string power_json(const PowerResults& results) {
             one["curve"].push_back({{"observers", point.observers},
                                     {"found", point.found},
                                     {"without_test", point.without_test},
+                                    {"observers_without_measure", point.without_measure},
                                     {"power", point.share()},
                                     {"interval", {point.interval.low, point.interval.high}},
                                     {"median_estimate", point.median_estimate}});

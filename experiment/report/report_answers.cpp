@@ -145,10 +145,25 @@ Json each_of(const std::vector<double>& values) {
     return each;
 }
 
+/// What of a picture reliefs can differ in, in words: its object, and of the rest what is not the same of
+/// all.
+std::string picture_in_words(const ReliefOf& of, const std::vector<ReliefRow>& all) {
+    std::string words = of.object;
+    const auto add = [&](const auto& member, const char* name) {
+        if (std::ranges::any_of(all, [&](const ReliefRow& row) { return row.of.*member != of.*member; }))
+            words += fmt::format(", {} {}", name, of.*member);
+    };
+    add(&ReliefOf::material, "material");
+    add(&ReliefOf::light, "light");
+    add(&ReliefOf::motion, "motion");
+    add(&ReliefOf::view, "view");
+    add(&ReliefOf::frame, "frame");
+    return words;
+}
+
 /// Of an observer, or of all: an answer's key and what was shown.
-Json relief_key(const ReliefOf& of) {
-    return {of.observer, of.task, of.answer,
-            fmt::format("{} {} {} {} {} {}", of.object, of.material, of.light, of.motion, of.view, of.frame)};
+Json relief_key(const ReliefOf& of, const std::vector<ReliefRow>& all) {
+    return {of.observer, of.task, of.answer, picture_in_words(of, all)};
 }
 
 Json json_of_reliefs(const StudyReliefs& study) {
@@ -158,7 +173,7 @@ Json json_of_reliefs(const StudyReliefs& study) {
         for (const ReliefPointRow& point : study.points)
             if (point.of == row.of && point.z)
                 places.push_back({number(point.true_z), number(*point.z)});
-        reliefs.push_back({{"of", relief_key(row.of)},
+        reliefs.push_back({{"of", relief_key(row.of, study.reliefs)},
                            {"settings", row.settings},
                            {"points", row.points},
                            {"deviation", number(row.deviation_deg)},
@@ -255,6 +270,8 @@ Json report_answers(const StudyResults& results) {
                          {"slope", json_of(row.slope)},
                          {"intercept", json_of(row.intercept)},
                          {"deming", number(row.deming_slope)},
+                         {"brunswik", json_of(row.brunswik)},
+                         {"thouless", json_of(row.thouless)},
                          {"planted", number(row.planted)}});
     json["matches"] = std::move(matches);
     json["match_lines"] = std::move(lines);

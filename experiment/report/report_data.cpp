@@ -8,6 +8,7 @@
 #include "experiment/report/report_maps.h"
 #include "experiment/report/report_page.h"
 #include "experiment/report/report_tables.h"
+#include "experiment/study/methods/study_facts.h"
 #include "experiment/surface/colour_scale.h"
 
 namespace overt {
@@ -181,7 +182,8 @@ nlohmann::ordered_json report_data(const StudyResults& results) {
              {{"title", glance.title},
               {"observers", glance.observers},
               {"sessions", glance.sessions},
-              {"trials", glance.trials},
+              {"trials", trials_of_presentations(results)},
+              {"presentations", glance.trials},
               {"excluded", glance.excluded_trials},
               {"samples", glance.samples},
               {"fixations", glance.fixations},

@@ -11,6 +11,7 @@
 #include "experiment/design/answer_forms.h"
 #include "experiment/design/trial_plan.h"
 #include "experiment/session/observer_form.h"
+#include "experiment/session/step_screens.h"
 
 namespace overt::screens {
 
@@ -92,10 +93,19 @@ std::vector<TaskScreen> answers_of_tasks(const Protocol& protocol) {
         trial.task = task;
         const TrialPlan plan = plan_trial(protocol, 0, trial, false);
         int place = 0;
+        const auto is_on_screen = [&](const PlannedSheet& sheet) {
+            const auto number = static_cast<int>(&sheet - plan.sheets.data());
+            return std::ranges::any_of(plan.steps, [&](const PlannedStep& step) {
+                return step.kind == StepKind::answer && step.sheet == number;
+            });
+        };
         for (const PlannedSheet& planned : plan.sheets) {
             const std::vector<AnswerForm> forms =
                 answer_forms({.protocol = protocol, .trial = trial}, planned.answers, place);
             place += static_cast<int>(forms.size());
+            // What is answered while the stimulus is shown, and then only, has no screen of its own.
+            if (!is_on_screen(planned))
+                continue;
             std::string name = protocol.tasks[static_cast<std::size_t>(task)].id;
             if (plan.sheets.size() > 1)
                 name += fmt::format("_{}", &planned - plan.sheets.data() + 1);
@@ -195,6 +205,48 @@ bool is_spoken(const Task& task) {
 
 } // namespace
 
+namespace {
+
+/// The texts and feedbacks of a task's own steps, of its first stimulus; with a number where it has several.
+std::vector<std::pair<std::string, Screen>> words_of_steps(const Protocol& protocol, int task) {
+    std::vector<std::pair<std::string, Screen>> all;
+    Trial trial;
+    trial.task = task;
+    const TrialPlan plan = plan_trial(protocol, 0, trial, false);
+    for (const StepKind kind : {StepKind::text, StepKind::feedback}) {
+        const auto is_one = [&](const PlannedStep& step) { return step.settings && step.kind == kind; };
+        const bool has_several = std::ranges::count_if(plan.steps, is_one) > 1;
+        int number = 0;
+        for (const PlannedStep& step : plan.steps) {
+            if (!is_one(step))
+                continue;
+            const std::string name =
+                fmt::format("{}_{}{}", name_of(kind), protocol.tasks[static_cast<std::size_t>(task)].id,
+                            has_several ? fmt::format("_{}", ++number) : "");
+            StepCircumstances of{.protocol = protocol, .trial = trial};
+            if (kind == StepKind::text) {
+                all.emplace_back(name, screen_of(step, of));
+                continue;
+            }
+            const StepSettings& words = *step.settings;
+            const auto add = [&](const char* which, const std::string& text, bool is_answered,
+                                 std::optional<bool> is_correct) {
+                of.is_answered = is_answered;
+                of.is_correct = is_correct;
+                if (!text.empty())
+                    all.emplace_back(name + "_" + which, screen_of(step, of));
+            };
+            add("answered", words.answered, true, std::nullopt);
+            add("correct", words.correct, true, true);
+            add("wrong", words.wrong, true, false);
+            add("missed", words.missed, false, std::nullopt);
+        }
+    }
+    return all;
+}
+
+} // namespace
+
 std::vector<std::pair<std::string, Screen>> all_of(const Protocol& protocol) {
     std::vector<std::pair<std::string, Screen>> all;
     const auto add = [&](std::string name, Screen screen) {
@@ -231,8 +283,12 @@ std::vector<std::pair<std::string, Screen>> all_of(const Protocol& protocol) {
     add("drift_check_target", {.kind = Screen::Kind::target, .text = ""});
     for (const BlockSettings& block : protocol.blocks)
         add("block_" + block.id, text(protocol, block.instructions));
-    for (std::size_t task = 0; task < protocol.tasks.size(); ++task)
-        add("question_" + protocol.tasks[task].id, question(protocol, static_cast<int>(task)));
+    for (std::size_t task = 0; task < protocol.tasks.size(); ++task) {
+        if (protocol.tasks[task].steps.empty())
+            add("question_" + protocol.tasks[task].id, question(protocol, static_cast<int>(task)));
+        for (auto& [name, screen] : words_of_steps(protocol, static_cast<int>(task)))
+            add(name, std::move(screen));
+    }
     bool has_response = false;
     for (std::size_t task = 0; task < protocol.tasks.size(); ++task) {
         if (!is_spoken(protocol.tasks[task]) || (has_response && !protocol.screens.repeat_question))

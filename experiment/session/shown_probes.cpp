@@ -1,63 +1,17 @@
 #include "experiment/session/shown_probes.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 
 #include "experiment/answers/answer_kinds.h"
 #include "experiment/design/answer_forms.h"
+#include "experiment/design/probe_marks.h"
 #include "experiment/factors.h"
 #include "experiment/session/session_ports.h"
 
 namespace overt {
 
-StimulusMark gauge_mark(const ProbeView& view, const SeenProbe& at, const Attitude& attitude,
-                        double radius_px, double line_px) {
-    // Of the length that has so many pixels in the depth of the place.
-    const double radius = radius_px * -at.position.z / view.px_at_unit_depth;
-    const glm::dvec3 normal = frame_of_sight(at.position) * normal_of(attitude);
-    const glm::dvec3 aside = std::abs(normal.x) < 0.9 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0);
-    const glm::dvec3 u = glm::normalize(glm::cross(normal, aside)), v = glm::cross(normal, u);
-    StimulusMark mark;
-    mark.count = 2;
-    MarkLine& circle = mark.lines[0];
-    circle.width_px = line_px;
-    circle.count = MarkLine::most_points;
-    for (std::size_t i = 0; i < circle.count; ++i) {
-        const double turn =
-            2.0 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(circle.count - 1);
-        circle.points[i] = view.on_screen(at.position + radius * (std::cos(turn) * u + std::sin(turn) * v));
-    }
-    MarkLine& rod = mark.lines[1];
-    rod.width_px = line_px;
-    rod.count = 2;
-    rod.points[0] = view.on_screen(at.position);
-    rod.points[1] = view.on_screen(at.position + radius * normal);
-    return mark;
-}
-
 ShownProbes::ShownProbes(const Protocol& protocol, const SessionPorts& ports)
     : protocol_(protocol), ports_(ports), px_per_deg_(screen_geometry_of(protocol).px_per_deg_at_centre()) {}
-
-StimulusMark ShownProbes::mark_of(const ProbeSettings& probe) const {
-    StimulusMark mark;
-    mark.light = probe.light;
-    mark.rim_px = probe.rim_deg * px_per_deg_;
-    if (probe.mark == ProbeMark::none)
-        return mark;
-    mark.count = 1;
-    MarkLine& line = mark.lines[0];
-    const double diameter = probe.size_deg * px_per_deg_;
-    line.count = probe.mark == ProbeMark::dot ? 1 : MarkLine::most_points;
-    line.width_px = probe.mark == ProbeMark::dot ? diameter : probe.line_deg * px_per_deg_;
-    // About the place, to which it is moved.
-    for (std::size_t i = 0; i < line.count && line.count > 1; ++i) {
-        const double turn =
-            2.0 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(line.count - 1);
-        line.points[i] = {0.5 * diameter * std::cos(turn), 0.5 * diameter * std::sin(turn)};
-    }
-    return mark;
-}
 
 void ShownProbes::begin_trial(const Trial& trial) {
     probes_.clear();
@@ -77,7 +31,7 @@ void ShownProbes::begin_trial(const Trial& trial) {
                                    .point = std::string(point),
                                    .place = place,
                                    .view = std::move(view),
-                                   .mark = mark_of(settings)});
+                                   .mark = probe_mark(settings, px_per_deg_)});
             break;
         }
     }
@@ -163,12 +117,7 @@ void ShownProbes::before_flip(std::span<const AnimationFrameIndex> frames, const
         ++row.visible_refreshes;
         if (probe.mark.count == 0 || mark_count_ == marks_.size())
             continue;
-        StimulusMark& mark = marks_[mark_count_++];
-        mark = probe.mark;
-        for (std::size_t i = 0; i < mark.lines[0].count; ++i) {
-            mark.lines[0].points[i].x_px += at.x_px;
-            mark.lines[0].points[i].y_px += at.y_px;
-        }
+        marks_[mark_count_++] = moved_to(probe.mark, at);
     }
     if (gauge)
         add_gauge(*gauge);

@@ -18,12 +18,6 @@ namespace overt {
 
 struct SessionPorts;
 
-/// A gauge as it is seen: its circle, which lies on the surface if it is set right, and its rod along the
-/// normal, in the camera's perspective. `radius_px`: of the circle where it faces the eye; the rod is as
-/// long.
-StimulusMark gauge_mark(const ProbeView& view, const SeenProbe& at, const Attitude& attitude,
-                        double radius_px, double line_px);
-
 /// Of the trial that runs.
 class ShownProbes {
   public:
@@ -67,7 +61,6 @@ class ShownProbes {
         bool is_known = false;
     };
     const Probe* find(std::string_view id) const noexcept;
-    StimulusMark mark_of(const ProbeSettings& probe) const;
     void see(Probe& probe, std::span<const AnimationFrameIndex> frames) const noexcept;
     void add_gauge(const Answering& gauge) noexcept;
 

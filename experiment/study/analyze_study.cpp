@@ -100,7 +100,9 @@ void glance_at(StudyResults& results, const ExclusionRules& rules) {
             "more than the reach are placed at its outline.",
             glance.only_by_reach, glance.counted, 100.0 * glance.only_by_reach / glance.counted));
     if (glance.any_simulated)
-        remarks.emplace_back("The gaze of some sessions is that of simulated observers.");
+        remarks.push_back(
+            fmt::format("The gaze of {} sessions is that of simulated observers.",
+                        std::ranges::all_of(results.sessions, &StudySession::is_simulated) ? "all" : "some"));
 }
 
 struct ObjectMaps {

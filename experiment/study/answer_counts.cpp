@@ -59,7 +59,7 @@ CurveCounts counts_of_pairs(const AnswerList& answers, const std::string& factor
 std::vector<CurveCounts> counts_of_one(const AnswerList& answers, const std::string& factor) {
     std::set<std::string> choices;
     for (const StudyAnswer* one : answers)
-        if (!one->is_missed && !one->number && one->kind != "text" && one->kind != "spoken")
+        if (is_choice(*one))
             choices.insert(one->value);
     std::vector<CurveCounts> all;
     for (const std::string& choice : choices) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "experiment/fits/difference_scaling.h"
 #include "experiment/fits/psychometric_fit.h"
 #include "experiment/study/results/answer_rows.h"
 
@@ -25,6 +26,18 @@ struct CurveCounts {
 /// Factors of numbers of which an observer's answers can be a function: those with three levels at least, of
 /// answers about one stimulus or two. None where trials show different numbers of stimuli.
 std::set<std::string> curve_factors(const AnswerList& answers);
+
+/// Choices among three or four slots as judged differences: the levels there are, rising, and how often the
+/// upper pair of places among them was chosen.
+struct DifferenceCounts {
+    std::vector<double> series;
+    std::vector<DifferenceCount> counts;
+    int judged = 0;
+};
+
+/// `weights`: how much each answer counts; empty: one each. Answers without an order of levels are left out.
+DifferenceCounts difference_counts(const AnswerList& answers, const std::string& factor,
+                                   std::span<const double> weights);
 
 /// Of choices between two slots one curve, of choices about one stimulus one for each choice but the last of
 /// two; none where there is nothing to count. See answer_curves().

@@ -65,15 +65,24 @@ AnswerCurveRow fitted(const CurveJob& job, const StudyOptions& options) {
     row.pearson_x2 = fit->pearson_x2;
     row.degrees = fit->degrees;
     PsychometricBootstrap settings;
-    settings.is_parametric = false;
+    // Answers that are all alike at each level are the same however often they are drawn.
+    const bool all_alike = std::ranges::all_of(
+        levels, [](const LevelCount& one) { return one.yes == 0.0 || one.yes == one.trials; });
+    settings.is_parametric = all_alike;
     settings.confidence = options.confidence;
     settings.seed = options.seed;
     const PsychometricIntervals intervals = bootstrap_psychometric(levels, *fit, settings);
     row.failures = intervals.failures;
     row.deviance_limit = intervals.deviance_limit;
     row.threshold = Estimate::of(fit->alpha.value, intervals.alpha);
+    const auto add_note = [&](const char* note) {
+        row.note += (row.note.empty() ? "" : "; ") + std::string(note);
+    };
     if (!sound_threshold(*fit, levels))
-        row.note += (row.note.empty() ? "" : "; ") + std::string("the threshold lies far beyond the levels");
+        add_note("the threshold lies far beyond the levels");
+    if (all_alike)
+        add_note(intervals.alpha ? "interval from the fitted function, since no level has different answers"
+                                 : "no interval: most samples of the fitted function have no slope");
     return row;
 }
 
@@ -82,6 +91,9 @@ void add_curve_jobs(std::vector<CurveJob>& jobs, const AnswerOf& of, const Answe
         for (CurveCounts& counts : curve_counts(given, factor))
             jobs.push_back({of, "", "", std::move(counts)});
         for (const ComparedColumn& column : compared_columns(given)) {
+            // Which slot a rule put the stimulus into is what the levels' sign tells of pairs.
+            if (column.name == "side")
+                continue;
             // Levels of another factor with a function each.
             std::vector<CurveJob> of_column;
             std::set<std::string> with_curve;

@@ -96,6 +96,16 @@ void correct_differences(std::vector<AnswerDifferenceRow>& rows, std::size_t fro
     }
 }
 
+/// Choices of a slot, and functions of them, say by themselves on which side something was.
+bool goes_by_slots(const MeasuredAnswer& what, const AnswerList& answers) {
+    if (what.measure != AnswerMeasure::threshold && what.measure != AnswerMeasure::log_slope &&
+        what.measure != AnswerMeasure::choice)
+        return false;
+    return std::ranges::any_of(answers, [](const StudyAnswer* one) {
+        return std::ranges::find(one->shown, one->value, &AnsweredStimulus::slot) != one->shown.end();
+    });
+}
+
 } // namespace
 
 std::vector<ComparedColumn> compared_columns(const AnswerList& answers) {
@@ -206,7 +216,7 @@ std::vector<AnswerDifferenceRow> answer_differences(const AnswersBy& answers, co
         for (const MeasuredAnswer& what : measures_of(all)) {
             for (const ComparedColumn& column : columns) {
                 // A function over a factor is not of its own levels.
-                if (column.name == what.of)
+                if (column.name == what.of || (column.name == "side" && goes_by_slots(what, all)))
                     continue;
                 // Each observer's value in a level is reckoned once.
                 std::vector<std::vector<std::optional<double>>> values;

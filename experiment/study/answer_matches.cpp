@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
+#include "experiment/base/text_number.h"
 #include "experiment/fits/matching.h"
 #include "experiment/statistics/bootstrap.h"
 #include "experiment/study/answer_differences.h"
@@ -10,6 +12,11 @@
 namespace overt {
 
 namespace {
+
+/// A difference from a number; 0 where it is no more than what doubles leave of equal numbers.
+double without_rounding(double difference, double from) {
+    return std::abs(difference) <= 1e-12 * std::abs(from) ? 0.0 : difference;
+}
 
 /// A setting that was accepted, beside a reference.
 struct SetMatch {
@@ -97,6 +104,33 @@ Estimate over_settings(const std::vector<SetMatch>& matches,
         *value, bootstrap_interval(static_cast<std::uint32_t>(matches.size()), drawn, options.bootstrap()));
 }
 
+/// What the light at the eye alone would have set: the number in the column `proximal` of the trial's own, or
+/// of what it shows.
+std::optional<double> proximal_of(const StudyAnswer& answer) {
+    constexpr const char* column = "proximal";
+    if (const auto own = number_in<double>(answer.level(column)))
+        return own;
+    for (const AnsweredStimulus& shown : answer.shown)
+        if (const auto number = shown.number(column))
+            return number;
+    return std::nullopt;
+}
+
+/// Of an observer's settings whose proximal match is known and is not the reference itself.
+Estimate constancy(const std::vector<SetMatch>& matches, double (*ratio)(double, double, double),
+                   bool is_of_logarithms, const StudyOptions& options) {
+    std::vector<double> ratios;
+    for (const SetMatch& match : matches) {
+        const std::optional<double> proximal = proximal_of(*match.answer);
+        const double distal = *match.set->reference;
+        if (!proximal || *proximal == distal ||
+            (is_of_logarithms && !(match.set->final > 0.0 && *proximal > 0.0 && distal > 0.0)))
+            continue;
+        ratios.push_back(ratio(match.set->final, *proximal, distal));
+    }
+    return estimated_mean(ratios, options.bootstrap(), "no setting with another proximal match");
+}
+
 /// Of one observer.
 void add_rows(std::vector<AnswerMatchRow>& rows, std::vector<AnswerMatchLineRow>& lines,
               const MatchGroup& group, const std::vector<SetMatch>& matches, const StudyOptions& options) {
@@ -106,7 +140,7 @@ void add_rows(std::vector<AnswerMatchRow>& rows, std::vector<AnswerMatchLineRow>
     for (const auto& [reference, of] : by_reference(matches)) {
         AnswerMatchRow row = match_row(group, reference, of);
         row.match = estimated_mean(settings[i].settings, options.bootstrap(), "");
-        row.constant_error = estimates[i].constant_error;
+        row.constant_error = without_rounding(estimates[i].constant_error, reference);
         row.sd = estimates[i].sd;
         row.just_noticeable = estimates[i].just_noticeable;
         rows.push_back(std::move(row));
@@ -121,6 +155,8 @@ void add_rows(std::vector<AnswerMatchRow>& rows, std::vector<AnswerMatchLineRow>
     line.settings = static_cast<int>(matches.size());
     line.slope = over_settings(matches, slope_of, options);
     line.intercept = over_settings(matches, intercept_of, options);
+    line.brunswik = constancy(matches, brunswik_ratio, false, options);
+    line.thouless = constancy(matches, thouless_ratio, true, options);
     if (const std::optional<MatchLine> deming = deming_line(settings)) {
         line.deming_slope = deming->slope;
         line.deming_intercept = deming->intercept;
@@ -157,7 +193,7 @@ void add_rows_of_all(std::vector<AnswerMatchRow>& rows, std::vector<AnswerMatchL
             row.at_end += one->at_end;
         }
         row.match = estimated_mean(means, options.bootstrap(), "");
-        row.constant_error = *row.match.value - row.reference;
+        row.constant_error = without_rounding(*row.match.value - row.reference, row.reference);
         if (!sds.empty())
             row.sd = *estimated_mean(sds, options.bootstrap(), "").value;
     }
@@ -171,7 +207,7 @@ void add_rows_of_all(std::vector<AnswerMatchRow>& rows, std::vector<AnswerMatchL
         line.along = group.along;
         line.column = group.column;
         line.level = group.level;
-        std::vector<double> slopes, intercepts, deming_slopes, deming_intercepts;
+        std::vector<double> slopes, intercepts, deming_slopes, deming_intercepts, brunswik, thouless;
         for (const AnswerMatchLineRow* one : own) {
             line.references = std::max(line.references, one->references);
             line.settings += one->settings;
@@ -179,6 +215,10 @@ void add_rows_of_all(std::vector<AnswerMatchRow>& rows, std::vector<AnswerMatchL
                 slopes.push_back(*one->slope.value);
             if (one->intercept.value)
                 intercepts.push_back(*one->intercept.value);
+            if (one->brunswik.value)
+                brunswik.push_back(*one->brunswik.value);
+            if (one->thouless.value)
+                thouless.push_back(*one->thouless.value);
             if (one->deming_slope)
                 deming_slopes.push_back(*one->deming_slope);
             if (one->deming_intercept)
@@ -186,6 +226,10 @@ void add_rows_of_all(std::vector<AnswerMatchRow>& rows, std::vector<AnswerMatchL
         }
         line.slope = estimated_mean(slopes, options.bootstrap(), "no observer has two references");
         line.intercept = estimated_mean(intercepts, options.bootstrap(), "no observer has two references");
+        line.brunswik =
+            estimated_mean(brunswik, options.bootstrap(), "no setting with another proximal match");
+        line.thouless =
+            estimated_mean(thouless, options.bootstrap(), "no setting with another proximal match");
         line.deming_slope = estimated_mean(deming_slopes, options.bootstrap(), "").value;
         line.deming_intercept = estimated_mean(deming_intercepts, options.bootstrap(), "").value;
     }

@@ -22,8 +22,9 @@ std::vector<AnswerChoiceRow> answer_choices(const AnswersBy& answers, const Stud
 /// and of choices about a single stimulus, for each factor of numbers with three levels at least: logistic
 /// functions by maximum likelihood. With one level that the other never falls below (or never exceeds) and
 /// slots to choose from, the guess rate is one half and lapses up to 6 % are free; else both are 0. Of one
-/// observer the interval is by the bootstrap over trials in their levels, of all it is that of the observers'
-/// mean. Besides, those of each level of each other factor in which trials differ (compared_columns).
+/// observer the interval is by the bootstrap over trials in their levels (from the fitted function where each
+/// level has answers of one kind only), of all it is that of the observers' mean. Besides, those of each level
+/// of each other factor in which trials differ (compared_columns) but the side.
 std::vector<AnswerCurveRow> answer_curves(const AnswersBy& answers, const StudyOptions& options);
 
 /// Of choices between two slots whose stimuli differ in one list: Bradley-Terry and Thurstone's Case V, with

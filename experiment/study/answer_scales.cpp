@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <tuple>
@@ -8,11 +9,15 @@
 #include "experiment/fits/difference_scaling.h"
 #include "experiment/fits/pair_scaling.h"
 #include "experiment/statistics/distributions.h"
+#include "experiment/study/answer_counts.h"
 #include "experiment/study/answer_results.h"
 
 namespace overt {
 
 namespace {
+
+/// In logits or standard deviations.
+constexpr double least_first_slot = 1e-9;
 
 /// The only factor in which two stimuli differ; of a series, the numbers rather than the ids.
 std::optional<std::string> only_difference(const AnsweredStimulus& one, const AnsweredStimulus& other) {
@@ -92,7 +97,10 @@ void add_pair_scales(std::vector<AnswerScaleRow>& rows, const AnswerOf& of,
                 row.value = Estimate::of(scale->centred[i],
                                          about(scale->centred[i], scale->centred_se[i], options.confidence));
                 row.se = scale->centred_se[i];
+                // What the iteration leaves of an effect that is 0 by symmetry is none.
                 row.first_slot = scale->side;
+                if (row.first_slot && std::abs(*row.first_slot) < least_first_slot)
+                    row.first_slot = 0.0;
                 row.trials = static_cast<int>(pairs.size());
                 row.is_penalised = scale->is_penalised;
             }
@@ -195,29 +203,42 @@ std::optional<JudgedDifference> judged_difference(const StudyAnswer& answer, con
     return judged;
 }
 
+} // namespace
+
+DifferenceCounts difference_counts(const AnswerList& answers, const std::string& factor,
+                                   std::span<const double> weights) {
+    std::set<double> levels;
+    std::vector<std::pair<JudgedDifference, double>> judged;
+    for (std::size_t i = 0; i < answers.size(); ++i)
+        if (auto difference = judged_difference(*answers[i], factor)) {
+            levels.insert(difference->levels.begin(), difference->levels.end());
+            judged.emplace_back(*std::move(difference), weights.empty() ? 1.0 : weights[i]);
+        }
+    DifferenceCounts found;
+    found.series.assign(levels.begin(), levels.end());
+    found.judged = static_cast<int>(judged.size());
+    std::map<std::vector<int>, DifferenceCount> counts;
+    for (const auto& [one, weight] : judged) {
+        std::vector<int> places;
+        for (const double level : one.levels)
+            places.push_back(
+                static_cast<int>(std::ranges::lower_bound(found.series, level) - found.series.begin()));
+        DifferenceCount& count = counts.try_emplace(places, DifferenceCount{places}).first->second;
+        count.trials += weight;
+        count.upper += one.is_upper ? weight : 0.0;
+    }
+    for (const auto& [key, count] : counts)
+        if (count.trials > 0.0)
+            found.counts.push_back(count);
+    return found;
+}
+
+namespace {
+
 void add_difference_scales(std::vector<AnswerScaleRow>& rows, const AnswerOf& of,
                            const std::vector<const StudyAnswer*>& given, const StudyOptions& options) {
     for (const auto& [factor, any] : given.front()->shown.front().numbers) {
-        std::set<double> levels;
-        std::vector<JudgedDifference> judged;
-        for (const StudyAnswer* one : given)
-            if (auto difference = judged_difference(*one, factor)) {
-                levels.insert(difference->levels.begin(), difference->levels.end());
-                judged.push_back(*std::move(difference));
-            }
-        const std::vector<double> series(levels.begin(), levels.end());
-        std::map<std::vector<int>, DifferenceCount> counts;
-        for (const JudgedDifference& one : judged) {
-            std::vector<int> places;
-            for (const double level : one.levels)
-                places.push_back(static_cast<int>(std::ranges::lower_bound(series, level) - series.begin()));
-            DifferenceCount& count = counts.try_emplace(places, DifferenceCount{places}).first->second;
-            count.trials += 1.0;
-            count.upper += one.is_upper ? 1.0 : 0.0;
-        }
-        std::vector<DifferenceCount> all;
-        for (const auto& [key, count] : counts)
-            all.push_back(count);
+        const auto [series, all, judged] = difference_counts(given, factor, {});
         const auto scale =
             all.empty() ? std::nullopt : fit_difference_scale(all, static_cast<int>(series.size()));
         if (!scale)
@@ -236,7 +257,7 @@ void add_difference_scales(std::vector<AnswerScaleRow>& rows, const AnswerOf& of
                 Estimate::of(scale->scale[i], intervals ? std::optional(intervals->scale[i]) : std::nullopt);
             row.se = intervals ? std::optional(intervals->scale_sd[i]) : scale->normalised_se(i);
             row.sigma = scale->sigma;
-            row.trials = static_cast<int>(judged.size());
+            row.trials = judged;
             row.is_penalised = scale->is_penalised;
         }
     }

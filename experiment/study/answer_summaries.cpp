@@ -109,7 +109,7 @@ std::vector<AnswerChoiceRow> answer_choices(const AnswersBy& answers, const Stud
         std::map<std::string, int> counts;
         int answered = 0;
         for (const StudyAnswer* one : given) {
-            if (one->is_missed || one->number || one->kind == "text" || one->kind == "spoken")
+            if (!is_choice(*one))
                 continue;
             ++counts[one->value];
             ++answered;
@@ -128,12 +128,13 @@ std::vector<AnswerRatingRow> answer_ratings(const AnswersBy& answers, const Stud
         // By factor and level, and within by observer: an interval over observers is of their means.
         std::map<std::pair<std::string, std::string>, std::map<std::string, std::vector<double>>> ratings;
         for (const StudyAnswer* one : given) {
-            if (!one->number)
+            if (!is_rating(*one))
                 continue;
             ratings[{}][one->observer].push_back(*one->number);
             if (one->shown.size() == 1)
                 for (const auto& level : one->shown.front().levels)
-                    ratings[level][one->observer].push_back(*one->number);
+                    if (level.second != "n/a") // what has no such property is of no level of it
+                        ratings[level][one->observer].push_back(*one->number);
         }
         const std::size_t before = rows.size();
         std::map<std::pair<std::string, std::string>, std::vector<double>> together;

@@ -4,6 +4,10 @@ namespace overt {
 
 namespace {
 
+/// Mean square way of the point on the screen in a fixation: a thousandth of a degree is far below what any
+/// tracker tells. What is less is the rounding of a point that stands.
+constexpr double least_surface_way_deg2 = 1e-6;
+
 GazeMotionRow motion_of(const StudyResults& results, const StudyGroup& group, const StudyOptions& options) {
     GazeMotionRow row;
     row.keys = group.keys;
@@ -12,7 +16,7 @@ GazeMotionRow motion_of(const StudyResults& results, const StudyGroup& group, co
         double products = 0.0, squares = 0.0, ways = 0.0, seconds = 0.0;
         for (const int trial : trials) {
             for_each_counted(results, trial, [&](const StudyFixation& fixation) {
-                if (!(fixation.surface_way_deg2 > 0.0))
+                if (!(fixation.surface_way_deg2 > least_surface_way_deg2))
                     return;
                 products += fixation.duration_s * fixation.gaze_with_surface_deg2;
                 squares += fixation.duration_s * fixation.surface_way_deg2;

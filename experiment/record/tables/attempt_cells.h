@@ -61,6 +61,7 @@ template <class Column> std::vector<Column> own_columns(const SessionHeader& hea
                                const std::string_view level = own_level(attempt.trial, name);
                                return when(!level.empty(), level);
                            }});
+        columns.back().is_named = true;
     }
     const auto& trials = header.schedule.trials;
     if (std::ranges::any_of(trials, [](const Trial& trial) { return trial.role != TrialRole::trial; }))

@@ -2,6 +2,7 @@
 /// cell, so that the names, the dictionary and the cells cannot come apart.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <optional>
 #include <string>
@@ -29,6 +30,9 @@ template <class Row> class RowLayout {
     struct Column {
         TableColumn what;
         std::function<void(TableCells&, const Row&)> cell; ///< writes one cell
+        /// A protocol has given it its name. Where the table has such a column of its own, be it before or
+        /// behind, this one is called own_NAME: no two have one name.
+        bool is_named = false;
 
         /// `of` gives a row's value (TableCells::put), or takes the cells and the row and writes one.
         template <class Of> Column(TableColumn column, Of of) : what(std::move(column)) {
@@ -47,6 +51,9 @@ template <class Row> class RowLayout {
     /// More columns to the right, of rows of this kind or of one that it is made from.
     template <class Base> void add(std::vector<typename RowLayout<Base>::Column> columns) {
         for (auto& column : columns) {
+            call_apart(column.what, column.is_named);
+            if (column.is_named)
+                named_.push_back(table_.columns.size());
             table_.columns.push_back(std::move(column.what));
             cells_.push_back(std::move(column.cell));
         }
@@ -66,7 +73,19 @@ template <class Row> class RowLayout {
     }
 
   private:
+    /// Before a column is added.
+    void call_apart(TableColumn& column, bool is_named) {
+        for (std::size_t i = 0; i < table_.columns.size(); ++i) {
+            if (table_.columns[i].name != column.name)
+                continue;
+            const bool is_other_named = std::ranges::find(named_, i) != named_.end();
+            TableColumn& renamed = is_named || !is_other_named ? column : table_.columns[i];
+            renamed.name = "own_" + renamed.name;
+        }
+    }
+
     Table table_;
+    std::vector<std::size_t> named_; ///< which columns a protocol has named
     std::vector<std::function<void(TableCells&, const Row&)>> cells_;
 };
 

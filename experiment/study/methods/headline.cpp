@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "experiment/base/text_number.h"
 #include "experiment/scene/areas.h"
 #include "experiment/statistics/bootstrap.h"
 #include "experiment/study/methods/sentences.h"
@@ -108,16 +109,39 @@ std::string noise_sentence(const StudyAnswers& answers, const FirstAnswer& first
                        row->factor, *row->sigma, over(first.observers));
 }
 
+/// How far settings of a gauge are from the surface's own normals: the mean over observers of theirs.
+std::string gauge_sentence(const StudyResults& results, const FirstAnswer& first,
+                           const StudyOptions& options) {
+    std::map<std::string, std::pair<double, double>> observers; ///< sums over settings, and their number
+    for (const ReliefRow& row : results.reliefs.reliefs) {
+        if (row.of.observer.empty() || row.of.task != first.of.task || row.of.answer != first.of.answer ||
+            !row.deviation_deg)
+            continue;
+        auto& [sum, settings] = observers[row.of.observer];
+        sum += *row.deviation_deg * row.settings;
+        settings += row.settings;
+    }
+    std::vector<double> means;
+    for (const auto& [observer, sums] : observers)
+        means.push_back(sums.first / sums.second);
+    const Estimate mean = estimated_mean(means, options.bootstrap(), "no setting has a normal beside it");
+    if (!mean.value)
+        return {};
+    return fmt::format("settings of {} lie {} from the surface's own normals in the mean, {}",
+                       named_answer(first.of), with_interval(mean, options.confidence, 1.0, " deg"),
+                       over(static_cast<int>(means.size())));
+}
+
 /// The difference of two levels that is surest, else the mean.
 std::string rating_sentence(const StudyAnswers& answers, const FirstAnswer& first, double confidence) {
     const AnswerRatingRow* const all =
         row_of_all(answers.ratings, first.of, [](const AnswerRatingRow& row) { return row.factor.empty(); });
     if (!all || !all->mean.value)
         return {};
-    const AnswerDifferenceRow* surest = nullptr;
+    const AnswerDifferenceRow* surest = nullptr; ///< of those beyond chance
     for (const AnswerDifferenceRow& row : answers.differences)
         if (row.of == first.of && row.measure == "mean" && row.p_holm && row.difference.value &&
-            (!surest || *row.p_holm < *surest->p_holm))
+            *row.p_holm <= 1.0 - confidence && (!surest || *row.p_holm < *surest->p_holm))
             surest = &row;
     std::string words =
         fmt::format("the mean of {} is {}", named_answer(first.of), with_interval(all->mean, confidence));
@@ -139,8 +163,7 @@ std::string share_sentence(const StudyResults& results, const FirstAnswer& first
     std::map<std::string, std::pair<double, double>> observers; ///< counted, and of how many
     std::string choice;
     for (const StudyAnswer& one : results.answers.given) {
-        if (AnswerOf{"", one.task, one.answer, one.item} != first.of || one.is_missed || one.number ||
-            one.kind == "text" || one.kind == "spoken" || one.kind == "point")
+        if (AnswerOf{"", one.task, one.answer, one.item} != first.of || !is_choice(one))
             continue;
         if (!first.is_judged && (choice.empty() || one.value < choice))
             choice = one.value;
@@ -178,55 +201,100 @@ std::string area_sentence(const StudyResults& results, double confidence) {
 
 std::string result_clause(const StudyResults& results, const StudyOptions& options) {
     for (const FirstAnswer& first : answers_in_order(results.answers)) {
-        for (const std::string& clause : {curve_sentence(results.answers, first, options.confidence),
-                                          match_sentence(results.answers, first, options.confidence),
-                                          scale_sentence(results.answers, first, options.confidence),
-                                          noise_sentence(results.answers, first),
-                                          rating_sentence(results.answers, first, options.confidence),
-                                          share_sentence(results, first, options)})
+        for (const std::string& clause :
+             {curve_sentence(results.answers, first, options.confidence),
+              match_sentence(results.answers, first, options.confidence),
+              scale_sentence(results.answers, first, options.confidence),
+              noise_sentence(results.answers, first), gauge_sentence(results, first, options),
+              rating_sentence(results.answers, first, options.confidence),
+              share_sentence(results, first, options)})
             if (!clause.empty())
                 return clause;
     }
     return area_sentence(results, options.confidence);
 }
 
-/// Factors with several levels, in the order in which trials have them.
-std::vector<std::string> varied_factors(const StudyResults& results) {
-    std::vector<std::string> names;
-    std::map<std::string, std::set<std::string>> levels;
+/// Which things have the same level as which: the number of the first thing of each one's level.
+std::vector<std::size_t> partition_of(const std::vector<std::string>& levels) {
+    std::map<std::string, std::size_t> first;
+    std::vector<std::size_t> parts;
+    for (std::size_t i = 0; i < levels.size(); ++i)
+        parts.push_back(first.try_emplace(levels[i], i).first->second);
+    return parts;
+}
+
+/// A factor with the level of everything that was shown, n/a where it has none.
+struct ShownFactor {
+    std::string name;
+    std::vector<std::string> levels;
+
+    std::size_t count() const {
+        std::set<std::string> known(levels.begin(), levels.end());
+        known.erase("n/a");
+        return known.size();
+    }
+    bool has_numbers() const {
+        return std::ranges::all_of(
+            levels, [](const std::string& level) { return number_in<double>(level).has_value(); });
+    }
+};
+
+std::vector<ShownFactor> shown_factors(const StudyResults& results) {
+    std::vector<ShownFactor> factors;
+    std::size_t things = 0;
     const auto add = [&](const std::string& name, const std::string& level) {
-        if (level.empty() || level == "n/a")
-            return;
-        if (!levels.contains(name))
-            names.push_back(name);
-        levels[name].insert(level);
+        auto known = std::ranges::find(factors, name, &ShownFactor::name);
+        if (known == factors.end())
+            known = factors.insert(factors.end(), {name, {}});
+        known->levels.resize(things, "n/a");
+        known->levels.push_back(level.empty() ? "n/a" : level);
     };
     for (const StudyAnswer& one : results.answers.given)
-        for (const AnsweredStimulus& shown : one.shown)
+        for (const AnsweredStimulus& shown : one.shown) {
             for (const auto& [name, level] : shown.levels)
                 add(name, level);
+            ++things;
+        }
     if (results.answers.given.empty())
-        for (const StudyTrial& trial : results.trials)
+        for (const StudyTrial& trial : results.trials) {
             for (const std::string& column : results.by)
                 if (column != "observer")
                     add(column, trial.key(column));
+            ++things;
+        }
+    for (ShownFactor& factor : factors)
+        factor.levels.resize(things, "n/a");
+    return factors;
+}
+
+/// Factors with several levels, in the order in which trials have them. Of those that go together everywhere,
+/// as the entries of a series and its numbers do, one: the numbers, where all have one, else the first.
+std::vector<std::string> varied_factors(const StudyResults& results) {
+    std::vector<ShownFactor> varied;
+    for (ShownFactor& factor : shown_factors(results)) {
+        if (factor.count() < 2)
+            continue;
+        const auto same = std::ranges::find_if(varied, [&](const ShownFactor& other) {
+            return partition_of(other.levels) == partition_of(factor.levels);
+        });
+        if (same == varied.end())
+            varied.push_back(std::move(factor));
+        else if (factor.has_numbers() && !same->has_numbers())
+            *same = std::move(factor);
+    }
     std::vector<std::string> words;
-    for (const std::string& name : names)
-        if (levels[name].size() > 1)
-            words.push_back(fmt::format("{} ({} levels)", name, levels[name].size()));
+    for (const ShownFactor& factor : varied)
+        words.push_back(fmt::format("{} ({} levels)", factor.name, factor.count()));
     return words;
 }
 
 std::string design_clause(const StudyResults& results) {
-    std::set<std::pair<int, int>> trials;
-    std::map<std::size_t, int> shown;
-    for (const StudyTrial& trial : results.trials)
-        trials.emplace(trial.session, trial.number);
-    if (trials.empty())
+    const std::int64_t trials = trials_of_presentations(results);
+    if (trials == 0)
         return {};
     const std::vector<std::string> factors = varied_factors(results);
-    std::string clause = as_counted(static_cast<std::int64_t>(trials.size()), "trial");
-    const double each = static_cast<double>(results.trials.size()) / static_cast<double>(trials.size());
+    std::string clause = as_counted(trials, "trial");
+    const double each = static_cast<double>(results.trials.size()) / static_cast<double>(trials);
     if (each > 1.0)
         clause += fmt::format(" with {} {:.3g} stimuli each", each == std::floor(each) ? "" : "about", each);
     for (std::size_t at; (at = clause.find("  ")) != std::string::npos;)
@@ -256,13 +324,14 @@ StudyHeadline study_headline(const StudyResults& results, const StudyOptions& op
             left_out.push_back(one.label);
     add_sentence(
         headline.sample,
-        fmt::format(
-            "N = {}{}{}",
-            as_counted(glance.observers, glance.any_simulated ? "simulated observer" : "observer"),
-            left_out.empty() ? ", none left out" : fmt::format(", without {}", joined_words(left_out)),
-            glance.excluded_trials > 0
-                ? fmt::format("; {} excluded", share_of(glance.excluded_trials, glance.trials, "trial"))
-                : "; no trial excluded"));
+        fmt::format("N = {}{}{}",
+                    as_counted(glance.observers, glance.any_simulated ? "simulated observer" : "observer"),
+                    left_out.empty() ? ", none left out"
+                                     : fmt::format(", without {}", joined_words(left_out)),
+                    glance.excluded_trials > 0
+                        ? fmt::format("; {} excluded",
+                                      share_of(glance.excluded_trials, glance.trials, unit_of_gaze(results)))
+                        : fmt::format("; no {} excluded", unit_of_gaze(results))));
     add_sentence(headline.result, result_clause(results, options));
     return headline;
 }

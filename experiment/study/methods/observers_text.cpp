@@ -9,9 +9,13 @@ namespace {
 
 std::string who_took_part(const StudyResults& results) {
     const ObserverCounts observers = observer_counts(results);
+    const std::string presentations =
+        unit_of_gaze(results) == "trial"
+            ? std::string()
+            : fmt::format(" ({})", as_counted(results.glance.trials, unit_of_gaze(results)));
     const std::string what =
-        fmt::format("{} with {} that came to an end", as_counted(results.glance.sessions, "session"),
-                    as_counted(results.glance.trials, "trial"));
+        fmt::format("{} with {}{} that came to an end", as_counted(results.glance.sessions, "session"),
+                    as_counted(trials_of_presentations(results), "trial"), presentations);
     if (observers.simulated == observers.all)
         return fmt::format("{} took part in {}", as_counted(observers.all, "simulated observer"), what);
     if (observers.simulated == 0)
@@ -89,7 +93,7 @@ void add_those_without_gaze(std::string& text, const StudyResults& results) {
     const int without = results.glance.without_gaze;
     if (without > 0)
         add_sentence(text, fmt::format("{} {} excluded, since no gaze was recorded in {}",
-                                       share_of(without, results.glance.trials, "trial"),
+                                       share_of(without, results.glance.trials, unit_of_gaze(results)),
                                        without == 1 ? "was" : "were", without == 1 ? "it" : "them"));
     const ObserverCounts observers = observer_counts(results);
     if (results.glance.observers == 0)
@@ -116,9 +120,10 @@ void add_exclusions(std::string& text, const StudyResults& results, const Exclus
     std::vector<std::string> reasons;
     for (const auto& [rule, count] : results.glance.excluded_by)
         reasons.push_back(fmt::format("{} for {}", as_count(count), reason_of(rule)));
-    add_sentence(text, fmt::format("{} {}{}", share_of(excluded, results.glance.trials, "trial"),
-                                   excluded == 1 ? "was excluded" : "were excluded",
-                                   set.size() == 1 ? "" : ", " + joined_words(reasons)));
+    add_sentence(text,
+                 fmt::format("{} {}{}", share_of(excluded, results.glance.trials, unit_of_gaze(results)),
+                             excluded == 1 ? "was excluded" : "were excluded",
+                             set.size() == 1 ? "" : ", " + joined_words(reasons)));
     if (reasons.size() > 1)
         add_sentence(text, "a trial that breaks several of these limits is counted with the first");
 }

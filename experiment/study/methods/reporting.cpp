@@ -112,7 +112,8 @@ std::string exclusions_of(const StudyResults& results, const ExclusionRules& rul
     if (rules.most_missed_refreshes)
         add(fmt::format("more than {} missed refreshes", *rules.most_missed_refreshes));
     return fmt::format("{} of {} excluded; rules: {}", results.glance.excluded_trials,
-                       counted(results.glance.trials, "trial"), limits.empty() ? "none" : limits);
+                       counted(results.glance.trials, unit_of_gaze(results)),
+                       limits.empty() ? "none" : limits);
 }
 
 std::string participants_of(const StudyResults& results) {

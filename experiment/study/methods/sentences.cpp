@@ -79,10 +79,10 @@ std::string as_spread(const Spread& spread, std::string_view unit, int most_deci
     const auto text = [&](double number) { return fixed_or_below(number, decimals, most_decimals); };
     const std::string middle = fmt::format("{} {}", text(spread.median), unit);
     if (spread.trials == 1)
-        return fmt::format("{} (1 trial)", middle);
+        return fmt::format("{} (1 {})", middle, spread.thing);
     if (text(spread.least) == text(spread.most))
-        return fmt::format("{} (the same in {})", middle, as_counted(spread.trials, "trial"));
-    return fmt::format("{} (median over {}; {} to {} {})", middle, as_counted(spread.trials, "trial"),
+        return fmt::format("{} (the same in {})", middle, as_counted(spread.trials, spread.thing));
+    return fmt::format("{} (median over {}; {} to {} {})", middle, as_counted(spread.trials, spread.thing),
                        text(spread.least), text(spread.most), unit);
 }
 

@@ -10,6 +10,18 @@
 
 namespace overt {
 
+std::int64_t trials_of_presentations(const StudyResults& results) {
+    std::set<std::pair<int, int>> trials;
+    for (const StudyTrial& trial : results.trials)
+        trials.emplace(trial.session, trial.number);
+    return static_cast<std::int64_t>(trials.size());
+}
+
+std::string_view unit_of_gaze(const StudyResults& results) {
+    const auto presentations = static_cast<std::int64_t>(results.trials.size());
+    return trials_of_presentations(results) == presentations ? "trial" : "presentation";
+}
+
 namespace {
 
 template <std::optional<double> StudyQuality::*number>
@@ -95,7 +107,10 @@ std::optional<Spread> spread_over_trials(const StudyResults& results, const Tria
         if (const std::optional<double> value = of.of(trial); value && !trial.excluded)
             values.push_back(*value);
     }
-    return spread_of(std::move(values));
+    std::optional<Spread> spread = spread_of(std::move(values));
+    if (spread)
+        spread->thing = unit_of_gaze(results);
+    return spread;
 }
 
 ObserverCounts observer_counts(const StudyResults& results) {

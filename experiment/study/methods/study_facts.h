@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -14,6 +15,12 @@
 #include "experiment/study/results/study_results.h"
 
 namespace overt {
+
+/// How many trials the study's presentations are of: a trial that shows several stimuli has several.
+std::int64_t trials_of_presentations(const StudyResults& results);
+
+/// What StudyResults::trials are in words: "trial", or "presentation" where trials show several stimuli.
+std::string_view unit_of_gaze(const StudyResults& results);
 
 /// Each value that sessions have, once, in the order of the sessions, with how many have it.
 template <class Of> auto over_sessions(const StudyResults& results, const Of& of) {
@@ -34,6 +41,7 @@ template <class Of> auto over_sessions(const StudyResults& results, const Of& of
 struct Spread {
     double median = 0.0, least = 0.0, most = 0.0;
     int trials = 0;
+    std::string_view thing = "trial"; ///< what it is counted over: see unit_of_gaze
 };
 
 /// A number that each trial has, or has not.

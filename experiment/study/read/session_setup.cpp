@@ -127,11 +127,12 @@ std::string motion_in_words(const Animation& motion) {
         words += fmt::format("{} {} deg from its front", turns ? " of" : " at", motion.angle.value);
     if (light_turns)
         words += fmt::format(" and the light turned by {} deg to each side", motion.light_amplitude.value);
-    if (turns || light_turns)
-        words += fmt::format(", to and fro about {} as a sine of time, in {} frames of {} at {} Hz",
-                             motion.only_turns() ? "the vertical" : "an axis of its own", motion.frame_count,
-                             motion.playback == Playback::ping_pong ? "one sweep" : "one period",
-                             motion.frame_rate_hz);
+    if (!turns && !light_turns)
+        return words; // for how long is a matter of the trial's steps
+    words += fmt::format(", to and fro about {} as a sine of time, in {} frames of {} at {} Hz",
+                         motion.only_turns() ? "the vertical" : "an axis of its own", motion.frame_count,
+                         motion.playback == Playback::ping_pong ? "one sweep" : "one period",
+                         motion.frame_rate_hz);
     return words + fmt::format(", for {} s", motion.duration_s);
 }
 

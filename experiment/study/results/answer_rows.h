@@ -46,6 +46,12 @@ struct StudyAnswer {
     std::vector<MatchSetting> settings = {}; ///< of a match, one for each of its columns
 };
 
+/// It was given, and is one of several choices: places, words and numbers are none.
+bool is_choice(const StudyAnswer& answer);
+
+/// A judgement in numbers. What a match or a gauge is set to is none: a number there says what was shown.
+bool is_rating(const StudyAnswer& answer);
+
 /// What all rows say first: of one observer, or of all (empty).
 struct AnswerOf {
     std::string observer, task, answer, item;
@@ -206,7 +212,7 @@ struct GazeChoiceRow {
 struct AnswerMatchRow {
     AnswerOf of;
     std::string column, level; ///< of trials with this level of a factor; empty: of all
-    std::string along; ///< the column that was set
+    std::string along;         ///< the column that was set
     double reference = 0.0;
     int settings = 0;
     Estimate match; ///< mean of the settings
@@ -224,6 +230,9 @@ struct AnswerMatchLineRow {
     Estimate slope, intercept; ///< by least squares
     /// With errors of the same size in both.
     std::optional<double> deming_slope = {}, deming_intercept = {};
+    /// How far settings go from a match of the light at the eye to one of the reference itself (Brunswik: 0
+    /// none of the way, 1 all), and the same of logarithms (Thouless), where trials say the first.
+    Estimate brunswik = {}, thouless = {};
     std::optional<double> planted = {}; ///< slope that simulated observers mean to give
 };
 

@@ -118,6 +118,10 @@ nlohmann::ordered_json answers_json(const StudyResults& results) {
         }
         add_estimate(one, "slope", row.slope);
         add_estimate(one, "intercept", row.intercept);
+        if (row.brunswik.value)
+            add_estimate(one, "brunswik", row.brunswik);
+        if (row.thouless.value)
+            add_estimate(one, "thouless", row.thouless);
         add_number(one, "planted", row.planted);
         json["matches"].push_back(std::move(one));
     }

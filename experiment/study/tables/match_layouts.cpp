@@ -55,6 +55,13 @@ RowLayout<AnswerMatchLineRow> match_lines_layout() {
     to.estimate("intercept", "Where the line is at a reference of 0; the same", "", &Row::intercept);
     to.number("deming_slope", "Slope with errors of the same size in both (Deming)", "", &Row::deming_slope);
     to.number("deming_intercept", "Its intercept", "", &Row::deming_intercept);
+    to.estimate(
+        "brunswik",
+        "Constancy: mean over settings of (setting - proximal) / (reference - proximal), the column "
+        "`proximal` of the trial or of what it shows saying what would be set by the light at the eye "
+        "alone; 0: no constancy, 1: all of it. With the interval over settings, of all over observers",
+        "", &Row::brunswik);
+    to.estimate("thouless", "The same of logarithms; n/a: a number is not positive", "", &Row::thouless);
     to.number("planted", "Of simulated observers: the slope that they mean to give", "", &Row::planted);
     return to;
 }

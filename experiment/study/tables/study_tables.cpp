@@ -8,6 +8,7 @@
 #include "experiment/base/whole_file.h"
 #include "experiment/record/tables/export_tables.h"
 #include "experiment/study/area_shares.h"
+#include "experiment/study/methods/study_facts.h"
 #include "experiment/study/tables/answer_layouts.h"
 #include "experiment/study/tables/answers_json.h"
 #include "experiment/study/tables/area_layouts.h"
@@ -120,7 +121,8 @@ std::string study_json(const StudyResults& results) {
               {"observers", glance.observers},
               {"observers_given", Json::array()},
               {"sessions", Json::array()},
-              {"trials", glance.trials},
+              {"trials", trials_of_presentations(results)},
+              {"presentations", glance.trials},
               {"excluded_trials", glance.excluded_trials},
               {"samples", glance.samples},
               {"fixations", glance.fixations},

@@ -112,6 +112,29 @@ TEST_CASE("thresholds, shares of correct answers and ratings are found of the si
     CHECK(choice.points[0].median_estimate > 0.1);
 }
 
+TEST_CASE("it is told for how many simulated observers no threshold could be fitted", "[unit]") {
+    Experiment experiment = judged();
+    // A step between two levels: nearly nobody answers at two levels neither always nor never.
+    experiment.protocol.tasks[0].answers[0].truth.slope = 400.0;
+    PowerSettings settings;
+    settings.observers = {6};
+    settings.studies = 2;
+    const PowerResults results = simulate_power(
+        experiment, power_effects({"threshold:object=cow:shift=0.08"}, experiment.protocol, {}), settings,
+        [](std::string_view, int, int) {});
+    const PowerPoint& point = results.curves.front().points.front();
+    CHECK(point.without_measure >= 10);
+    CHECK(point.without_measure <= 12);
+    CHECK_THAT(results.remarks,
+               Catch::Matchers::VectorContains(
+                   fmt::format("threshold:object=cow:shift=0.08: {} of 12 simulated observers ({:.1f} %) "
+                               "have no function that can be fitted, with a threshold among the levels "
+                               "or near them, in both levels, and the tests are without them.",
+                               point.without_measure, 100.0 * point.without_measure / 12)));
+    // A rating is everybody's.
+    CHECK(answer_power_of(judged(), "rating:object=cow:shift=0.5", 3).points[0].without_measure == 0);
+}
+
 TEST_CASE("without an effect answers differ as seldom as the level says, whatever the threads", "[unit]") {
     const Experiment experiment = judged();
     const PowerCurve none = answer_power_of(experiment, "rating:object=cow:shift=0", 200, {8}, 1);

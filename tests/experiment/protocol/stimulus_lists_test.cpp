@@ -164,6 +164,7 @@ TEST_CASE("columns hold words or numbers, under names of their own", "[unit]") {
     };
     CHECK(lines("gloss = \"high\", size_cm = 12").empty());
     CHECK(lines("object = 1") == Lines{"12:22: tables have a column \"object\" already"});
+    CHECK(lines("angle_deg = 1") == Lines{"12:25: tables have a column \"angle_deg\" already"});
     CHECK(lines("task = 1") == Lines{"12:20: tables have a column \"task\" already"});
     CHECK(lines("\"a b\" = 1") == Lines{"12:21: \"a b\" is no name for a column"});
     CHECK(lines("gloss = true") ==

@@ -1,6 +1,8 @@
 /// Probes that follow their places and gauges that are set there, on ports that do what they are told.
 #include <deque>
 
+#include "experiment/design/probe_marks.h"
+#include "experiment/session/session_screens.h"
 #include "experiment/session/shown_probes.h"
 #include "tests/experiment/record/plain_session.h"
 
@@ -185,4 +187,29 @@ TEST_CASE("a gauge whose normal is the surface's lies on it, and its rod stands 
     // Seen from the front the rod points to the eye and its picture is a point.
     const StimulusMark front = gauge_mark(view, at, {{0.0}, {0.0}}, 50.0, 3.0);
     CHECK(front.lines[1].points[1].x_px == Approx(960.0).margin(1e-6));
+}
+
+TEST_CASE("the screens of a session are those that its steps show", "[unit]") {
+    const auto names = [](const Protocol& protocol) {
+        std::vector<std::string> all;
+        for (const auto& [name, screen] : screens::all_of(protocol))
+            if (name.find("_t") != std::string::npos && !name.starts_with("calibration") &&
+                !name.starts_with("drift") && !name.starts_with("operator"))
+                all.push_back(name);
+        return all;
+    };
+    // A gauge is set on the stimulus alone: no question comes before, and no screen asks for it.
+    CHECK(names(probed("{ show = \"centre\", until = \"answer\" }", a_lean)).empty());
+    const Protocol asked = probed(
+        "{ text = \"{question}\" }, { text = \"Look\" }, { show = \"centre\", until = \"answer\" }, "
+        "{ answer = \"lean\" }, { feedback = { answered = \"Thanks\", missed = \"Late\" }, for_s = 1 }",
+        a_lean);
+    CHECK(names(asked) == std::vector<std::string>{"text_t_1", "text_t_2", "feedback_t_answered",
+                                                   "feedback_t_missed", "answers_t"});
+    for (const auto& [name, screen] : screens::all_of(asked)) {
+        if (name == "text_t_1")
+            CHECK(screen.text == "Which?");
+        if (name == "feedback_t_missed")
+            CHECK(screen.text == "Late");
+    }
 }

@@ -1,6 +1,9 @@
 /// Settings of matches by reference, and the line over references: the known answers of a published table.
 #include "experiment/study/answer_results.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
@@ -82,6 +85,49 @@ TEST_CASE("settings have their mean, error and deviation by reference, and a lin
     }
     REQUIRE(study.match_lines.back().slope.interval);
     CHECK(study.match_lines.back().slope.interval->contains(0.9855));
+}
+
+TEST_CASE("a mean that is the reference but for rounding has no constant error", "[unit]") {
+    StudyAnswers study;
+    for (const double setting : {.05, .10, .15})
+        study.given.push_back(setting_of("P01", "hall", .10, setting));
+    reckon_matches(study, answers_by(study.given), few_match_samples());
+    for (const AnswerMatchRow& row : study.matches)
+        CHECK(row.constant_error == 0.0);
+}
+
+TEST_CASE("constancy is how far settings go from the proximal match to the reference, by either formula",
+          "[unit]") {
+    StudyAnswers study;
+    for (const std::string observer : {"P01", "P02"}) {
+        StudyAnswer answer = setting_of(observer, "sky", .42, .38);
+        answer.levels.emplace_back("proximal", ".30");
+        study.given.push_back(answer);
+        // As much of the way from a proximal match above the reference.
+        answer = setting_of(observer, "sky", .30, .34);
+        answer.shown.front().numbers.emplace_back("proximal", .42);
+        study.given.push_back(answer);
+        // Without a proximal match, and with one that is the reference, nothing can be told.
+        study.given.push_back(setting_of(observer, "hall", .20, .25));
+        answer = setting_of(observer, "hall", .30, .25);
+        answer.levels.emplace_back("proximal", ".30");
+        study.given.push_back(answer);
+    }
+    reckon_matches(study, answers_by(study.given), few_match_samples());
+    const auto line = std::ranges::find_if(study.match_lines, [](const AnswerMatchLineRow& row) {
+        return row.of.observer == "P01" && row.column.empty();
+    });
+    REQUIRE(line != study.match_lines.end());
+    // (.38 - .30) / (.42 - .30) = 2 / 3, and the same of the other way.
+    CHECK(line->brunswik.value.value() == Approx(2.0 / 3.0).margin(1e-6));
+    CHECK(line->thouless.value.value() ==
+          Approx(0.5 * (0.702551 + std::log(.34 / .42) / std::log(.30 / .42))).margin(1e-6));
+    CHECK(study.match_lines.front().brunswik.value.value() == Approx(2.0 / 3.0).margin(1e-6));
+    const auto hall = std::ranges::find_if(study.match_lines, [](const AnswerMatchLineRow& row) {
+        return row.of.observer == "P01" && row.level == "hall";
+    });
+    REQUIRE(hall != study.match_lines.end());
+    CHECK_FALSE(hall->brunswik.value);
 }
 
 TEST_CASE("lines are told apart by the levels of other factors, and not by the reference's own", "[unit]") {

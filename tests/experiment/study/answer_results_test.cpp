@@ -146,6 +146,65 @@ TEST_CASE("ratings have means by level, and over observers of their means", "[un
     CHECK(answer_choices(answers_by(answers), quick_options()).empty());
 }
 
+TEST_CASE("what is set or pointed at is neither rated nor chosen, and n/a is no level", "[unit]") {
+    std::vector<StudyAnswer> answers;
+    for (const std::string kind : {"match", "gauge", "point", "scale"}) {
+        for (const double level : {0.1, 0.2, 0.3}) {
+            StudyAnswer answer = choice_of("P01", {gloss_in("", level)}, fmt::format("{} 4", level));
+            answer.answer = answer.kind = kind;
+            if (kind != "point")
+                answer.number = level;
+            answers.push_back(std::move(answer));
+        }
+    }
+    answers.back().shown.front().levels.emplace_back("haze", "n/a");
+    const AnswersBy by = answers_by(answers);
+    for (const AnswerRatingRow& row : answer_ratings(by, quick_options())) {
+        CHECK(row.of.answer == "scale");
+        CHECK(row.factor != "haze");
+    }
+    CHECK(answer_ratings(by, quick_options()).size() == 8); // over all and of three levels, P01's and all
+    CHECK(answer_choices(by, quick_options()).empty());
+    CHECK(answer_curves(by, quick_options()).empty());
+}
+
+TEST_CASE("functions of pairs are not parted by the side, and intervals of single answers have a width",
+          "[unit]") {
+    // Each pair both ways round, once: rising, but for some answers.
+    const auto answered = [](const std::vector<std::pair<double, double>>& against) {
+        std::vector<StudyAnswer> answers;
+        for (const double one : {0.05, 0.1, 0.2, 0.4})
+            for (const double other : {0.05, 0.1, 0.2, 0.4}) {
+                if (one == other)
+                    continue;
+                const bool is_against = std::ranges::find(against, std::pair(one, other)) != against.end();
+                answers.push_back(choice_of("P01", {gloss_in("left", one), gloss_in("right", other)},
+                                            (one > other) != is_against ? "left" : "right"));
+                answers.back().levels = {{"side", one < other ? "left" : "right"},
+                                         {"object", one + other < 0.4 ? "cow" : "bust"}};
+            }
+        return answers;
+    };
+    const auto curves_of = [&](const std::vector<StudyAnswer>& answers) {
+        const std::vector<AnswerCurveRow> curves = answer_curves(answers_by(answers), quick_options());
+        for (const AnswerCurveRow& row : curves)
+            CHECK(row.column != "side");
+        for (const AnswerDifferenceRow& row : answer_differences(answers_by(answers), quick_options()))
+            CHECK(row.column != "side");
+        return *std::ranges::find_if(
+            curves, [](const AnswerCurveRow& row) { return row.of.observer == "P01" && row.column.empty(); });
+    };
+    const AnswerCurveRow flat = curves_of(answered({{0.1, 0.2}, {0.2, 0.1}, {0.4, 0.2}, {0.05, 0.1}}));
+    REQUIRE(flat.threshold.interval);
+    CHECK(flat.threshold.interval->high - flat.threshold.interval->low > 0.05);
+    CHECK_THAT(flat.note, Catch::Contains("interval from the fitted function"));
+    // Nearly a step: samples of it mostly are one, and there is no interval rather than one without a width.
+    const AnswerCurveRow steep = curves_of(answered({{0.1, 0.2}}));
+    CHECK(steep.threshold.value);
+    CHECK_FALSE(steep.threshold.interval);
+    CHECK_THAT(steep.note, Catch::Contains("no interval: most samples"));
+}
+
 TEST_CASE("steps of a scale give back the places of levels, and pairs in two factors what each adds",
           "[unit]") {
     RandomStream random(6, "answers");

@@ -125,8 +125,9 @@ TEST_CASE("an observer's gain is the slope over all fixations, and the study's t
     CHECK(*rows[2].surface_gain.value == Approx(0.5));
     CHECK(rows[2].observers == 3);
 
+    // What projecting a point that stands leaves is no motion.
     for (StudyFixation& fixation : study.results.fixations)
-        fixation.surface_way_deg2 = 0.0;
+        fixation.surface_way_deg2 = 1e-28;
     const auto still = gaze_motions(study.results, {}, study.options);
     CHECK_FALSE(still[0].surface_gain.value);
     CHECK(still[0].surface_gain.absent == "no counted fixation saw the surface move");

@@ -57,6 +57,7 @@ struct MadeStudy {
                 StudyTrial& trial = results.trials.emplace_back();
                 trial.session = static_cast<int>(results.sessions.size()) - 1;
                 trial.keys = {{"task", "free"}, {"material", material}};
+                trial.number = material == "gold" ? 1 : 2;
                 trial.presentation_s = 8.004;
                 trial.quality.accuracy_deg = 0.3 + 0.1 * static_cast<double>(results.trials.size());
                 trial.quality.rms_s2s_deg = 0.0213;

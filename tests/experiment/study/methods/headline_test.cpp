@@ -1,0 +1,100 @@
+/// The sentences at the head of a study's page: what was asked and varied, and the first result.
+#include "experiment/study/methods/headline.h"
+
+#include <catch2/catch.hpp>
+#include <fmt/format.h>
+
+using namespace overt;
+using Catch::Contains;
+
+namespace {
+
+/// A trial of observer "01" that shows two of a series side by side, and its choice.
+void add_pair(StudyResults& results, double left, double right) {
+    const int number = static_cast<int>(results.answers.given.size()) + 1;
+    StudyAnswer answer;
+    answer.observer = "01";
+    answer.task = "glossier";
+    answer.answer = "which";
+    answer.kind = "choice";
+    answer.value = "left";
+    answer.is_missed = false;
+    for (const auto& [slot, level] : {std::pair("left", left), std::pair("right", right)}) {
+        const std::string text = fmt::format("{}", level);
+        answer.shown.push_back(
+            {slot, {{"material", "red-" + text}, {"roughness", text}, {"light", "hall"}}, {}});
+        StudyTrial& presentation = results.trials.emplace_back();
+        presentation.number = number;
+    }
+    results.answers.given.push_back(answer);
+}
+
+StudyResults study_of_pairs() {
+    StudyResults results;
+    results.by = {"material"};
+    results.sessions.emplace_back().observer = "01";
+    for (const double left : {0.1, 0.2, 0.3})
+        for (const double right : {0.1, 0.2, 0.3})
+            if (left != right)
+                add_pair(results, left, right);
+    results.glance.observers = 1;
+    results.glance.trials = static_cast<int>(results.trials.size());
+    return results;
+}
+
+AnswerRatingRow rating_of_all() {
+    AnswerRatingRow row;
+    row.of = {"", "glossier", "which", ""};
+    row.mean = Estimate::of(4.0);
+    return row;
+}
+
+} // namespace
+
+TEST_CASE("a series is one thing that differs, and trials of two stimuli are counted as trials", "[unit]") {
+    StudyResults results = study_of_pairs();
+    const StudyHeadline headline = study_headline(results, {});
+    CHECK(headline.design == "6 trials with 2 stimuli each; what differs is roughness (3 levels).");
+    CHECK_THAT(headline.sample, Contains("no presentation excluded"));
+    // Numbers that not all of the entries have are another thing.
+    results.answers.given.front().shown.front().levels[1].second = "n/a";
+    CHECK_THAT(study_headline(results, {}).design, Contains("material (3 levels) and roughness (3 levels)"));
+}
+
+TEST_CASE("a difference between levels is told as a result only where it is beyond chance", "[unit]") {
+    StudyResults results = study_of_pairs();
+    results.answers.ratings = {rating_of_all()};
+    AnswerDifferenceRow difference;
+    difference.of = {"", "glossier", "which", ""};
+    difference.measure = "mean";
+    difference.column = "light";
+    difference.a = "hall";
+    difference.b = "sky";
+    difference.difference = Estimate::of(-0.5, Interval{-0.9, -0.1});
+    difference.p_holm = 0.6;
+    results.answers.differences = {difference};
+    CHECK(study_headline(results, {}).result == "The mean of \"which\" is 4, over 1 observer.");
+    results.answers.differences.front().p_holm = 0.01;
+    CHECK_THAT(study_headline(results, {}).result,
+               Contains("of light hall it is by 0.5 (95 % interval 0.1 to 0.9) lower than of sky"));
+}
+
+TEST_CASE("the result of a gauge is how far settings lie from the surface", "[unit]") {
+    StudyResults results = study_of_pairs();
+    for (StudyAnswer& one : results.answers.given) {
+        one.kind = "gauge";
+        one.number = 30.0;
+    }
+    for (const auto& [observer, deviation] :
+         {std::pair("", 9.0), std::pair("01", 8.0), std::pair("02", 10.0), std::pair("03", 12.0)}) {
+        ReliefRow row;
+        row.of.observer = observer;
+        row.of.task = "glossier";
+        row.of.answer = "which";
+        row.settings = 20;
+        row.deviation_deg = deviation;
+        results.reliefs.reliefs.push_back(row);
+    }
+    CHECK_THAT(study_headline(results, {}).result,
+               Contains("Settings of \"which\" lie 10 deg") && Contains("over 3 observers."));
+}
