@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 
 #include "colour_scale_tables.h"
 #include "experiment/base/error.h"
@@ -35,11 +34,6 @@ const ColourTable& colour_table(ColourMap map) {
 
 std::string_view name_of(ColourMap map) {
     return map == ColourMap::viridis ? "viridis" : map == ColourMap::cividis ? "cividis" : "coolwarm";
-}
-
-double linear_of_srgb(std::uint8_t channel) {
-    const double value = channel / 255.0;
-    return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
 }
 
 } // namespace overt

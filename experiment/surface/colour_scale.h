@@ -23,7 +23,5 @@ std::string_view name_of(ColourMap map);
 /// For what an observer could never see; no colour map has it.
 inline constexpr std::array<std::uint8_t, 3> never_visible{150, 150, 150};
 
-/// The linear value, 0 … 1, of an sRGB channel (IEC 61966-2-1): what glTF wants of vertex colours.
-double linear_of_srgb(std::uint8_t channel);
 
 } // namespace overt

@@ -12,6 +12,7 @@
 #include "experiment/base/error.h"
 #include "experiment/base/json_text.h"
 #include "experiment/base/whole_file.h"
+#include "experiment/scene/surface_appearance.h"
 #include "experiment/surface/colour_scale.h"
 
 namespace overt {
@@ -68,8 +69,8 @@ void write_glb(const std::filesystem::path& path, const ColouredMesh& coloured) 
     // Four channels of 16 bits: attributes of a vertex begin at multiples of four bytes.
     std::array<std::uint16_t, 256> linear{};
     for (std::size_t i = 0; i < linear.size(); ++i)
-        linear[i] =
-            static_cast<std::uint16_t>(std::lround(65535.0 * linear_of_srgb(static_cast<std::uint8_t>(i))));
+        linear[i] = static_cast<std::uint16_t>(
+            std::lround(65535.0 * double{linear_of_srgb(static_cast<std::uint8_t>(i))}));
     std::size_t begin = binary.size();
     for (const auto& colour : coloured.srgb) {
         for (const std::uint8_t channel : colour)

@@ -7,6 +7,7 @@
 #include "experiment/base/json_text.h"
 #include "experiment/base/whole_file.h"
 #include "experiment/scene/files/mesh_reader.h"
+#include "experiment/scene/surface_appearance.h"
 #include "experiment/surface/colour_scale.h"
 #include "experiment/surface/coloured_mesh_file.h"
 #include "tests/experiment/surface/flat_and_round.h"
@@ -142,8 +143,9 @@ TEST_CASE("the colour maps begin and end as published", "[unit]") {
     // The lightness of viridis rises all the way: a grey print keeps the order.
     double before = -1.0;
     for (const Colour& c : colour_table(ColourMap::viridis)) {
-        const double luminance =
-            0.2126 * linear_of_srgb(c[0]) + 0.7152 * linear_of_srgb(c[1]) + 0.0722 * linear_of_srgb(c[2]);
+        const double luminance = 0.2126 * double{linear_of_srgb(c[0])} +
+                                 0.7152 * double{linear_of_srgb(c[1])} +
+                                 0.0722 * double{linear_of_srgb(c[2])};
         REQUIRE(luminance > before - 2e-3);
         before = luminance;
     }
