@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include <fmt/format.h>
-
 #include "experiment/base/error.h"
 #include "experiment/base/text_number.h"
 
@@ -170,29 +168,15 @@ Stimulus Factors::stimulus_at(int number) const {
 }
 
 bool is_name_of_factor(std::string_view name) {
-    // Columns that tables of trials, samples, answers, events and studies have besides, and BIDS's events.
-    constexpr std::string_view others =
-        " accepted along angle_deg answer answered_s area attempt block changes comes_again correct "
-        "correct_answer counts day depth deviation_deg device drawn_by drift_deg duration duration_s "
-        "end_deg error eye failure first_input_s frame frames frames_sha256 gaze_share group high id "
-        "image_x_px image_y_px incidence_deg is_correct item key kind longest_delay_s lost_flips "
-        "lost_samples low made_from_sha256 mapping median_delay_s mesh_file mesh_sha256 "
-        "missed_refreshes mm_per_unit n net_deg number observer onset origin_x origin_y origin_z "
-        "p_object part path_deg phase place point_frame point_image_x_px point_image_y_px "
-        "point_incidence_deg point_part point_sd_major point_sd_minor point_slot point_triangle "
-        "point_x point_y point_z pose poses presentation_end_s presentation_onset_s pupil_size "
-        "question reference responded_s response response_box response_id response_key "
-        "response_number response_screen_onset_s response_time response_time_s response_uncertainty_s "
-        "reversals role samples samples_off_plan samples_on_object samples_without_gaze "
-        "screen_onset_s second_setting second_setting_reference second_setting_start seen session "
-        "setting setting_reference setting_start shown_refreshes shown_s shown_size side "
-        "silhouette_distance_deg sitting slant_deg slot source start start_deg started_s status step "
-        "stim_file stimulus stimulus_onset_s stopped_high stopped_low surface_x surface_y surface_z "
-        "swaps_copied swaps_flipped swaps_skipped swaps_suboptimal_copied task task_screen_onset_s "
-        "tied tilt_deg time_s time_uncertainty_s timing tracker_onset tracker_time_us trial "
-        "trial_type triangle true_slant_deg true_tilt_deg turning_s uncertainty_s value window_end_s "
-        "window_onset_s x_px y_px zero ";
-    return others.find(fmt::format(" {} ", name)) != std::string_view::npos ||
+    // Columns that tables of trials, samples, events and studies have besides.
+    constexpr std::string_view others[] = {
+        "task",        "stimulus",   "block",    "trial",   "attempt",    "observer", "group",  "session",
+        "sitting",     "day",        "slot",     "step",    "side",       "correct",  "phase",  "onset",
+        "duration",    "status",     "counts",   "failure", "timing",     "eye",      "source", "question",
+        "answer",      "frames",     "frame",    "value",   "device",     "samples",  "part",   "area",
+        "depth",       "kind",       "pose",     "n",       "duration_s", "x_px",     "y_px",   "angle_deg",
+        "comes_again", "trial_type", "stim_file"};
+    return std::ranges::find(others, name) != std::end(others) ||
            std::ranges::find(stimulus_lists, name, &StimulusList::name) != stimulus_lists.end();
 }
 

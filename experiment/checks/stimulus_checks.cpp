@@ -15,6 +15,7 @@
 #include "experiment/scene/areas.h"
 #include "experiment/spectra/metal_table.h"
 #include "experiment/stimulus/object.h"
+#include "experiment/table_columns.h"
 
 namespace overt {
 
@@ -79,7 +80,7 @@ void check_columns(ProtocolExamination& examination, std::size_t list) {
             if (!is_column_name(column.name))
                 examination.error({path}, fmt::format("\"{}\" is no name for a column", column.name),
                                   "letters a to z, digits and _, beginning with a letter");
-            else if (is_name_of_factor(column.name))
+            else if (is_name_of_factor(column.name) || is_column_of_tables(column.name))
                 examination.error(
                     {path}, fmt::format("tables have a column \"{}\" already", column.name),
                     fmt::format(

@@ -98,8 +98,8 @@ class TrialTableMaker {
         if (!is_factor_name(cell.text))
             error(cell.place, fmt::format("a factor cannot be called \"{}\"", cell.text),
                   "letters, digits, - and _ make a name");
-        else if (is_name_of_factor(cell.text) || cell.text == "catch")
-            error(cell.place, fmt::format("tables have a column \"{}\" already", cell.text),
+        else if (is_name_of_factor(cell.text) || cell.text == "seen" || cell.text == "catch")
+            error(cell.place, fmt::format("\"{}\" is the name of a factor that every trial has", cell.text),
                   "call the column otherwise");
         else if (const auto near = nearest_name(cell.text, known))
             error(cell.place, fmt::format("unknown column \"{}\"", cell.text),

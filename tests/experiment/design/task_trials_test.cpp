@@ -191,7 +191,7 @@ TEST_CASE("all that is wrong in a table of trials is found at once, at its line 
     CHECK(lines("left,right,block,repeat\nvase/g1/overcast/x/y/z,vase/g1,one,-1\n,,,1\n").size() == 7);
     CHECK(lines("left,right,left.material\nvase/g1,vase/g1,g2\n").size() == 1);
     CHECK(lines("left,right,side\nvase/g1,vase/g2,a\n") ==
-          Lines{"list.tsv:1:12: tables have a column \"side\" already"});
+          Lines{"list.tsv:1:12: \"side\" is the name of a factor that every trial has"});
     ReadWithTable missing(with("trials = \"other.tsv\"\n"));
     CHECK(missing.lines() ==
           Lines{"p.toml:31:10: trials \"other.tsv\": it is not among the texts that are kept"});

@@ -42,8 +42,8 @@ TEST_CASE("what an article has to report is named item by item, with its value o
     CHECK(item_of(items, "manufacturer, model").value == "EyeLink 1000 (2 sessions); GP3 HD (1 session)");
     CHECK(item_of(items, "nominal rate").value == "1000 Hz");
     CHECK(item_of(items, "accuracy (mean error of the validation)").value ==
-          "0.400 deg (median over 3 trials; 0.300 to 0.500 deg)");
-    CHECK(item_of(items, "data loss, blinks apart").value == "2.00 % (the same in 3 trials)");
+          "0.400 deg (median over 3 presentations; 0.300 to 0.500 deg)");
+    CHECK(item_of(items, "data loss, blinks apart").value == "2.00 % (the same in 3 presentations)");
     CHECK(item_of(items, "trials").value ==
           "1 of 4 trials excluded; rules: a validation with a mean error above 1 deg");
     CHECK(item_of(items, "participants").value ==
@@ -67,7 +67,7 @@ TEST_CASE("what an article has to report is named item by item, with its value o
     // What is taken out of the scatter is said.
     for (StudyTrial& trial : results.trials)
         trial.quality.sd_deg = 0.07;
-    CHECK(item_of(reporting_items(results, options), scatter).value == "0.0700 deg (the same in 3 trials)");
+    CHECK(item_of(reporting_items(results, options), scatter).value == "0.0700 deg (the same in 3 presentations)");
     // Each of the nine aspects is there, in their order.
     char last = '0';
     for (const ReportingItem& item : items) {
