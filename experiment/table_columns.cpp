@@ -7,7 +7,8 @@ namespace overt {
 bool is_column_of_tables(std::string_view name) {
     // Of trials, samples, answers, places and movements, and of BIDS's events.
     constexpr std::string_view names =
-        " accepted along answered_s changes correct_answer deviation_deg drawn_by drift_deg end_deg "
+        " accepted along answered_s elevation_deg t_s changes correct_answer deviation_deg drawn_by "
+        "drift_deg end_deg "
         "end_elevation_deg error first_input_s frames_sha256 gaze_share high id image_x_px image_y_px "
         "incidence_deg is_correct item key longest_delay_s lost_flips lost_samples low "
         "made_from_sha256 mapping median_delay_s mesh_file mesh_sha256 missed_refreshes mm_per_unit "

@@ -45,7 +45,7 @@ TEST_CASE("what an article has to report is named item by item, with its value o
           "0.400 deg (median over 3 presentations; 0.300 to 0.500 deg)");
     CHECK(item_of(items, "data loss, blinks apart").value == "2.00 % (the same in 3 presentations)");
     CHECK(item_of(items, "trials").value ==
-          "1 of 4 trials excluded; rules: a validation with a mean error above 1 deg");
+          "1 of 4 presentations excluded; rules: a validation with a mean error above 1 deg");
     CHECK(item_of(items, "participants").value ==
           "2 observers in 3 sessions; of each are recorded: age, hand");
     CHECK(item_of(items, "fixations, saccades, blinks").value ==
@@ -67,7 +67,8 @@ TEST_CASE("what an article has to report is named item by item, with its value o
     // What is taken out of the scatter is said.
     for (StudyTrial& trial : results.trials)
         trial.quality.sd_deg = 0.07;
-    CHECK(item_of(reporting_items(results, options), scatter).value == "0.0700 deg (the same in 3 presentations)");
+    CHECK(item_of(reporting_items(results, options), scatter).value ==
+          "0.0700 deg (the same in 3 presentations)");
     // Each of the nine aspects is there, in their order.
     char last = '0';
     for (const ReportingItem& item : items) {
