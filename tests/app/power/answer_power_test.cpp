@@ -125,12 +125,12 @@ TEST_CASE("it is told for how many simulated observers no threshold could be fit
     const PowerPoint& point = results.curves.front().points.front();
     CHECK(point.without_measure >= 10);
     CHECK(point.without_measure <= 12);
-    CHECK_THAT(results.remarks,
-               Catch::Matchers::VectorContains(
-                   fmt::format("threshold:object=cow:shift=0.08: {} of 12 simulated observers ({:.1f} %) "
-                               "have no function that can be fitted, with a threshold among the levels "
-                               "or near them, in both levels, and the tests are without them.",
-                               point.without_measure, 100.0 * point.without_measure / 12)));
+    CHECK_THAT(results.remarks, Catch::Matchers::VectorContains(fmt::format(
+                                    "threshold:object=cow:shift=0.08:against=bust:answer=looks: {} of 12 "
+                                    "simulated observers ({:.1f} %) "
+                                    "have no function that can be fitted, with a threshold among the levels "
+                                    "or near them, in both levels, and the tests are without them.",
+                                    point.without_measure, 100.0 * point.without_measure / 12)));
     // A rating is everybody's.
     CHECK(answer_power_of(judged(), "rating:object=cow:shift=0.5", 3).points[0].without_measure == 0);
 }
