@@ -23,8 +23,8 @@ std::vector<AnswerChoiceRow> answer_choices(const AnswersBy& answers, const Stud
 /// functions by maximum likelihood. With one level that the other never falls below (or never exceeds) and
 /// slots to choose from, the guess rate is one half and lapses up to 6 % are free; else both are 0. Of one
 /// observer the interval is by the bootstrap over trials in their levels (from the fitted function where each
-/// level has answers of one kind only), of all it is that of the observers' mean. Besides, those of each level
-/// of each other factor in which trials differ (compared_columns) but the side.
+/// level has answers of one kind only), of all it is that of the observers' mean. Besides, those of each
+/// level of each other factor in which trials differ (compared_columns) but the side.
 std::vector<AnswerCurveRow> answer_curves(const AnswersBy& answers, const StudyOptions& options);
 
 /// Of choices between two slots whose stimuli differ in one list: Bradley-Terry and Thurstone's Case V, with
@@ -49,8 +49,8 @@ std::vector<AnswerTimeRow> answer_times(const AnswersBy& answers, const StudyOpt
 std::vector<AnswerSpeedRow> answer_speeds(const AnswersBy& answers, const StudyOptions& options);
 
 /// Settings of matches that were accepted, for each level of the reference, and the lines over references: of
-/// an observer with intervals by drawing settings again, of all the means of the observers'. Besides, those of
-/// each level of each other factor in which the references of trials differ.
+/// an observer with intervals by drawing settings again, of all the means of the observers'. Besides, those
+/// of each level of each other factor in which the references of trials differ.
 void reckon_matches(StudyAnswers& answers, const AnswersBy& by, const StudyOptions& options);
 
 /// All of these, and the differences between levels (answer_differences.h).

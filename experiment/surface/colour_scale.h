@@ -23,5 +23,4 @@ std::string_view name_of(ColourMap map);
 /// For what an observer could never see; no colour map has it.
 inline constexpr std::array<std::uint8_t, 3> never_visible{150, 150, 150};
 
-
 } // namespace overt

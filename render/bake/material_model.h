@@ -17,7 +17,7 @@ struct OwnPoint;
 /// Where a path from the eye meets a surface, seen from its front.
 struct SurfaceEvent {
     glm::vec3 to_eye{0.0f};
-    glm::vec3 normal{0.0f};              ///< for shading; faces the eye
+    glm::vec3 normal{0.0f};          ///< for shading; faces the eye
     const OwnPoint* point = nullptr; ///< what is there, of a surface that is not the same everywhere
 };
 

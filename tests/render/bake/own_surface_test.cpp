@@ -30,8 +30,7 @@ double difference_of(const OwnSurface& own, const LayeredSurface& layered) {
     const OwnPoint point = own.point(0, {0.3f, 0.3f});
     double largest = 0.0;
     for (int pair = 0; pair < 300; ++pair) {
-        const glm::vec3 up(0.0f, 0.0f, 1.0f), eye = direction_above(random),
-                                              light = direction_above(random);
+        const glm::vec3 up(0.0f, 0.0f, 1.0f), eye = direction_above(random), light = direction_above(random);
         const SurfaceEvent event{eye, up, &point};
         const Bins a = own.value(event, light), b = layered.value({eye, up}, light);
         for (std::size_t bin = 0; bin < spectral_bins; ++bin) {
