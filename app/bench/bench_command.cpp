@@ -42,6 +42,7 @@ constexpr Benchmark benchmarks[] = {
      bench_tracker},
     {"gaze-step", "steps that gaze on a moving area ends, and whether they end by the planted sample",
      bench_gaze_step},
+    {"input", "from a key that the window system is given to the refresh that shows it", bench_input},
     {"procedures",
      "procedures that choose levels, and fits of answers, against known answers and simulated observers",
      bench_procedures},
@@ -104,8 +105,7 @@ void add_bench(CLI::App& app, ChosenCommand& chosen) {
         ->check(CLI::Range(16, 2048))
         ->capture_default_str();
     command
-        .add_option("--seconds", options.seconds,
-                    "tracker, watch: of real time, for each of two measurements")
+        .add_option("--seconds", options.seconds, "tracker, watch, input: of real time, for each measurement")
         ->type_name("S")
         ->check(CLI::Range(0.5, 3600.0))
         ->capture_default_str();

@@ -43,6 +43,8 @@ BenchFigures bench_power(const BenchOptions& options);
 BenchFigures bench_tracker(const BenchOptions& options);
 /// A thousand trials whose gaze is planted: whether the step that waits for it ends by the very sample.
 BenchFigures bench_gaze_step(const BenchOptions& options);
+/// Keys that are sent to a window of X: how long each takes to be seen.
+BenchFigures bench_input(const BenchOptions& options);
 /// Procedures that choose levels, and fits of answers, against known answers and simulated observers.
 BenchFigures bench_procedures(const BenchOptions& options);
 /// Time and memory of whole commands as sessions have more trials, and studies more sessions; the exponents.

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <numeric>
 #include <optional>
 
 #include <fmt/format.h>
@@ -9,9 +8,9 @@
 #include "app/bench/bench_clock.h"
 #include "app/bench/bench_command.h"
 #include "app/bench/bench_timing.h"
+#include "app/bench/random_pages.h"
 #include "app/cli/resident_memory.h"
 #include "app/rig/open_display.h"
-#include "experiment/base/random.h"
 #include "render/presenter/page_presenter.h"
 #include "render/window/window_system.h"
 
@@ -19,39 +18,7 @@ namespace overt {
 
 namespace {
 
-constexpr int page_count = 61;
 constexpr int cycles = 5;
-
-/// 61 pages of random light, in memory: the picture of each is another than that of the pages before it.
-class RandomPages final : public FrameSource {
-  public:
-    explicit RandomPages(int size_px) {
-        for (std::uint64_t i = 0; i < 4; ++i) {
-            RandomStream random(1, "pages", i);
-            pictures_.emplace_back(glm::ivec2(size_px));
-            for (glm::vec4& pixel : pictures_.back().pixels) {
-                pixel = {static_cast<float>(random.uniform()), static_cast<float>(random.uniform()),
-                         static_cast<float>(random.uniform()), 1.0f};
-            }
-        }
-    }
-    std::vector<int> page_of_frame(const Stimulus&) const override {
-        std::vector<int> pages(page_count);
-        std::iota(pages.begin(), pages.end(), 0);
-        return pages;
-    }
-    LinearImage page(const Stimulus&, int page) const override { return picture(page); }
-    const LinearImage& read_page(const Stimulus&, int page, LinearImage&) const override {
-        return picture(page);
-    }
-
-  private:
-    const LinearImage& picture(int page) const {
-        return pictures_[static_cast<std::size_t>(page) % pictures_.size()];
-    }
-
-    std::vector<LinearImage> pictures_;
-};
 
 DisplaySettings color_plus_plus(double gamma = 1.0) {
     DisplaySettings display;
@@ -128,13 +95,13 @@ void measure_flips(const OpenDisplay& display, const RandomPages& pages, const S
     presenter.load_frames({0, 0});
     const double loading_s = seconds_since(begin);
     const double loaded_mb = resident_memory_mb() - before_mb;
-    for (int frame = 0; frame < page_count; ++frame) // once round to set things up
+    for (int frame = 0; frame < RandomPages::count; ++frame) // once round to set things up
         presenter.flip({frame});
     std::vector<double> times_s;
     const double processor_before_s = processor_seconds();
-    for (int flip = 0; flip < cycles * page_count; ++flip) {
+    for (int flip = 0; flip < cycles * RandomPages::count; ++flip) {
         const auto flip_begin = std::chrono::steady_clock::now();
-        presenter.flip({flip % page_count});
+        presenter.flip({flip % RandomPages::count});
         times_s.push_back(seconds_since(flip_begin));
     }
     const double processor_ms =

@@ -73,6 +73,12 @@ std::string screen_section(const ExaminedScreen& screen, const std::filesystem::
     for (const ScreenFinding& finding : screen.findings)
         text += fmt::format("| {} | {} | {} |\n", name_of(finding.weight), cell(finding.what),
                             cell(finding.finding));
+    if (screen.inputs)
+        text += fmt::format(
+            "| | keys to refresh | {} |\n\nKeys were sent to the window through the X server, and "
+            "shown as a session shows what an observer turns or sets; keyboard, USB and the "
+            "display's latency come on top.\n",
+            cell(screen.inputs->description()));
     if (measured.mean_hz <= 0.0 || measured.intervals_ms.empty())
         return text;
     const std::string name = page.stem().string() + "_refreshes";

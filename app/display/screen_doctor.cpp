@@ -20,6 +20,8 @@ constexpr double assumed_hz = 60.0;
 /// A window that is not the whole screen is large enough to be seen, and small enough to be no bother.
 constexpr glm::ivec2 window_px{640, 360};
 
+constexpr double longest_input_s = 5.0; ///< of measuring how long keys take
+
 nlohmann::ordered_json json_of(const std::optional<SwapModes>& modes) {
     if (!modes)
         return nullptr;
@@ -29,7 +31,36 @@ nlohmann::ordered_json json_of(const std::optional<SwapModes>& modes) {
             {"skipped", modes->skipped}};
 }
 
-nlohmann::ordered_json json_of(const TimingFacts& facts, const std::vector<ScreenFinding>& findings) {
+nlohmann::ordered_json json_of(const std::optional<InputLatency>& inputs) {
+    if (!inputs)
+        return nullptr;
+    nlohmann::ordered_json json{{"sent", inputs->sent}, {"came", inputs->seen}};
+    if (inputs->delays) {
+        json["median_ms"] = 1e3 * inputs->delays->median_s;
+        json["median_refreshes"] = inputs->median_refreshes();
+        json["most_ms"] = 1e3 * inputs->delays->most_s;
+        json["longest_ms"] = 1e3 * inputs->delays->longest_s;
+    }
+    return json;
+}
+
+/// Nothing where keys cannot be sent, as in a window of Wayland.
+std::optional<InputLatency> measure_inputs(const OpenDisplay& display, double seconds) {
+    ProgressBar bar;
+    bar.update("measuring how soon keys are seen", 0, 1);
+    std::optional<InputLatency> found;
+    try {
+        found = measure_input_latency(*display.window(), display.clock(), std::min(seconds, longest_input_s),
+                                      1, [&](int) { return display.window_display()->present_dark(); });
+    } catch (const GraphicsError&) {
+    }
+    bar.finish();
+    return found;
+}
+
+nlohmann::ordered_json json_of(const ExaminedScreen& screen) {
+    const TimingFacts& facts = screen.facts;
+    const std::vector<ScreenFinding>& findings = screen.findings;
     const RefreshMeasurement& measured = facts.measured;
     auto list = nlohmann::ordered_json::array();
     for (const ScreenFinding& finding : findings)
@@ -42,6 +73,7 @@ nlohmann::ordered_json json_of(const TimingFacts& facts, const std::vector<Scree
             {"source", overt::name_of(measured.source)},
             {"refused_sources", facts.refused_sources},
             {"swaps", json_of(facts.swap_modes)},
+            {"inputs", json_of(screen.inputs)},
             {"figures",
              {figure("refresh rate", measured.mean_hz, "Hz"),
               figure("standard error of the refresh rate", measured.mean_se_hz, "Hz"),
@@ -98,17 +130,20 @@ ExaminedScreen measure_screen(const DoctorOptions& options) {
                           : facts.measured.mean_hz > 0.0 ? facts.measured.mean_hz
                                                          : assumed_hz;
     std::vector<ScreenFinding> findings = judge_timing(facts, own_hz, "its mode");
-    return {monitor, display.context().description().renderer, std::move(facts), std::move(findings)};
+    return {monitor, display.context().description().renderer, std::move(facts), std::move(findings),
+            measure_inputs(display, options.seconds)};
 }
 
 int run_screen_doctor(const DoctorOptions& options) {
     const ExaminedScreen screen = measure_screen(options);
     if (options.json) {
-        fmt::print("{}\n", json_of(screen.facts, screen.findings).dump(2));
+        fmt::print("{}\n", json_of(screen).dump(2));
     } else {
         fmt::print("{}\n{}\n", describe(screen.monitor), screen.renderer);
         for (const ScreenFinding& finding : screen.findings)
             fmt::print("{:<8} {:<18} {}\n", name_of(finding.weight), finding.what, finding.finding);
+        if (screen.inputs)
+            fmt::print("{:<8} {:<18} {}\n", "", "keys to refresh", screen.inputs->description());
     }
     return screen.is_refused();
 }

@@ -1,7 +1,10 @@
 /// `overt doctor --window`: what a screen's refreshes are, measured.
 #pragma once
 
+#include <optional>
+
 #include "app/display/display_commands.h"
+#include "app/rig/input_latency.h"
 #include "render/vblank/refresh_measurement.h"
 #include "render/window/screen_check.h"
 #include "render/window/window_context.h"
@@ -14,11 +17,13 @@ struct ExaminedScreen {
     std::string renderer; ///< OpenGL's
     TimingFacts facts;
     std::vector<ScreenFinding> findings;
+    std::optional<InputLatency> inputs; ///< nothing: keys cannot be sent to this window
 
     bool is_refused() const;
 };
 
-/// Shows a dark screen for a while. Throws GraphicsError if no window can be opened.
+/// Shows a dark screen for a while, and once more as long as keys are sent to it, at most input_s. Throws
+/// GraphicsError if no window can be opened.
 ExaminedScreen measure_screen(const DoctorOptions& options);
 
 /// The same, and prints what was found; 1 if something would refuse a session.

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "experiment/record/read/session_record.h"
+#include "experiment/timing/input_delays.h"
 
 namespace overt {
 
@@ -26,22 +27,9 @@ struct ObserverTurns {
     std::optional<double> median_delay_s = {}, longest_delay_s = {};
 };
 
-/// How long what observers did took to be seen: from the latest input that a picture contains to the refresh
-/// that it was lit at, of each picture that contains a further one. Without the display's latency.
-struct InputDelays {
-    int count = 0; ///< pictures
-    double median_s = 0.0;
-    double most_s = 0.0; ///< 95 % of them take no longer: the smallest of which that is true
-    double longest_s = 0.0;
-    friend constexpr bool operator==(const InputDelays&, const InputDelays&) = default;
-};
-
 /// Of all that observers moved in the presentations of trials that count: what they turned, and what they set
 /// to match. Nothing where they moved nothing.
 std::optional<InputDelays> input_delays(const SessionRecord& record);
-
-/// The same of delays in seconds, in any order.
-std::optional<InputDelays> summary_of(std::vector<double> delays_s);
 
 /// The delays in flips and what they contain, in the order of refreshes.
 std::vector<double> delays_in(std::span<const FlipRecord> flips, std::span<const SteeredFlip> steered);
