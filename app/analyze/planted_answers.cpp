@@ -340,6 +340,9 @@ void add_planted_answers(StudyResults& results, const Protocol& protocol, const 
     plant_difference_scales(results.answers, *weighed);
     for (AnswerMatchLineRow& row : results.answers.match_lines)
         row.planted = planted_match_slope(row, protocol);
+    for (ReliefRow& row : results.reliefs.reliefs)
+        if (const TaskAnswer* const asked = asked_of(protocol, row.of.task, row.of.answer))
+            row.planted = asked->truth.gain;
     for (GazeChoiceRow& row : results.answers.gaze_choices)
         if (const TaskAnswer* const asked = asked_of(protocol, row.of.task, row.of.answer);
             asked && asked->truth.look_share && row.area.empty() && row.measure == "dwell share")

@@ -22,6 +22,7 @@
 #include "experiment/base/whole_file.h"
 #include "experiment/record/read/session_record.h"
 #include "experiment/record/session_schema.h"
+#include "experiment/study/gauge_reliefs.h"
 #include "experiment/study/tables/study_tables.h"
 #include "render/gl/headless_context.h"
 
@@ -261,6 +262,11 @@ void print_answers(const StudyResults& results) {
         if (row.of.observer.empty())
             print_answer(fmt::format("{}: {} of the chosen", named(row.of), row.measure), row.value,
                          row.planted, agreement);
+    for (const ReliefRow& row : results.reliefs.reliefs)
+        if (row.of.observer.empty() || results.observers.size() == 1)
+            print_answer(fmt::format("{}: gain of attitudes, {}", row.of.answer,
+                                     picture_in_words(row.of, results.reliefs.reliefs)),
+                         row.attitude_gain, row.planted, agreement);
     if (agreement.intervals > 0)
         fmt::print("{} of {} intervals of {:g} % hold what was planted\n", agreement.holding,
                    agreement.intervals, 100.0 * results.confidence);

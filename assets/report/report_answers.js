@@ -299,9 +299,9 @@ function show_reliefs() {
   answer_part('answers_body', 'Reliefs of gauge settings', ...(drawn.length ? [chooser('Relief', drawn.map(r => `${r.of[0] || 'all'}, ${r.of[2]}, ${r.of[3]}`), show), box] : []),
       table({name: 'reliefs', title: 'Reliefs of gauge settings', rows, columns: [
         observer_column, text_column('answer', r => r.of[2]), text_column('shown', r => r.of[3]), number_column('points', r => r.points), number_column('settings', r => r.settings), number_column('from the true normal / deg', r => r.deviation),
-        number_column('SD of repeats / deg', r => r.repeat), number_column('gain', r => r.gain), number_column('r', r => r.r), number_column('gain, affine', r => r.affine_gain), number_column('shear x', r => r.x_shear), number_column('shear y', r => r.y_shear),
+        number_column('SD of repeats / deg', r => r.repeat), number_column('gain of attitudes', r => r.attitude_gain), ...if_any(rows, number_column('planted gain', r => r.planted)), number_column('gain of the relief', r => r.gain), number_column('r', r => r.r), number_column('gain, affine', r => r.affine_gain), number_column('shear x', r => r.x_shear), number_column('shear y', r => r.y_shear),
         number_column('r, affine', r => r.affine_r), ...remark_column(rows, r => r.note)],
-        note: 'The relief that fits the settings best, by least squares, against the true depth: with a gain, and with a gain and shears (affine). Depths are in the unit of the mesh, from the mean depth. Where places lie farther apart than the folds of the surface, attitudes at them do not add up to its depth, whoever sets them: gain and r are then below those of the settings.'}));
+        note: 'The relief that fits the settings best, by least squares, against the true depth: with a gain, and with a gain and shears (affine). Depths are in the unit of the mesh, from the mean depth. Where places lie farther apart than the folds of the surface, attitudes at them do not add up to its depth, whoever sets them: gain and r are then below those of the settings. The gain of attitudes is of each place by itself, and free of that.'}));
 }
 
 if (answers) {

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "experiment/study/gauge_reliefs.h"
+
 namespace overt {
 
 namespace {
@@ -35,7 +37,7 @@ Json json_of_curves(const StudyAnswers& answers) {
                           {"slope_se", number(row.slope_se)},
                           {"lapse", number(row.lapse)},
                           {"deviance", number(row.deviance)},
-                          {"degrees", row.degrees},
+                          {"degrees", row.deviance ? Json(row.degrees) : Json(nullptr)},
                           {"limit", number(row.deviance_limit)},
                           {"note", row.note},
                           {"planted", number(row.planted_threshold)},
@@ -145,22 +147,6 @@ Json each_of(const std::vector<double>& values) {
     return each;
 }
 
-/// What of a picture reliefs can differ in, in words: its object, and of the rest what is not the same of
-/// all.
-std::string picture_in_words(const ReliefOf& of, const std::vector<ReliefRow>& all) {
-    std::string words = of.object;
-    const auto add = [&](const auto& member, const char* name) {
-        if (std::ranges::any_of(all, [&](const ReliefRow& row) { return row.of.*member != of.*member; }))
-            words += fmt::format(", {} {}", name, of.*member);
-    };
-    add(&ReliefOf::material, "material");
-    add(&ReliefOf::light, "light");
-    add(&ReliefOf::motion, "motion");
-    add(&ReliefOf::view, "view");
-    add(&ReliefOf::frame, "frame");
-    return words;
-}
-
 /// Of an observer, or of all: an answer's key and what was shown.
 Json relief_key(const ReliefOf& of, const std::vector<ReliefRow>& all) {
     return {of.observer, of.task, of.answer, picture_in_words(of, all)};
@@ -184,6 +170,9 @@ Json json_of_reliefs(const StudyReliefs& study) {
                            {"x_shear", number(row.x_shear)},
                            {"y_shear", number(row.y_shear)},
                            {"affine_r", number(row.affine_r)},
+                           {"attitude_gain", json_of(row.attitude_gain)},
+                           {"attitude_r", number(row.attitude_r)},
+                           {"planted", number(row.planted)},
                            {"note", row.note},
                            {"places", std::move(places)}});
     }

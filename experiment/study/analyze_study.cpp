@@ -239,7 +239,7 @@ StudyResults analyze_study(ReadStudy study, const StudyOptions& options, const S
 
     add_screen_area_looks(results, study.levels, options);
     reckon_answers(results.answers, options);
-    reckon_reliefs(results.reliefs);
+    reckon_reliefs(results.reliefs, options.bootstrap());
     if (knows_stimuli(results))
         reckon_on_surfaces(study, options, progress);
     results.headline = study_headline(results, options);

@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <set>
 
+#include <fmt/format.h>
 #include <glm/glm.hpp>
 
+#include "experiment/fits/attitude_regression.h"
 #include "experiment/fits/gauge_relief.h"
 #include "experiment/fits/point_relief.h"
 
@@ -67,9 +70,53 @@ std::optional<double> repeat_sd(const std::vector<ReliefPointRow>& points, const
     return freedom > 0 ? std::optional(std::sqrt(squares / freedom)) : std::nullopt;
 }
 
+/// Settings that belong together, as they are drawn again: of one observer those at a place, of all those of
+/// an observer.
+std::vector<std::vector<AttitudePair>> attitude_groups(const ReliefOf& of,
+                                                       const std::vector<const GaugeSettingRow*>& settings) {
+    std::map<std::string, std::vector<AttitudePair>> groups;
+    for (const GaugeSettingRow* setting : settings)
+        if (setting->truth)
+            groups[of.observer.empty() ? setting->of.observer : setting->point].push_back(
+                {setting->set, *setting->truth});
+    std::vector<std::vector<AttitudePair>> list;
+    for (auto& [name, pairs] : groups)
+        list.push_back(std::move(pairs));
+    return list;
+}
+
+void regress(ReliefRow& row, const std::vector<std::vector<AttitudePair>>& groups,
+             const BootstrapSettings& bootstrap) {
+    const auto regressed = [&](std::span<const std::uint32_t> drawn) {
+        std::vector<AttitudePair> pairs;
+        for (const std::uint32_t group : drawn)
+            pairs.insert(pairs.end(), groups[group].begin(), groups[group].end());
+        return regress_attitudes(pairs);
+    };
+    std::vector<std::uint32_t> all(groups.size());
+    std::iota(all.begin(), all.end(), 0U);
+    const std::optional<AttitudeRegression> found = regressed(all);
+    if (!found) {
+        row.attitude_gain = Estimate::none("it needs three settings at places that lean differently");
+        return;
+    }
+    row.attitude_gain =
+        Estimate::of(found->gain, bootstrap_interval(
+                                      static_cast<std::uint32_t>(groups.size()),
+                                      [&](std::span<const std::uint32_t> drawn) -> std::optional<double> {
+                                          const auto again = regressed(drawn);
+                                          return again ? std::optional(again->gain) : std::nullopt;
+                                      },
+                                      bootstrap));
+    row.attitude_x_shear = found->shear.x;
+    row.attitude_y_shear = found->shear.y;
+    row.attitude_r = found->r;
+}
+
 class ReliefMaking {
   public:
-    ReliefMaking(const ReliefOf& of, const std::vector<const GaugeSettingRow*>& settings) {
+    ReliefMaking(const ReliefOf& of, const std::vector<const GaugeSettingRow*>& settings,
+                 const BootstrapSettings& bootstrap) {
         row_.of = of;
         row_.settings = static_cast<int>(settings.size());
         double deviations = 0.0;
@@ -89,6 +136,7 @@ class ReliefMaking {
         row_.points = static_cast<int>(points_.size());
         row_.repeat_sd_deg = repeat_sd(points_, at_);
         put_together();
+        regress(row_, attitude_groups(of, settings), bootstrap);
     }
     void add_to(StudyReliefs& reliefs) {
         std::ranges::move(points_, std::back_inserter(reliefs.points));
@@ -164,7 +212,21 @@ class ReliefMaking {
 
 } // namespace
 
-void reckon_reliefs(StudyReliefs& reliefs) {
+std::string picture_in_words(const ReliefOf& of, const std::vector<ReliefRow>& all) {
+    std::string words = of.object;
+    const auto add = [&](const auto& member, const char* name) {
+        if (std::ranges::any_of(all, [&](const ReliefRow& row) { return row.of.*member != of.*member; }))
+            words += fmt::format(", {} {}", name, of.*member);
+    };
+    add(&ReliefOf::material, "material");
+    add(&ReliefOf::light, "light");
+    add(&ReliefOf::motion, "motion");
+    add(&ReliefOf::view, "view");
+    add(&ReliefOf::frame, "frame");
+    return words;
+}
+
+void reckon_reliefs(StudyReliefs& reliefs, const BootstrapSettings& bootstrap) {
     std::map<ReliefOf, std::vector<const GaugeSettingRow*>> groups;
     std::map<ReliefOf, std::set<std::string>> observers;
     for (const GaugeSettingRow& setting : reliefs.settings) {
@@ -176,7 +238,7 @@ void reckon_reliefs(StudyReliefs& reliefs) {
     }
     for (const auto& [of, settings] : groups)
         if (!of.observer.empty() || observers[of].size() > 1)
-            ReliefMaking(of, settings).add_to(reliefs);
+            ReliefMaking(of, settings, bootstrap).add_to(reliefs);
 }
 
 } // namespace overt

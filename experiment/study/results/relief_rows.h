@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "experiment/attitude.h"
+#include "experiment/statistics/estimate.h"
 
 namespace overt {
 
@@ -58,6 +59,11 @@ struct ReliefRow {
     // z = a + gain true, and z = a + gain true + x_shear x + y_shear y.
     std::optional<double> gain, r, affine_gain, x_shear, y_shear, affine_r;
     std::string note; ///< why there is none of these; empty: there are
+    /// Rises of depth that were set over those of the surface, place by place (AttitudeRegression): of one
+    /// observer with the bootstrap over places, of all with that over observers.
+    Estimate attitude_gain;
+    std::optional<double> attitude_x_shear, attitude_y_shear, attitude_r;
+    std::optional<double> planted; ///< gain that simulated observers were given
 };
 
 struct StudyReliefs {

@@ -101,6 +101,16 @@ RowLayout<ReliefRow> reliefs_layout() {
     to.number("y_shear", "What it rises upwards besides", "", &Row::y_shear);
     to.number("affine_r", "Multiple correlation with shears", "", &Row::affine_r);
     to.text("note", "Why there is none of these; n/a: there are", &Row::note);
+    to.estimate(
+        "attitude_gain",
+        "What the depth rises at places, as it was set, for one of the surface's: regression of both "
+        "components of all settings, without those where the surface is seen more steeply than 75 deg",
+        "", &Row::attitude_gain);
+    to.number("attitude_x_shear", "What it rises to the right besides, away from the eye", "",
+              &Row::attitude_x_shear);
+    to.number("attitude_y_shear", "What it rises upwards besides", "", &Row::attitude_y_shear);
+    to.number("attitude_r", "Correlation of the rises", "", &Row::attitude_r);
+    to.number("planted", "Of simulated observers: the gain that they were given", "", &Row::planted);
     return to;
 }
 

@@ -46,7 +46,7 @@ std::vector<GaugeSettingRow> on_a_ball(const std::string& observer, double gain,
 StudyReliefs reckoned(std::vector<GaugeSettingRow> rows) {
     StudyReliefs reliefs;
     reliefs.settings = std::move(rows);
-    reckon_reliefs(reliefs);
+    reckon_reliefs(reliefs, {200, 0.95, 1});
     return reliefs;
 }
 
@@ -74,6 +74,53 @@ TEST_CASE("a gain and a shear are found by the affine fit, and turn the plain on
     CHECK(*relief.affine_r > 0.995);
     CHECK(*relief.r < 0.9);
     CHECK(*relief.deviation_deg > 8.0);
+}
+
+TEST_CASE("attitudes tell a planted gain and shear where places lie too far apart for a relief", "[unit]") {
+    // Folds: neighbours lean at random, so that no surface goes through them.
+    RandomStream random(9, "folds");
+    std::vector<GaugeSettingRow> rows;
+    for (const char* observer : {"P1", "P2", "P3"})
+        for (int i = 0; i < 60; ++i) {
+            GaugeSettingRow& row = rows.emplace_back();
+            row.of.observer = observer;
+            row.of.object = "folds";
+            row.point = "p." + std::to_string(i + 1);
+            row.x = 20.0 * (i % 8);
+            row.y = 20.0 * (i / 8);
+            row.z = -800.0;
+            const double right = random.uniform(-1.5, 1.5), up = random.uniform(-1.5, 1.5);
+            row.truth = attitude_of({right, up, 1.0});
+            row.set = attitude_of(
+                {0.75 * right + 0.2 + 0.1 * random.normal(), 0.75 * up - 0.1 + 0.1 * random.normal(), 1.0});
+        }
+    // Seen so steeply that it would decide alone.
+    rows[5].truth = attitude_of({12.0, 0.0, 1.0});
+    rows[5].set = attitude_of({-1.0, 0.0, 1.0});
+    // A setting that is on edge is no infinite one.
+    rows[6].set.slant.value = 90.0;
+    rows[6].truth->slant.value = 74.0;
+    rows[6].set.tilt = rows[6].truth->tilt;
+    const StudyReliefs reliefs = reckoned(rows);
+    REQUIRE(reliefs.reliefs.size() == 4);
+    for (const ReliefRow& row : reliefs.reliefs) {
+        if (row.of.observer == "P1")
+            continue;
+        CAPTURE(row.of.observer);
+        const double margin = row.of.observer.empty() ? 0.06 : 0.03;
+        CHECK(*row.attitude_gain.value == Approx(0.75).margin(margin));
+        CHECK(*row.attitude_x_shear == Approx(0.2).margin(0.06));
+        CHECK(*row.attitude_y_shear == Approx(-0.1).margin(0.06));
+        REQUIRE(row.attitude_gain.interval);
+        CHECK(row.attitude_gain.interval->contains(*row.attitude_gain.value));
+        CHECK(row.attitude_gain.interval->high - row.attitude_gain.interval->low < 0.5);
+        CHECK(*row.attitude_r > 0.8);
+        CHECK(*row.gain < 0.5);
+    }
+    rows.resize(2);
+    const ReliefRow few = reckoned(rows).reliefs.front();
+    CHECK_FALSE(few.attitude_gain.value);
+    CHECK(few.attitude_gain.absent == "it needs three settings at places that lean differently");
 }
 
 TEST_CASE("repeated settings tell their spread, and all observers are put together", "[unit]") {
