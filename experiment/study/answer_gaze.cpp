@@ -149,12 +149,13 @@ std::optional<ObserverChoice> slot_choice(const std::vector<const AnswerGazeRow*
 /// Part of the time on stimuli that was spent on an area, before a and before b.
 struct AreaChoice {
     double a = 0.0, b = 0.0;
-    int trials = 0;
+    int trials = 0; ///< with an answer, whichever of its stimuli were looked at
 };
 
 std::optional<AreaChoice> area_choice(const std::vector<const AnswerGazeRow*>& own, const std::string& area,
                                       const auto& is_a, const auto& is_b) {
     RunningMean a, b;
+    std::set<std::pair<int, int>> trials; ///< session and number
     const AnswerGazeRow* whole = nullptr;
     for (const AnswerGazeRow* row : own) {
         if (row->area.empty())
@@ -165,10 +166,13 @@ std::optional<AreaChoice> area_choice(const std::vector<const AnswerGazeRow*>& o
             a.add(row->dwell_s / whole->dwell_s);
         else if (is_b(*row))
             b.add(row->dwell_s / whole->dwell_s);
+        else
+            continue;
+        trials.emplace(row->session, row->trial);
     }
     if (a.count == 0 || b.count == 0)
         return std::nullopt;
-    return AreaChoice{a.value(), b.value(), a.count + b.count};
+    return AreaChoice{a.value(), b.value(), static_cast<int>(trials.size())};
 }
 
 /// The rows of an answer.

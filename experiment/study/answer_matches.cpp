@@ -100,8 +100,12 @@ Estimate over_settings(const std::vector<SetMatch>& matches,
             again.push_back(matches[index]);
         return statistic(again);
     };
-    return Estimate::of(
-        *value, bootstrap_interval(static_cast<std::uint32_t>(matches.size()), drawn, options.bootstrap()));
+    std::optional<Interval> interval =
+        bootstrap_interval(static_cast<std::uint32_t>(matches.size()), drawn, options.bootstrap());
+    // Settings that all lie on one line do not tell how others would scatter about it.
+    if (interval && interval->low == interval->high)
+        interval.reset();
+    return Estimate::of(*value, interval);
 }
 
 /// What the light at the eye alone would have set: the number in the column `proximal` of the trial's own, or

@@ -57,12 +57,12 @@ struct ChosenBalls {
             }
     }
 
-    const GazeChoiceRow& choice(const std::string& measure) {
+    const GazeChoiceRow& choice(const std::string& measure, const std::string& area = "") {
         results().answers.gaze = answer_gaze(results());
         results().answers.gaze_choices = gaze_choices(results(), study.options);
         const auto found =
             std::ranges::find_if(results().answers.gaze_choices, [&](const GazeChoiceRow& row) {
-                return row.of.observer.empty() && row.measure == measure && row.area.empty();
+                return row.of.observer.empty() && row.measure == measure && row.area == area;
             });
         REQUIRE(found != results().answers.gaze_choices.end());
         return *found;
@@ -124,6 +124,8 @@ TEST_CASE("observers who look longer at what they choose are found, and others a
     CHECK(found.p.value() == Approx(2.0 / 256.0));
     CHECK(found.observers == 8);
     CHECK(found.trials == 80);
+    // Both stimuli of an answer are of one answer.
+    CHECK(longer.choice("share of the time on the stimulus", "head").trials == 80);
     ChosenBalls alike(8, 10, by_turns, 0.3, 0.3);
     CHECK(alike.choice("dwell share").p.value() > 0.05);
     // Who always chooses one side, and always looks at it longer, says nothing of what goes with what.

@@ -87,6 +87,16 @@ TEST_CASE("settings have their mean, error and deviation by reference, and a lin
     CHECK(study.match_lines.back().slope.interval->contains(0.9855));
 }
 
+TEST_CASE("settings that all lie on one line tell nothing of how others would scatter", "[unit]") {
+    StudyAnswers study;
+    for (const double reference : match_references)
+        study.given.push_back(setting_of("P01", "hall", reference, 0.5 * reference));
+    reckon_matches(study, answers_by(study.given), few_match_samples());
+    REQUIRE_FALSE(study.match_lines.empty());
+    CHECK(*study.match_lines.front().slope.value == Approx(0.5));
+    CHECK_FALSE(study.match_lines.front().slope.interval);
+}
+
 TEST_CASE("a mean that is the reference but for rounding has no constant error", "[unit]") {
     StudyAnswers study;
     for (const double setting : {.05, .10, .15})
