@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "devices/simulated/simulated_keys.h"
+#include "devices/simulated/simulated_answers.h"
 #include "experiment/answers/answer_kinds.h"
 #include "experiment/design/answer_forms.h"
 #include "experiment/statistics/distributions.h"

@@ -28,6 +28,8 @@ void SimulatedTurns::plan(std::uint64_t seed, const Trial& trial, const TurningO
     RandomStream random(
         seed, fmt::format("{} {} {}", offer.is_elevation ? "elevations" : "turns", offer.show, offer.place),
         static_cast<std::uint64_t>(trial.index));
+    RandomStream tilts(seed, fmt::format("tilts {} {}", offer.show, offer.place),
+                       static_cast<std::uint64_t>(trial.index));
     planned_.erase(planned_.begin(), planned_.begin() + static_cast<std::ptrdiff_t>(next_));
     next_ = 0;
     ObserverInput input;
@@ -42,7 +44,10 @@ void SimulatedTurns::plan(std::uint64_t seed, const Trial& trial, const TurningO
     for (double at_s = 0.0;;) {
         at_s += offer.pause_s * std::exp(pause_log_sd * random.normal());
         const double turn_deg = offer.turn_sd_deg * random.normal();
-        const double end_s = at_s + std::abs(turn_deg) / speed_deg_s;
+        // A drag goes aslant where it may, as far to the side as without.
+        const double tilt_deg = offer.drags_tilt ? offer.turn_sd_deg * tilts.normal() : 0.0;
+        const double way_deg = std::hypot(turn_deg, tilt_deg);
+        const double end_s = at_s + way_deg / speed_deg_s;
         if (end_s >= offer.lasts_s)
             break;
         if (by_keys) {
@@ -55,11 +60,13 @@ void SimulatedTurns::plan(std::uint64_t seed, const Trial& trial, const TurningO
             input.down_px = offer.down_px;
             add(ObserverInput::Kind::pointer_down, at_s);
             for (double on_s = move_interval_s; at_s + on_s < end_s; on_s += move_interval_s) {
-                input.right_px =
-                    offer.right_px + std::copysign(speed_deg_s * on_s, turn_deg) / offer.deg_per_px;
+                const double share = speed_deg_s * on_s / way_deg;
+                input.right_px = offer.right_px + share * turn_deg / offer.deg_per_px;
+                input.down_px = offer.down_px + share * tilt_deg / offer.deg_per_px;
                 add(ObserverInput::Kind::pointer_moved, at_s + on_s);
             }
             input.right_px = offer.right_px + turn_deg / offer.deg_per_px;
+            input.down_px = offer.down_px + tilt_deg / offer.deg_per_px;
             add(ObserverInput::Kind::pointer_moved, end_s);
             add(ObserverInput::Kind::pointer_up, end_s);
         }

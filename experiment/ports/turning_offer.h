@@ -15,6 +15,7 @@ struct TurningOffer {
     bool is_elevation = false; ///< the offer is of its elevation, which has one of its own
     std::string less, more;   ///< keys that turn it clockwise and counter-clockwise, or take its front up and
                               ///< down; empty: the mouse does
+    bool drags_tilt = false;  ///< a drag up or down has it tilt
     double speed_deg_s = 0.0; ///< while one is held
     double deg_per_px = 0.0;  ///< of a drag to the right, or downwards
     double right_px = 0.0, down_px = 0.0;    ///< the middle of its image, from the middle of the screen

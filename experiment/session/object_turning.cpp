@@ -92,8 +92,8 @@ std::vector<TurningOffer> ObjectTurning::offers(int show, SessionTime since, dou
         offer.down_px = turned.top_px + 0.5 * turned.height_px;
         offer.turn_sd_deg = turned.by().simulated_turn_deg;
         offer.pause_s = turned.by().simulated_pause_s;
+        offer.drags_tilt = turned.by().has_elevations() && !turned.by_keys();
         offers.push_back(offer);
-        // A hand has one mouse: who drags goes to the side alone.
         if (!turned.by().has_elevations() || !turned.by_keys())
             continue;
         offer.is_elevation = true;

@@ -31,8 +31,8 @@ class ObjectTurning {
     bool is_active() const noexcept;
     /// The mouse turns something, so that its pointer has to be seen.
     bool shows_pointer() const noexcept;
-    /// For observers who do not see the screen, one for each that can be turned now, and one for its
-    /// elevation.
+    /// For observers who do not see the screen, one for each that can be turned now, and with keys one for
+    /// its elevation.
     std::vector<TurningOffer> offers(int show, SessionTime since, double lasts_s) const;
 
     /// Whether the input turned something, or began or ended it: then it is nobody else's.

@@ -48,7 +48,7 @@ struct SessionPorts {
     /// They are set up and record with the session's own tracker, by which alone trials are judged.
     std::vector<FurtherTracker> further_trackers = {};
     /// Sounds while the tracker is set up; may be empty.
-    std::function<void(SetupBeep)> on_beep = {};
+    std::function<void(Beep)> on_beep = {};
     /// Told of each image of the tracker's camera that is shown; may be empty.
     std::function<void(const CameraImage&)> on_camera = {};
     /// Gives an area of the object that a stimulus shows in its slot, that gaze is waited for; between

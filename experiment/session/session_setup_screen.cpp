@@ -38,7 +38,7 @@ void SessionSetupScreen::show_result(const ValidationResult& result, const std::
                  .validated = result.targets});
 }
 
-void SessionSetupScreen::beep(SetupBeep beep) {
+void SessionSetupScreen::beep(Beep beep) {
     if (state_.ports.on_beep)
         state_.ports.on_beep(beep);
 }

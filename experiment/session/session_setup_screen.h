@@ -17,7 +17,7 @@ class SessionSetupScreen final : public SetupScreen {
     void show_camera(const CameraImage& image) override;
     void show_text(const std::string& text) override;
     void show_result(const ValidationResult& result, const std::string& text) override;
-    void beep(SetupBeep beep) override;
+    void beep(Beep beep) override;
     std::optional<SetupKey> next_key() override { return state_.ports.panel.next_setup_key(); }
     SessionTime now() const noexcept override { return state_.now(); }
     void wait(SessionDuration time) override;

@@ -71,6 +71,14 @@ ScreenPoint target_of(const StepSettings& step, const ScreenGeometry& screen) {
         centre.y_px - px(step.up_deg, screen.viewing_distance_mm, screen.screen_mm.y / screen.screen_px.y)};
 }
 
+std::optional<Beep> tone_of(const StepSettings& step, const StepCircumstances& of) {
+    if (!step.has_tone)
+        return std::nullopt;
+    if (!of.is_answered)
+        return Beep::missed;
+    return !of.is_correct ? Beep::answered : *of.is_correct ? Beep::correct : Beep::wrong;
+}
+
 Screen screen_of(const PlannedStep& step, const StepCircumstances& of) {
     switch (step.kind) {
     case StepKind::text: {

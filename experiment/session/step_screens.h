@@ -1,7 +1,10 @@
 /// What stands on the screen in a step that shows no moving stimulus.
 #pragma once
 
+#include <optional>
+
 #include "experiment/design/trial_plan.h"
+#include "experiment/ports/beep.h"
 #include "experiment/ports/presenter.h"
 
 namespace overt {
@@ -20,6 +23,9 @@ struct StepCircumstances {
 /// {object} and {material} stand for the trial's. Noise is drawn from a stream of its own by the session's
 /// seed, the trial and the step.
 Screen screen_of(const PlannedStep& step, const StepCircumstances& of);
+
+/// What is heard when a step of feedback comes up; nothing: it has no tone.
+std::optional<Beep> tone_of(const StepSettings& step, const StepCircumstances& of);
 
 /// Where the target of a step `fixation` stands; of other steps the middle of the screen.
 ScreenPoint target_of(const StepSettings& step, const ScreenGeometry& screen);

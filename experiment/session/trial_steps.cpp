@@ -258,8 +258,11 @@ void TrialRun::stand(Running& running, std::size_t number) {
     // What comes after the answer belongs to its screen.
     if (state_.phase() != SessionPhase::response_screen && state_.phase() != SessionPhase::task_screen)
         state_.enter(SessionPhase::task_screen, state_.trial());
-    const Screen screen = screen_of(step, circumstances(running, number));
+    const StepCircumstances now = circumstances(running, number);
+    const Screen screen = screen_of(step, now);
     const SessionTime onset = state_.show(screen);
+    if (const std::optional<Beep> tone = tone_of(*step.settings, now); tone && state_.ports.on_beep)
+        state_.ports.on_beep(*tone);
     mark_step(step, onset);
     add_row(running, step);
     begin_row(running, onset);

@@ -8,7 +8,7 @@ namespace overt {
 namespace {
 
 /// Maloney and Yang, "Maximum likelihood difference scaling", Journal of Vision 3(8), 2003, with a stimulus
-/// in common: is b nearer to a or to c?
+/// in common: does b differ more from a, or from c?
 class TriadsRule : public CombiningRule {
   public:
     using CombiningRule::CombiningRule;

@@ -28,6 +28,7 @@ struct TrialRuleRow {
     std::array<std::string_view, 8> keys;
     bool keeps_order = false;                     ///< its trials come in the order that it gives them
     std::array<std::string_view, 2> answers = {}; ///< that are correct; those of a match are slots
+    bool asks_for_differences = false; ///< which two stimuli differ more, and not which has more of something
 
     constexpr bool has_key(std::string_view key) const { return std::ranges::find(keys, key) != keys.end(); }
 };
@@ -51,13 +52,19 @@ inline constexpr auto kinds_of<TrialRuleKind> = std::to_array<TrialRuleRow>({
      "each three levels a < b < c of one factor, b in the middle slot, for difference scaling",
      "three levels of {of}, the middle one in the middle slot",
      triads_rule,
-     {"any", "side", "draw"}},
+     {"any", "side", "draw"},
+     false,
+     {},
+     true},
     {"quadruples",
      "each four levels a < b < c < d of one factor, a pair (a, b) and a pair (c, d) that do not overlap, in "
      "the first two slots and the last two, for difference scaling",
      "two pairs of {of} that do not overlap, in the first two slots and the last two",
      quadruples_rule,
-     {"any", "side", "draw"}},
+     {"any", "side", "draw"},
+     false,
+     {},
+     true},
     {"standard",
      "each level of one factor against `standard`",
      "{standard} against another level of {of}",

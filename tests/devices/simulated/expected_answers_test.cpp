@@ -1,5 +1,5 @@
 /// What simulated observers answer on average is what they answer often.
-#include "devices/simulated/simulated_keys.h"
+#include "devices/simulated/simulated_answers.h"
 
 #include <algorithm>
 
@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 
 #include "experiment/answers/answer_kinds.h"
+#include "experiment/design/rules/trial_rules.h"
+#include "experiment/statistics/distributions.h"
 
 using namespace overt;
 
@@ -121,6 +123,45 @@ TEST_CASE("what an observer answers on average is what the same observer answers
             }
             CHECK(all == Approx(1.0).margin(1e-3));
         }
+}
+
+TEST_CASE("where a rule asks for differences, the pair that lies farther apart is chosen", "[unit]") {
+    Protocol protocol = sided();
+    Task& task = protocol.tasks[0];
+    for (const std::string_view rule : {"triads", "quadruples"}) {
+        const std::size_t count = rule == "triads" ? 3 : 4;
+        std::size_t kind = 0;
+        while (kinds_of<TrialRuleKind>[kind].name != rule)
+            ++kind;
+        task.trials.rule = static_cast<TrialRuleKind>(kind);
+        protocol.slots.resize(count);
+        for (std::size_t i = 0; i < count; ++i)
+            protocol.slots[i].id = fmt::format("slot_{}", i);
+        task.answers[0].choices = {"slot_0", count == 3 ? "slot_2" : "slot_3"};
+        task.answers[0].truth.slope = -0.7; // towards less of it: a difference is one all the same
+        task.answers[0].truth.bias = 0.2;
+        const SimulatedAnswers answers(protocol, 5);
+        const auto share_of_first = [&](std::vector<int> levels) {
+            Trial trial;
+            trial.stimulus.material = levels[0];
+            for (std::size_t i = 1; i < levels.size(); ++i)
+                trial.beside.push_back({{0, levels[i], 0, 0, 0}, static_cast<int>(i)});
+            const AnswerOffer offer = offer_of(protocol, task.answers[0], "", trial);
+            return answers.expected(offer, trial).shares[0];
+        };
+        const auto expected = [&](double first_pair, double second_pair) {
+            return 0.05 + 0.9 * normal_probability(0.7 * (first_pair - second_pair) + 0.2);
+        };
+        CAPTURE(rule);
+        if (count == 3) {
+            CHECK(share_of_first({0, 1, 3}) == Approx(expected(1, 2)).margin(2e-3));
+            CHECK(share_of_first({3, 1, 0}) == Approx(expected(2, 1)).margin(2e-3));
+            CHECK(share_of_first({0, 2, 3}) == Approx(expected(2, 1)).margin(2e-3));
+        } else {
+            CHECK(share_of_first({0, 1, 1, 3}) == Approx(expected(1, 2)).margin(2e-3));
+            CHECK(share_of_first({3, 0, 2, 1}) == Approx(expected(3, 1)).margin(2e-3));
+        }
+    }
 }
 
 TEST_CASE("choices mean the same however they go round over the keys, the bias with them", "[unit]") {

@@ -31,7 +31,7 @@ class WatchedSetupScreen final : public SetupScreen {
     void show_camera(const CameraImage&) override {}
     void show_text(const std::string&) override {}
     void show_result(const ValidationResult&, const std::string&) override {}
-    void beep(SetupBeep beep) override { beeps.push_back(beep); }
+    void beep(Beep beep) override { beeps.push_back(beep); }
     std::optional<SetupKey> next_key() override {
         if (presses && looks_++ % 50 == 49)
             return presses(shown.size());
@@ -42,7 +42,7 @@ class WatchedSetupScreen final : public SetupScreen {
     bool is_cancelled() const noexcept override { return false; }
 
     std::vector<ScreenPoint> shown;
-    std::vector<SetupBeep> beeps;
+    std::vector<Beep> beeps;
     std::function<std::optional<SetupKey>(std::size_t)> presses;
     std::function<bool(ScreenPoint)> is_ignored;
     ScreenPoint ignored_for{960.0, 540.0}; ///< what is looked at instead
@@ -124,7 +124,7 @@ TEST_CASE("gaze that is far off before a calibration is right after it", "[unit]
                                     std::to_string(points) + " points");
         CHECK(error_at(sitting, *tracker, place) < 0.5);
         CHECK(error_at(sitting, *tracker, {700.0, 600.0}) < 0.4);
-        CHECK(setup_screen.beeps.back() == SetupBeep::calibration_good);
+        CHECK(setup_screen.beeps.back() == Beep::calibration_good);
         // Each place once, in an order that is not that of the layout.
         CHECK(setup_screen.shown.size() == static_cast<std::size_t>(points) + 5);
         std::vector<ScreenPoint> first(setup_screen.shown.begin(), setup_screen.shown.begin() + points);
@@ -183,7 +183,7 @@ TEST_CASE("an eye that is never seen, or never follows, calibrates nothing and h
     const auto tracker = tracker_of(sitting, uncalibrated());
     WatchedSetupScreen setup_screen(sitting);
     CHECK(tracker->set_up(setup_screen).kind == SetupOutcome::Kind::failed);
-    CHECK(setup_screen.beeps.back() == SetupBeep::calibration_bad);
+    CHECK(setup_screen.beeps.back() == Beep::calibration_bad);
 
     Sitting staring(35);
     const auto second = tracker_of(staring, uncalibrated());
@@ -207,7 +207,7 @@ TEST_CASE(
     const SetupOutcome outcome = tracker->set_up(setup_screen);
     CHECK(outcome.kind == SetupOutcome::Kind::failed);
     CHECK_THAT(outcome.message, Catch::Contains("in a line or at one place"));
-    CHECK(setup_screen.beeps.back() == SetupBeep::calibration_bad);
+    CHECK(setup_screen.beeps.back() == Beep::calibration_bad);
     setup_screen.is_ignored = {};
     CHECK(tracker->set_up(setup_screen).kind == SetupOutcome::Kind::done);
 }
