@@ -21,9 +21,11 @@ class EntryAnswering : public Answering {
     }
 
     Effect take(const ObserverInput& input, const AnswerPlace&) noexcept override {
-        if (input.kind == ObserverInput::Kind::key_down && input.key.view() == "backspace")
+        using Kind = ObserverInput::Kind;
+        if ((input.kind == Kind::key_down && input.key.view() == "backspace") ||
+            (input.kind == Kind::text && input.character == U'\b'))
             return erase();
-        if (input.kind != ObserverInput::Kind::text || !takes(input.character) || count_ >= longest_)
+        if (input.kind != Kind::text || !takes(input.character) || count_ >= longest_)
             return Effect::none;
         append_utf8(typed_, input.character);
         ++count_;

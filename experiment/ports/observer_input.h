@@ -36,7 +36,8 @@ struct ObserverInput {
         key_down, ///< a key or a button of a response box; a key that repeats while it is held does not come
                   ///< again
         key_up,
-        text,          ///< a character that keys wrote, composed where the layout composes
+        text,          ///< a character that keys wrote, composed where the layout composes; U'\b' of a
+                       ///< backspace that repeats
         pointer_moved, ///< to `right_px`, `down_px`
         pointer_down,  ///< the button `button` of the mouse, there
         pointer_up,

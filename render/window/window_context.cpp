@@ -143,6 +143,9 @@ struct WindowContext::State {
                 {.kind = action == GLFW_RELEASE ? ObserverInput::Kind::key_up : ObserverInput::Kind::key_down,
                  .code = code,
                  .glfw_key = key});
+        // Held, it goes on as keys that write do.
+        if (action == GLFW_REPEAT && key == GLFW_KEY_BACKSPACE)
+            state.inputs.push({.kind = ObserverInput::Kind::text, .character = U'\b', .is_repeated = true});
         if (action == GLFW_RELEASE)
             return;
         state.last_key = {

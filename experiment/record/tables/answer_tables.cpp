@@ -205,7 +205,7 @@ RowLayout<AnswerInputRow> answer_inputs_layout() {
              [](auto& row) {
                  return when(!row.taken.input.key.view().empty(), std::string(row.taken.input.key.view()));
              }},
-            {{"character", "Number of the character that was written, in Unicode"},
+            {{"character", "Number of the character that was written, in Unicode; 8: backspace, held"},
              [](auto& row) {
                  return when(row.taken.input.kind == Kind::text, static_cast<int>(row.taken.input.character));
              }},

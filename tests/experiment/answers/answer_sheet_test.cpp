@@ -312,6 +312,11 @@ TEST_CASE("what is not required can be passed over, and is missed then", "[unit]
         for (const char32_t character : {U'h', U'é', U'!'})
             sheet.take(written_at(20, character), {});
         sheet.take(key_at(30, "backspace"), {});
+        sheet.take(written_at(31, U'?'), {});
+        sheet.take(written_at(32, U'!'), {});
+        // Held, it erases on.
+        sheet.take(written_at(34, U'\b'), {});
+        sheet.take(written_at(36, U'\b'), {});
         sheet.take(up_at(40, "enter"), {});
         sheet.take(key_at(50, "enter"), {});
         CHECK(SheetRows(sheet).given[0].value == "hé");

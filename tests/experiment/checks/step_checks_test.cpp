@@ -97,6 +97,11 @@ TEST_CASE("steps that could not go together are found where they stand", "[unit]
                    "\"Yes\" } },") == Lines{"19:3: this step feedback never ends"});
     CHECK(lines_of("  { feedback = { answered = \"Yes\" }, for_s = 1 },\n  { show = \"centre\" },") ==
           Lines{"17:3: there is no answer yet that feedback could be about"});
+    CHECK(lines_of("  { show = \"centre\" },\n  { answer = \"spoken\" },\n  { feedback = {}, for_s = 1 },") ==
+          Lines{"19:16: feedback: neither words nor a tone are given"});
+    CHECK(lines_of("  { show = \"centre\" },\n  { answer = \"spoken\" },\n  { feedback = { tone = true }, "
+                   "for_s = 1 },")
+              .empty());
     CHECK(lines_of("  { show = \"centre\", frame = 61 },") == Lines{"17:30: frame: there is no frame 61"});
     CHECK(
         lines_of(

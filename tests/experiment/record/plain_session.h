@@ -287,6 +287,7 @@ struct Sitting {
                         .can_type = true,
                         .recorder = recorder,
                         .further_trackers = further,
+                        .on_beep = [this](Beep beep) { beeps.push_back(beep); },
                         .on_camera = [this](const CameraImage& image) { cameras.push_back(image); },
                         .probe_of = probe_of,
                         .screen_changes = screen_changes,
@@ -303,6 +304,7 @@ struct Sitting {
     FieldValues fields;
     AnswerRecorder* recorder = nullptr;
     std::vector<FurtherTracker> further;
+    std::vector<Beep> beeps;          ///< that were heard
     std::vector<CameraImage> cameras; ///< that the session told of
     std::function<std::shared_ptr<const ProbeView>(const PlacedStimulus&, const std::string& point)> probe_of;
     std::function<std::vector<std::string>()> screen_changes;

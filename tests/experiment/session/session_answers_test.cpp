@@ -87,6 +87,28 @@ TEST_CASE("an answer ends the stimulus, and its own screen is passed over", "[un
     CHECK(has_said(sitting, "Right"));
 }
 
+TEST_CASE("feedback is heard by what was answered, once, as it comes up", "[unit]") {
+    const auto heard = [](std::string_view correct, std::vector<TimedKey> keys, std::string_view feedback) {
+        std::string text(asked_at_stimulus);
+        const auto put = [&](std::string_view was, std::string_view is) {
+            text.replace(text.find(was), was.size(), is);
+        };
+        put("correct = \"x\"", correct);
+        put("correct = \"Right\", wrong = \"Wrong\", missed = \"Late\"", feedback);
+        Sitting sitting(short_protocol(text));
+        sitting.panel.does = pressing(std::move(keys));
+        CHECK(sitting.run().completed_trials == 2);
+        return sitting.beeps;
+    };
+    using Beeps = std::vector<Beep>;
+    const std::string_view tone = "tone = true", words = "correct = \"Right\", tone = true";
+    CHECK(heard("correct = \"x\"", {{200, "f"}}, tone) == Beeps{Beep::correct, Beep::correct});
+    CHECK(heard("correct = \"x\"", {{200, "j"}}, words) == Beeps{Beep::wrong, Beep::wrong});
+    CHECK(heard("correct = \"x\"", {}, words) == Beeps{Beep::missed, Beep::missed});
+    CHECK(heard("correct = \"none\"", {{200, "j"}}, tone) == Beeps{Beep::answered, Beep::answered});
+    CHECK(heard("correct = \"x\"", {{200, "f"}}, "correct = \"Right\", tone = false").empty());
+}
+
 TEST_CASE("a window that the stimulus opened outlasts it", "[unit]") {
     Sitting sitting(short_protocol(asked_at_stimulus));
     sitting.panel.does = pressing({{700, "j"}});
