@@ -80,6 +80,17 @@ bool HidButtons::read(std::span<const std::byte> report) noexcept {
     return is_known;
 }
 
+void HidButtons::read_away(HidLine& line, std::span<std::byte> report, Clock& clock) {
+    for (int i = 0; i < 1000; ++i) {
+        const std::size_t count = line.read(report, clock.now());
+        if (count == 0)
+            break;
+        take(report.first(std::min(count, report.size())), [](int, bool) {});
+    }
+    if (line.lost())
+        throw DeviceError(fmt::format("{} was unplugged.", line.name()));
+}
+
 std::string hid_button_name(int button) {
     const int key = button - first_key_number;
     if (key < 0)
@@ -117,14 +128,7 @@ HidButtonBox::HidButtonBox(std::unique_ptr<HidLine> line, const HidDescriptor& d
 }
 
 void HidButtonBox::begin() {
-    for (int i = 0; i < 1000; ++i) {
-        const std::size_t count = line_->read(report_, clock_->now());
-        if (count == 0)
-            break;
-        buttons_.take(std::span(report_).first(std::min(count, report_.size())), [](int, bool) {});
-    }
-    if (line_->lost())
-        throw DeviceError(fmt::format("{} was unplugged.", line_->name()));
+    buttons_.read_away(*line_, report_, *clock_);
     held_.clear();
     given_ = 0;
     looked_ = clock_->now();

@@ -24,6 +24,10 @@ class HidButtons {
     /// that too many keys are down to tell which, and those of other ids, change nothing.
     template <class OnChange> void take(std::span<const std::byte> report, OnChange&& on_change) noexcept;
 
+    /// Takes what has come so far, at most a thousand reports: it is known then what is down. `report`: room
+    /// for one. Throws DeviceError if the device is lost.
+    void read_away(HidLine& line, std::span<std::byte> report, Clock& clock);
+
   private:
     struct State {
         int number = 0;

@@ -114,14 +114,7 @@ HidKnob::HidKnob(std::unique_ptr<HidLine> line, const HidDescriptor& descriptor,
 bool HidKnob::is_dial() const noexcept { return settings_.kind == kind_called<ButtonBoxKind>("dial"); }
 
 void HidKnob::begin() {
-    for (int i = 0; i < 1000; ++i) {
-        const std::size_t count = line_->read(report_, clock_->now());
-        if (count == 0)
-            break;
-        buttons_.take(std::span(report_).first(std::min(count, report_.size())), [](int, bool) {});
-    }
-    if (line_->lost())
-        throw DeviceError(fmt::format("{} was unplugged.", line_->name()));
+    buttons_.read_away(*line_, report_, *clock_);
     held_.clear();
     given_ = 0;
     turn_.forget();
