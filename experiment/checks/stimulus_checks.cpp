@@ -313,6 +313,11 @@ void check_materials(ProtocolExamination& examination) {
             examination.warning({path, entry_path("material", i, "base")},
                                 "\"reflectance\" has no effect on a material with base = \"own\"",
                                 "its colour is that of the object's file");
+        const bool gives_any = materials[i].reflectance || materials[i].metallic || materials[i].roughness;
+        if (!materials[i].of.empty() && materials[i].kind == MaterialKind::own && !gives_any)
+            examination.warning({entry_path("material", i, "of")},
+                                "\"of\" has no effect where nothing is given in place of what the file says",
+                                "give \"roughness\", \"metallic\" or \"reflectance\"");
         for (const std::string_view key : keys) {
             const std::string path = entry_path("material", i, key), kind = entry_path("material", i, "kind");
             if (!row_of(materials[i].kind).has_key(key) && examination.is_written(path)) {

@@ -19,7 +19,7 @@ const MaterialModel& model_of(MaterialKind kind) {
 const MaterialModel& rough_metal_with_all_light(); // material_rough_conductor.cpp
 
 const MaterialModel& model_of(const MaterialSettings& material) {
-    if (material.is_of_file())
+    if (material.is_own())
         return material_model<MaterialKind::own>();
     return material.kind == MaterialKind::rough_conductor && material.multiple_scattering
                ? rough_metal_with_all_light()

@@ -10,7 +10,7 @@ namespace {
 
 glm::vec3 scatter(const BakeScene& scene, const SurfaceEvent& event, SampleSequence& sequence,
                   Bins& carried) {
-    const auto alpha = static_cast<float>(scene.material().roughness);
+    const auto alpha = static_cast<float>(scene.material().given_roughness());
     const NormalFrame frame(event.normal);
     const glm::vec3 micro =
         frame.to_world(ggx_visible_normal(frame.to_local(event.to_eye), alpha, sequence.next_two()));
@@ -27,7 +27,7 @@ glm::vec3 scatter(const BakeScene& scene, const SurfaceEvent& event, SampleSeque
 /// Visible normals have the density G1 D (h . eye) / cos_eye, and to a mirrored direction belong 4 (h . eye)
 /// times as many steradians as to its normal (Walter et al. 2007, eq. 14; Heitz 2018).
 float density(const BakeScene& scene, const SurfaceEvent& event, glm::vec3 onward) {
-    const auto alpha = static_cast<float>(scene.material().roughness);
+    const auto alpha = static_cast<float>(scene.material().given_roughness());
     const NormalFrame frame(event.normal);
     const glm::vec3 to_eye = frame.to_local(event.to_eye), out = frame.to_local(onward);
     if (to_eye.z <= 0.0f || out.z <= 0.0f)
@@ -37,17 +37,19 @@ float density(const BakeScene& scene, const SurfaceEvent& event, glm::vec3 onwar
 }
 
 void take(const BakeScene& scene, const SurfaceEvent& event, glm::vec3 onward, Bins& carried) {
-    const auto alpha = static_cast<float>(scene.material().roughness);
+    const auto alpha = static_cast<float>(scene.material().given_roughness());
     const glm::vec3 micro = glm::normalize(event.to_eye + onward);
     scene.metal().multiply_into(carried, glm::dot(event.to_eye, micro));
     scale(carried, ggx_visible_share(NormalFrame(event.normal).to_local(onward), alpha));
 }
 
 LightProbe mirrored(const LightProbe& probe, const MaterialSettings& material) {
-    return blurred_by_ggx(probe, material.roughness, {256, 128});
+    return blurred_by_ggx(probe, material.given_roughness(), {256, 128});
 }
 
-float lobe_radius(const MaterialSettings& material) { return static_cast<float>(2.0 * material.roughness); }
+float lobe_radius(const MaterialSettings& material) {
+    return static_cast<float>(2.0 * material.given_roughness());
+}
 
 } // namespace
 
