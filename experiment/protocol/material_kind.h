@@ -33,11 +33,14 @@ struct MaterialKindRow {
 
 /// All kinds, in the order of MaterialKind.
 inline constexpr auto material_kinds = std::to_array<MaterialKindRow>({
-    {MaterialKind::smooth_conductor, "smooth-conductor", "polished metal", {"metal", "bumps"}},
+    {MaterialKind::smooth_conductor,
+     "smooth-conductor",
+     "polished metal",
+     {"metal", "film_nm", "film_ior", "bumps"}},
     {MaterialKind::rough_conductor,
      "rough-conductor",
      "brushed metal",
-     {"metal", "roughness", "multiple_scattering", "bumps"}},
+     {"metal", "roughness", "anisotropy", "brushed", "multiple_scattering", "film_nm", "film_ior", "bumps"}},
     {MaterialKind::coated_conductor,
      "coated-conductor",
      "polished metal under a bumpy coloured coat",
