@@ -58,7 +58,8 @@ template <MaterialKind kind> const MaterialModel& material_model();
 
 const MaterialModel& model_of(MaterialKind kind);
 
-/// The same, but of a rough metal with all light between its mirrors the one that has it, and of a material
+/// The same, but of a rough metal that is brushed, or has all light between its mirrors, the one that has
+/// that, and of a material
 /// with base = own that of `own`, whose surface then is as the kind has it (OwnSurface).
 const MaterialModel& model_of(const MaterialSettings& material);
 

@@ -5,6 +5,7 @@
 #include "render/bake/glass.h"
 #include "render/bake/light_sources.h"
 #include "render/bake/own_surface.h"
+#include "render/bake/thin_film.h"
 #include "render/image/gallery_probe.h"
 #include "render/stimulus/stimulus_renderer.h"
 
@@ -68,6 +69,10 @@ void add_to(ContentHasher& hasher, const MaterialSettings& material) {
         for (const std::string& name : m.of)
             hasher.add(std::string_view(name));
     }
+    if (row_of(m.kind).has_key("film_nm") && m.film_nm)
+        hasher.add(std::string_view("film")).add(thin_film_version).add(*m.film_nm).add(m.film_ior);
+    if (m.kind == MaterialKind::rough_conductor && m.anisotropy > 0.0)
+        hasher.add(std::string_view("brushed")).add(m.anisotropy).add(static_cast<int>(m.brushed));
     if (m.kind == MaterialKind::glass) {
         hasher.add(glass_version).add(m.roughness.has_value() ? 1 : 0).add(m.abbe.value_or(0.0));
         for (const double number : m.absorbance)

@@ -342,6 +342,13 @@ std::vector<Key> material() {
          "other programs have it. Of `own` it stands everywhere in place of what the file says."},
         {"roughness_as", &M::roughness_as,
          "Whether the `roughness` of a plastic or glass is the GGX alpha, or its root."},
+        {"anisotropy", &M::anisotropy, range(0, 1),
+         "Of a rough metal: how much rougher it is across its scratches than along them, as glTF has it: "
+         "alpha along is that of `roughness`, across it that + (1 - that) times the square of this."},
+        {"brushed", &M::brushed,
+         "Where the scratches run: around the object's vertical, as on a lathe, or upward. Highlights are "
+         "long "
+         "across them."},
         {"multiple_scattering", &M::multiple_scattering, left_out("false, as frames always were"),
          "Of a rough metal: whether the light counts that leaves by several micro-mirrors, too. Without it "
          "rough metals are too dark: by 4 % at a roughness of 0.13, by 38 % at 0.6."},
@@ -383,6 +390,10 @@ std::vector<Key> material() {
          "Of `own`: the file's materials, by their names, for which the keys here hold that stand in place "
          "of "
          "what the file says; all others stay as they are."},
+        {"film_nm", &M::film_nm, range(1, 8000, "nm").left_out("no film"),
+         "Thickness of a clear film on a metal, whose colours come of the light that goes to and fro in it: "
+         "heat tints, oxide, soap."},
+        {"film_ior", &M::film_ior, range(1, 4), "Index of refraction of that film."},
         {"abbe", &M::abbe, range(10, 120).left_out("one index for all light"),
          "Abbe number of glass: how far its index differs between colours; 64.2 for N-BK7, 25 for dense "
          "flint."},

@@ -136,6 +136,23 @@ TEST_CASE("whatever makes a traced frame changes its key, and nothing else does"
              i.material.kind = MaterialKind::glass;
              i.material.absorbance[1] = 0.2;
          }},
+        {"film", [](Inputs& i) { i.material.film_nm = 300.0; }},
+        {"index of the film",
+         [](Inputs& i) {
+             i.material.film_nm = 300.0;
+             i.material.film_ior = 1.5;
+         }},
+        {"brushed",
+         [](Inputs& i) {
+             i.material.kind = MaterialKind::rough_conductor;
+             i.material.anisotropy = 0.5;
+         }},
+        {"brushed upward",
+         [](Inputs& i) {
+             i.material.kind = MaterialKind::rough_conductor;
+             i.material.anisotropy = 0.5;
+             i.material.brushed = BrushedAlong::upward;
+         }},
         {"dark", [](Inputs& i) { i.light.probe = "dark"; }},
         {"sun", [](Inputs& i) { i.light.sun_lux = 1000.0; }},
         {"unit of the sun",
