@@ -9,43 +9,6 @@
 
 using namespace overt;
 
-namespace {
-
-/// Share of light from everywhere that brushed mirrors without loss give back at once, seen along x.
-double furnace_of_brushed(GgxWidths alpha, double cosine) {
-    const glm::vec3 eye(glm::dvec3(std::sqrt(1.0 - cosine * cosine), 0.0, cosine));
-    double sum = 0.0;
-    constexpr std::uint32_t samples = 65536;
-    for (std::uint32_t sample = 0; sample < samples; ++sample) {
-        SampleSequence sequence(9, {1, 1}, sample);
-        const glm::vec3 micro = ggx_visible_normal(eye, alpha, sequence.next_two());
-        const glm::vec3 out = 2.0f * glm::dot(eye, micro) * micro - eye;
-        sum += static_cast<double>(ggx_visible_share(out, alpha)) / samples;
-    }
-    return sum;
-}
-
-} // namespace
-
-TEST_CASE("brushed mirrors have the densities and the losses of an independent evaluation", "[unit]") {
-    const GgxWidths alpha{0.1f, 0.5f};
-    const glm::vec3 eye = glm::normalize(glm::vec3(0.3f, 0.1f, 0.8f)),
-                    out = glm::normalize(glm::vec3(-0.4f, 0.2f, 0.7f)), half = glm::normalize(eye + out);
-    CHECK(ggx_density(half, alpha) == Approx(2.345731).epsilon(1e-4));
-    CHECK(ggx_visible_share(eye, alpha) * ggx_density(half, alpha) / (4.0f * eye.z) ==
-          Approx(0.629750).epsilon(1e-4));
-    const double along[] = {.8822, .8814, .8779, .8512}, across[] = {.8822, .8596, .8329, .8490};
-    const double cosines[] = {1.0, 0.8, 0.5, 0.2};
-    for (std::size_t i = 0; i < 4; ++i) {
-        CAPTURE(cosines[i]);
-        CHECK(furnace_of_brushed({0.05f, 0.4f}, cosines[i]) == Approx(along[i]).margin(0.003));
-        CHECK(furnace_of_brushed({0.4f, 0.05f}, cosines[i]) == Approx(across[i]).margin(0.003));
-    }
-    // Alike both ways it is the plain one.
-    CHECK(ggx_density(half, GgxWidths{0.3f, 0.3f}) == Approx(ggx_density(half, 0.3f)));
-    CHECK(ggx_visible_share(out, GgxWidths{0.3f, 0.3f}) == Approx(ggx_visible_share(out, 0.3f)));
-}
-
 TEST_CASE("a brushed metal is reciprocal, tells its density, and is rougher across its scratches", "[unit]") {
     MaterialSettings material = test::material_of(MaterialKind::rough_conductor);
     material.roughness = 0.08;
