@@ -70,8 +70,8 @@ TEST_CASE("a normal that a picture has comes back where the picture lies, turned
     CHECK(is(seen(BumpyPlate(upwards, {-1, 0}).normal()), rises));
     // Upside down.
     CHECK(is(seen(BumpyPlate(upwards, {1, 0}, {0, -1}).normal()), {0.0f, -rises.y, rises.z}));
-    // Its u runs down: so does its right, and its up runs to the right.
-    CHECK(is(seen(BumpyPlate(to_the_right, {0, -1}, {1, 0}).normal()), {0.0f, leans.x, leans.z}));
+    // Its u runs down, so that its right is the surface's below.
+    CHECK(is(seen(BumpyPlate(to_the_right, {0, -1}, {1, 0}).normal()), {0.0f, -leans.x, leans.z}));
     // By KHR_texture_transform, too: u' = v, v' = -u is a turn by a quarter; scales alone change nothing.
     BumpyPlate turned(to_the_right);
     turned.look->materials[0].normal_picture.turn_rad = 0.5 * 3.14159265358979;

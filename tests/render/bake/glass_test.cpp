@@ -46,7 +46,7 @@ TEST_CASE("polished glass mirrors by Fresnel and bends by Snell, in and out", "[
         CHECK(met.through.z < 0.0f);
         CHECK(met.back.x == Approx(-sine).margin(1e-6));
         // Back the same way.
-        const GlassMeeting out = glass.meet(-met.through, -straight_up, -straight_up, false, -1, sequence);
+        const GlassMeeting out = glass.meet(met.through, -straight_up, -straight_up, false, -1, sequence);
         CHECK(out.goes_through);
         CHECK(out.mirrored.value[7] == Approx(reflected).margin(1e-5));
     }

@@ -126,7 +126,7 @@ TEST_CASE("the illuminance of sun, disc, sphere and rectangle is that of the clo
         REQUIRE(sources.size() == 1);
         CHECK(reckoned_illuminance(sources[0]) == Approx(one.lux).epsilon(1e-4));
         // Baked on a matt surface: E rho / pi.
-        CHECK(middle_of_plate(one.light, matt(), 64) == Approx(one.lux * 0.5 / lamp_pi).epsilon(3e-3));
+        CHECK(middle_of_plate(one.light, matt(), 512) == Approx(one.lux * 0.5 / lamp_pi).epsilon(3e-3));
         // The same light in another unit.
         LightSettings other = one.light;
         other.unit_cd_m2 = 10.0;
