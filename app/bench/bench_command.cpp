@@ -81,9 +81,8 @@ void add_bench(CLI::App& app, ChosenCommand& chosen) {
         .add_option("--mesh", options.mesh,
                     "Measure on this mesh (PLY, OBJ, STL) instead of the shipped sculptures")
         ->type_name("FILE");
-    command.add_option("--up", options.up, "Axis of the mesh file that points up")
-        ->check(one_of({"x", "y", "z", "-x", "-y", "-z"}))
-        ->capture_default_str();
+    command.add_option("--up", options.up, "Axis of the mesh file that points up (z; of glTF y)")
+        ->check(one_of({"x", "y", "z", "-x", "-y", "-z"}));
     command.add_option("--size", options.size_px, "Width and height of the picture")
         ->type_name("PX")
         ->check(CLI::Range(16, 8192))

@@ -19,7 +19,7 @@ struct BenchOptions {
     std::string what;                         ///< which benchmark
     std::vector<std::filesystem::path> files; ///< events: recordings, or folders of them; analyze: sessions
     std::filesystem::path mesh;               ///< measure on this one instead of the shipped sculptures
-    std::string up = "z";                     ///< axis of the mesh file that points up
+    std::string up;                           ///< axis of the mesh file that points up; empty: its format's
     int size_px = 1024;                       ///< width and height of the picture
     std::filesystem::path probe;              ///< bake: surroundings other than the overcast sky
     int samples = 16;                         ///< bake: of a pixel, of the frames whose time is taken

@@ -6,6 +6,7 @@
 #include "app/check/check_commands.h"
 #include "app/check/frame_cost.h"
 #include "app/check/frame_light.h"
+#include "app/check/light_report.h"
 #include "app/check/rig_forecast.h"
 #include "app/check/screen_pictures.h"
 #include "app/check/silhouette_check.h"
@@ -113,6 +114,7 @@ int run_check(const CheckOptions& options) {
             json["on_this_machine"] = to_json(stimuli->on_this_machine);
             json["frame_cost"] = to_json(stimuli->cost);
             json["spoken_answers"] = sound;
+            json["surroundings"] = to_json(measure_lights(experiment->protocol));
             json["opens"] = opened_json(experiment->protocol);
             if (options.frames)
                 json["light"] = to_json(measure_light(*experiment));
@@ -123,9 +125,9 @@ int run_check(const CheckOptions& options) {
         if (experiment)
             text = needs_of_person(stimuli->rendering, experiment->protocol) +
                    to_text(report_on(*experiment, options)) + steps_of_tasks(experiment->protocol) +
-                   to_text(stimuli->silhouettes) + to_text(stimuli->rendering) +
-                   to_text(stimuli->on_this_machine) + sound + to_text(opened_by(experiment->protocol)) +
-                   "\n";
+                   to_text(stimuli->silhouettes) + to_text(measure_lights(experiment->protocol)) +
+                   to_text(stimuli->rendering) + to_text(stimuli->on_this_machine) + sound +
+                   to_text(opened_by(experiment->protocol)) + "\n";
         if (experiment && options.frames)
             text += to_text(measure_light(*experiment));
     }

@@ -16,6 +16,7 @@
 #include "experiment/stimulus/object_size.h"
 #include "render/image/light_probe.h"
 #include "render/image/linear_image.h"
+#include "render/image/probe_facts.h"
 #include "render/stimulus/given_maps.h"
 #include "render/stimulus/ready_made_frames.h"
 
@@ -210,7 +211,22 @@ void examine_surroundings(const Protocol& protocol, Diagnostics& diagnostics) {
             continue;
         const Place probe = protocol.places.of(fmt::format("light[{}].probe", i));
         examine(protocol, probe, diagnostics, [&] {
-            if (const int negative = load_light_probe(light).negative_texels; negative > 0) {
+            const LightProbe surroundings = load_light_probe(light);
+            const std::optional<ProbeFacts> facts = probe_facts(surroundings);
+            if (facts && facts->is_too_even_for_gloss() && !light.has_sources())
+                diagnostics.warning(protocol.file.string(), probe,
+                                    fmt::format("{} is too even for gloss to be seen by: its brightest place "
+                                                "has {:.0f} times the mean",
+                                                light.probe, facts->brightest),
+                                    "for matt objects it does; else add sun_lux or lamps, or take a probe "
+                                    "with lamps or windows");
+            if (facts && facts->has_clipped_sun())
+                diagnostics.warning(protocol.file.string(), probe,
+                                    fmt::format("the brightest places of {} are all alike, {:.0f} times the "
+                                                "mean: a sun or lamps that the camera cut off",
+                                                light.probe, facts->brightest),
+                                    "gloss looks weaker under it than it is; sun_lux puts the sun back");
+            if (const int negative = surroundings.negative_texels; negative > 0) {
                 diagnostics.warning(protocol.file.string(), probe,
                                     fmt::format("{} texels of {} hold negative light, which counts as none",
                                                 negative, light.probe));

@@ -96,6 +96,11 @@ BakeJob job_of(const BakeOptions& options, const Protocol& protocol, const Stimu
                       : options.half ? ExportedFile::half_exr
                                      : ExportedFile::exr;
     job.output.force = options.force;
+    for (const Stimulus& stimulus : job.stimuli)
+        if (job.output.as == ExportedLight::spectra && !protocol.light_of(stimulus).sum.empty())
+            throw InputError(fmt::format("--as spectra: the light \"{}\" is a sum, of which there are no "
+                                         "spectra: choose the lights that it is of with --stimulus",
+                                         protocol.light_of(stimulus).id));
     job.units = bake_units(job.stimuli, job.output.frames, library.cache(), job.quality, job.exports());
     if (!options.shard.empty())
         job.units = dealt_to(shard_called(options.shard), job.units);
@@ -105,10 +110,15 @@ BakeJob job_of(const BakeOptions& options, const Protocol& protocol, const Stimu
 /// What happened, for the last lines and for programs.
 struct BakeOutcome {
     std::size_t units = 0, kept = 0, rendered = 0;
+    std::size_t waiting = 0; ///< to be added up of frames that other shards render
     double seconds = 0.0, rays = 0.0;
     bool interrupted = false;
     ClippedPixels clipped;
 };
+
+bool is_sum(const Protocol& protocol, const BakeUnit& unit) {
+    return !protocol.light_of(unit.stimulus).sum.empty();
+}
 
 bool is_cached(const StimulusLibrary& library, const BakeJob& job, const BakeUnit& unit) {
     return library.cache().has_frame(unit.stimulus, job.quality, unit.pose);
@@ -118,6 +128,7 @@ bool is_cached(const StimulusLibrary& library, const BakeJob& job, const BakeUni
 /// not there.
 void render(const std::vector<BakeUnit>& missing, const BakeJob& job, StimulusLibrary& library,
             const FrameExport& output, BakeOutcome& outcome) {
+    const Protocol& protocol = library.cache().protocol();
     double all = 0.0, done = 0.0;
     for (const BakeUnit& unit : missing)
         all += unit.cost;
@@ -128,9 +139,18 @@ void render(const std::vector<BakeUnit>& missing, const BakeJob& job, StimulusLi
     for (const BakeUnit& unit : missing) {
         const auto go_on = [&](double share) {
             bar.update("rendering", static_cast<int>(outcome.rendered), count,
-                       (done + share * unit.cost) / all);
+                       all > 0.0 ? (done + share * unit.cost) / all : 0.0);
             return !Interruption::requested();
         };
+        if (is_sum(protocol, unit)) {
+            if (writing.valid())
+                writing.get();
+            const bool can_be = library.cache().can_add_up(unit.stimulus, unit.pose, job.quality);
+            if (can_be)
+                library.cache().add_up(unit.stimulus, unit.pose, job.quality);
+            ++(can_be ? outcome.rendered : outcome.waiting);
+            continue;
+        }
         SpectralFrame frame;
         if (go_on(0.0))
             frame = library.frames().trace(unit.stimulus, unit.pose, job.quality, go_on);
@@ -146,7 +166,7 @@ void render(const std::vector<BakeUnit>& missing, const BakeJob& job, StimulusLi
         writing = std::async(std::launch::async, [&, unit, frame = std::move(frame)] {
             if (!is_cached(library, job, unit))
                 library.cache().store(unit.stimulus, unit.pose, job.quality, frame);
-            if (job.output.as == ExportedLight::spectra)
+            if (job.output.as == ExportedLight::spectra && !unit.is_part)
                 output.write(unit, &frame);
         });
     }
@@ -159,7 +179,7 @@ void render(const std::vector<BakeUnit>& missing, const BakeJob& job, StimulusLi
 void export_cached(const BakeJob& job, const FrameExport& output, BakeOutcome& outcome) {
     std::vector<BakeUnit> missing;
     for (const BakeUnit& unit : job.units) {
-        if (!output.has(unit))
+        if (!unit.is_part && !output.has(unit))
             missing.push_back(unit);
     }
     if (missing.empty())
@@ -233,6 +253,10 @@ void say_outcome(const BakeOptions& options, const BakeJob& job, const BakeOutco
     }
     fmt::print("{} of {} are there, {} rendered now\n", outcome.kept + outcome.rendered,
                counted(outcome.units, "frame"), outcome.rendered);
+    if (outcome.waiting > 0)
+        fmt::print(
+            "{} to be added up of frames of other shards: run `overt bake` once more when all are there\n",
+            counted(outcome.waiting, "frame"));
     if (outcome.interrupted) {
         fmt::print("interrupted; the same command goes on where it ended\n");
         return;
@@ -273,6 +297,16 @@ void draw_overviews(const BakeOptions& options, const BakeJob& job, const Protoc
 
 } // namespace
 
+namespace {
+
+/// Those that files are to be of.
+std::vector<BakeUnit> asked_for(std::vector<BakeUnit> units) {
+    std::erase_if(units, &BakeUnit::is_part);
+    return units;
+}
+
+} // namespace
+
 int run_bake(const BakeOptions& options) {
     const Experiment experiment =
         read_experiment_or_report(options.protocol, cache_folder(), InputDepth::objects);
@@ -286,11 +320,11 @@ int run_bake(const BakeOptions& options) {
         throw InputError("--sheet shows all stimuli: leave out --stimulus");
     const FrameExport output(job.output, protocol, experiment.objects, library, job.quality);
     if (job.exports())
-        output.refuse_to_replace(job.units);
+        output.refuse_to_replace(asked_for(job.units));
     std::vector<BakeUnit> missing;
     std::set<std::filesystem::path> rendered; // stimuli may share frames
     for (const BakeUnit& unit : job.units) {
-        if (job.output.as == ExportedLight::spectra
+        if (job.output.as == ExportedLight::spectra && !unit.is_part
                 ? !output.has(unit)
                 : !is_cached(library, job, unit) &&
                       rendered.insert(library.cache().frame_file_of(unit.stimulus, job.quality, unit.pose))

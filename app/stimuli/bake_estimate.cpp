@@ -51,7 +51,8 @@ double seconds_per_path(const BakeScene& scene, const SpectralLight& light, cons
 PathProbe::PathProbe(const Protocol& protocol, std::span<const Object> objects)
     : protocol_(&protocol), seconds_per_path_(protocol.materials.size(), 0.0),
       traced_share_(objects.size(), 0.0) {
-    const SpectralLight light(protocol.lights.front());
+    const LightSettings& first = protocol.lights.front();
+    const SpectralLight light(first.parts.empty() ? first : first.parts.front());
     bool measured = false;
     for (std::size_t i = 0; i < objects.size(); ++i) {
         const Object& object = objects[i];
@@ -82,6 +83,8 @@ double PathProbe::seconds_of_frame(const Stimulus& stimulus, const FrameQuality&
     const double pixels = static_cast<double>(view.width_px) * view.height_px;
     const double paths = pixels * traced_share_[static_cast<std::size_t>(stimulus.object)] *
                          settings.samples / (settings.pixel_step * settings.pixel_step);
+    if (!protocol_->light_of(stimulus).sum.empty())
+        return pixels * writing_s_per_px; // added up
     return paths * seconds_per_path_[material] + pixels * writing_s_per_px;
 }
 

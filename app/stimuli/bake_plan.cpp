@@ -33,8 +33,23 @@ std::vector<BakeUnit> bake_units(const std::vector<Stimulus>& stimuli, const Fra
                                  bool is_each_its_own) {
     std::set<std::filesystem::path> files;
     std::vector<BakeUnit> units;
+    std::vector<std::pair<Stimulus, bool>> in_order; // and whether it is a part
     for (const Stimulus& stimulus : stimuli) {
-        const double cost = expected_cost(quality, cache.protocol(), cache.material_of(stimulus).kind);
+        for (const Stimulus& part : cache.parts_of(stimulus))
+            if (std::ranges::find(stimuli, part) == stimuli.end())
+                in_order.emplace_back(part, true);
+    }
+    const auto is_sum = [&](const Stimulus& stimulus) {
+        return !cache.protocol().light_of(stimulus).sum.empty();
+    };
+    for (const bool are_sums : {false, true})
+        for (const Stimulus& stimulus : stimuli)
+            if (is_sum(stimulus) == are_sums)
+                in_order.emplace_back(stimulus, false);
+    for (const auto& [stimulus, is_part] : in_order) {
+        const double cost = is_sum(stimulus)
+                                ? 0.0
+                                : expected_cost(quality, cache.protocol(), cache.material_of(stimulus).kind);
         const std::span<const Pose> pictures = cache.pictures_of(stimulus);
         const std::span<const int> picture_of = cache.picture_of_frame(stimulus);
         std::vector<bool> is_shown(pictures.size());
@@ -44,8 +59,8 @@ std::vector<BakeUnit> bake_units(const std::vector<Stimulus>& stimuli, const Fra
         for (std::size_t picture = 0; picture < pictures.size(); ++picture) {
             if (is_shown[picture] &&
                 (files.insert(cache.frame_file_of(stimulus, quality, pictures[picture])).second ||
-                 is_each_its_own))
-                units.push_back({stimulus, pictures[picture], cost});
+                 (is_each_its_own && !is_part)))
+                units.push_back({stimulus, pictures[picture], cost, is_part});
         }
     }
     return units;

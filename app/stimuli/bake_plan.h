@@ -14,7 +14,8 @@ namespace overt {
 struct BakeUnit {
     Stimulus stimulus;
     Pose pose;
-    double cost = 0.0; ///< see expected_cost()
+    double cost = 0.0;    ///< see expected_cost(); 0 of what is added up
+    bool is_part = false; ///< rendered for the light of others to be added up, and not asked for itself
 };
 
 /// Frames by their numbers, both ends among them. "7", "0-30" or "all". Throws InputError for others, or for
@@ -27,7 +28,8 @@ FrameRange frame_range_called(const std::string& text, const Protocol& protocol,
                               std::span<const Stimulus> stimuli);
 
 /// All frames of the stimuli, in their order and that of pictures; a picture is among them if a frame of the
-/// range shows it. A frame that stimuli share is the first one's, unless each has files of its own.
+/// range shows it. Before what is added up of frames under several lights come those frames, as parts. A
+/// frame that stimuli share is the first one's, unless each has files of its own.
 std::vector<BakeUnit> bake_units(const std::vector<Stimulus>& stimuli, const FrameRange& frames,
                                  const StimulusCache& cache, const FrameQuality& quality,
                                  bool is_each_its_own);

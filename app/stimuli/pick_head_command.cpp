@@ -210,7 +210,13 @@ bool pick_in_window(OpenDisplay& opened, HeadView& view, HeadOutline& outline) {
 
 } // namespace
 
-int run_pick_head(const PickHeadOptions& options) {
+int run_pick_head(const PickHeadOptions& given_options) {
+    PickHeadOptions options = given_options;
+    const bool is_gltf = is_gltf_name(options.mesh);
+    if (options.up.empty())
+        options.up = is_gltf ? "y" : "z";
+    if (options.unit.empty())
+        options.unit = is_gltf ? "m" : "mm";
     const bool in_window = options.picture.empty();
     if (in_window && !display_is_available())
         throw InputError("there is no display to pick a head on: look at one that is given with --sphere and "

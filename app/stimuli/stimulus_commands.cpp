@@ -31,11 +31,11 @@ void add_pick_head(CLI::App& app, ChosenCommand& chosen) {
         "Outlines the head of a mesh with the mouse and prints the key `head` for a protocol",
         "overt pick-head scan.ply --up y\n"
         "  overt pick-head scan.ply --sphere 0 -15 310 60 --plane 0 0 262 0 0 1 --picture head.png");
-    command.add_option("MESH", options.mesh, "PLY, OBJ or STL")->required();
-    option(command, "--up", options.up, "", "Axis of the file that points up",
-           one_of({"x", "y", "z", "-x", "-y", "-z"}), shown_default);
-    option(command, "--unit", options.unit, "", "Unit of the file: mm, cm, m, in or own",
-           one_of({"mm", "cm", "m", "in", "own"}), shown_default);
+    command.add_option("MESH", options.mesh, "PLY, OBJ, STL or glTF")->required();
+    option(command, "--up", options.up, "", "Axis of the file that points up (z; of glTF y)",
+           one_of({"x", "y", "z", "-x", "-y", "-z"}));
+    option(command, "--unit", options.unit, "", "Unit of the file: mm, cm, m, in or own (mm; of glTF m)",
+           one_of({"mm", "cm", "m", "in", "own"}));
     option(command, "--sphere", options.spheres, "X Y Z R",
            "A head to begin with, in the file's coordinates: inside this sphere, or another one");
     option(command, "--plane", options.planes, "X Y Z TO_X TO_Y TO_Z",

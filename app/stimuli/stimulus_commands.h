@@ -28,7 +28,7 @@ int run_play(const PlayOptions& options);
 
 struct PickHeadOptions {
     std::filesystem::path mesh;
-    std::string up = "z", unit = "mm"; ///< as [[object]] has them
+    std::string up, unit; ///< as [[object]] has them; empty: as is usual for the file's format
     // A head to begin with, in the file's coordinates.
     std::vector<std::array<double, 4>> spheres; ///< x, y, z, radius
     std::vector<std::array<double, 6>> planes;  ///< a point, and the direction in which the head lies

@@ -61,6 +61,7 @@ std::optional<Protocol> read_text(std::string_view text, const std::filesystem::
         check_devices(examination);
         check_objects(examination, shipped_sculptures);
         check_materials(examination);
+        check_lights(examination);
         check_backgrounds(examination);
         check_frames(examination);
         check_steps(examination);

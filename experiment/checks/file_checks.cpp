@@ -46,7 +46,7 @@ void check_files(ProtocolExamination& examination) {
         if (light.is_file() && !is_file(light.probe))
             examination.error({fmt::format("light[{}].probe", i)},
                               fmt::format("there is no file {}", light.probe),
-                              remedy + "; \"gallery\" and \"overcast\" need none");
+                              remedy + "; \"gallery\", \"overcast\" and \"dark\" need none");
     }
     for (std::size_t i = 0; i < protocol.backgrounds.size(); ++i) {
         const std::string& picture = protocol.backgrounds[i].picture;

@@ -44,6 +44,8 @@ void take_characterisation(ProtocolExamination& examination, bool look_at_files)
 void check_ids(ProtocolExamination& examination);
 void check_objects(ProtocolExamination& examination, std::span<const std::string_view> shipped_sculptures);
 void check_materials(ProtocolExamination& examination);
+/// Suns, lamps and sums of lights. After the protocol is complete.
+void check_lights(ProtocolExamination& examination);
 /// What stands behind objects.
 void check_backgrounds(ProtocolExamination& examination);
 void check_frames(ProtocolExamination& examination);

@@ -313,6 +313,19 @@ void check_materials(ProtocolExamination& examination) {
             examination.warning({path, entry_path("material", i, "base")},
                                 "\"reflectance\" has no effect on a material with base = \"own\"",
                                 "its colour is that of the object's file");
+        if (materials[i].anisotropy > 0.0 && materials[i].multiple_scattering)
+            examination.error(
+                {entry_path("material", i, "anisotropy"), entry_path("material", i, "multiple_scattering")},
+                "a brushed metal is followed by one reflection at each meeting",
+                "take one of the two lines out");
+        if (!materials[i].film_nm && examination.is_written(entry_path("material", i, "film_ior")))
+            examination.warning({entry_path("material", i, "film_ior")},
+                                "\"film_ior\" has no effect without \"film_nm\"");
+        const bool gives_any = materials[i].reflectance || materials[i].metallic || materials[i].roughness;
+        if (!materials[i].of.empty() && materials[i].kind == MaterialKind::own && !gives_any)
+            examination.warning({entry_path("material", i, "of")},
+                                "\"of\" has no effect where nothing is given in place of what the file says",
+                                "give \"roughness\", \"metallic\" or \"reflectance\"");
         for (const std::string_view key : keys) {
             const std::string path = entry_path("material", i, key), kind = entry_path("material", i, "kind");
             if (!row_of(materials[i].kind).has_key(key) && examination.is_written(path)) {

@@ -17,6 +17,7 @@ enum class MaterialKind : std::uint8_t {
     plastic,
     metallic_roughness,
     own,
+    glass,
 };
 
 struct MaterialKindRow {
@@ -25,32 +26,42 @@ struct MaterialKindRow {
     std::string_view looks; ///< like what: "polished metal"
     /// The keys of [[material]] that make a difference to it, besides id, title and kind; empty behind the
     /// last.
-    std::array<std::string_view, 8> keys;
+    std::array<std::string_view, 12> keys;
 
     constexpr bool has_key(std::string_view key) const { return std::ranges::find(keys, key) != keys.end(); }
 };
 
 /// All kinds, in the order of MaterialKind.
 inline constexpr auto material_kinds = std::to_array<MaterialKindRow>({
-    {MaterialKind::smooth_conductor, "smooth-conductor", "polished metal", {"metal"}},
+    {MaterialKind::smooth_conductor,
+     "smooth-conductor",
+     "polished metal",
+     {"metal", "film_nm", "film_ior", "bumps"}},
     {MaterialKind::rough_conductor,
      "rough-conductor",
      "brushed metal",
-     {"metal", "roughness", "multiple_scattering"}},
+     {"metal", "roughness", "anisotropy", "brushed", "multiple_scattering", "film_nm", "film_ior", "bumps"}},
     {MaterialKind::coated_conductor,
      "coated-conductor",
      "polished metal under a bumpy coloured coat",
      {"metal", "coat_ior", "coat_absorbance", "coat_thickness", "coat_bump", "coat_bump_width", "coat_seed"}},
-    {MaterialKind::diffuse, "diffuse", "a matt surface", {"reflectance", "base"}},
+    {MaterialKind::diffuse, "diffuse", "a matt surface", {"reflectance", "base", "bumps"}},
     {MaterialKind::plastic,
      "plastic",
      "a matt body under a clear surface, polished or rough",
-     {"reflectance", "roughness", "roughness_as", "ior", "body", "base"}},
+     {"reflectance", "roughness", "roughness_as", "ior", "body", "base", "bumps"}},
     {MaterialKind::metallic_roughness,
      "metallic-roughness",
      "what other programs call metallic-roughness, with a clear coat or without",
-     {"reflectance", "roughness", "ior", "metallic", "clear_coat", "clear_coat_roughness", "base"}},
-    {MaterialKind::own, "own", "what the object's file says: its colours, pictures and metals", {"ior"}},
+     {"reflectance", "roughness", "ior", "metallic", "clear_coat", "clear_coat_roughness", "base", "bumps"}},
+    {MaterialKind::own,
+     "own",
+     "what the object's file says: its colours, pictures, metals and bumps",
+     {"reflectance", "roughness", "ior", "metallic", "clear_coat", "clear_coat_roughness", "of", "bumps"}},
+    {MaterialKind::glass,
+     "glass",
+     "glass, polished or rough, clear or coloured",
+     {"ior", "roughness", "roughness_as", "abbe", "absorbance"}},
 });
 
 constexpr const MaterialKindRow& row_of(MaterialKind kind) {

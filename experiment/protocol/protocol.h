@@ -216,15 +216,51 @@ struct ViewSettings : ListEntry {
     std::optional<glm::dvec3> camera_target;   ///< left out: the centre of the bounding box
 };
 
+/// What gives the light of a lamp.
+enum class LampShape : std::uint8_t { rectangle, disc, sphere };
+template <> inline constexpr auto names_of<LampShape> = enum_names<LampShape>("rectangle", "disc", "sphere");
+
+/// [[lamp]]: something near that shines evenly. Lengths are in the unit of the mesh, places from the centre
+/// of the object's box, by the axes of the front view: x to the right, y away, z up.
+struct LampSettings {
+    std::string id;
+    LampShape shape = LampShape::disc;
+    std::optional<double> cd_m2; ///< luminance of it
+    std::array<double, 3> colour{1.0, 1.0, 1.0};
+    std::optional<glm::dvec3> position;
+    /// The place that a flat one is turned to; it shines to that side alone. Left out: the centre.
+    std::optional<glm::dvec3> faces;
+    double width = 0.0, height = 0.0; ///< of a rectangle
+    double radius = 0.0;              ///< of a disc or sphere
+};
+
 /// [[light]]: what surrounds the object. [light] is the only one.
 struct LightSettings : ListEntry {
-    /// "overcast" or "gallery", or a latitude-longitude EXR or HDR file, linear Rec.709, +y up, resolved
-    /// against the protocol's folder.
+    /// "overcast", "gallery" or "dark", or a latitude-longitude EXR or HDR file, linear Rec.709, +y up,
+    /// resolved against the protocol's folder.
     std::string probe = "overcast";
     /// Whether the probe is a file, and not one that the program makes.
-    bool is_file() const { return probe != "overcast" && probe != "gallery"; }
+    bool is_file() const { return probe != "overcast" && probe != "gallery" && probe != "dark"; }
     double exposure = 1.0;     ///< factor from the probe's radiance to the display's white
-    double rotation_deg = 0.0; ///< turns the probe about the vertical
+    double rotation_deg = 0.0; ///< turns the probe, the sun and the lamps about the vertical
+    /// Luminance of the probe's 1, by which lux and cd/m2 of sun and lamps are held against it. Left out: of
+    /// "dark" 1 cd/m2, else nothing is known.
+    std::optional<double> unit_cd_m2;
+    /// Illuminance by the sun on what faces it; left out: there is none but what the probe has.
+    std::optional<double> sun_lux;
+    double sun_azimuth_deg = 0.0; ///< from behind the observer to the observer's right
+    double sun_elevation_deg = 45.0;
+    double sun_radius_deg = 0.2666; ///< half the angle that it fills
+    std::array<double, 3> sun_colour{1.0, 1.0, 1.0};
+    std::vector<std::string> lamps;    ///< ids of [[lamp]]
+    std::vector<LampSettings> shining; ///< those lamps, in that order
+    /// Instead of all above but the exposure: the light of others together, by their ids, each times a
+    /// number.
+    std::vector<std::pair<std::string, double>> sum;
+    std::vector<LightSettings> parts; ///< those others, in that order
+
+    /// Whether there is light from the sun or from lamps, besides the probe's.
+    bool has_sources() const { return sun_lux || !lamps.empty(); }
 };
 
 /// [[background]]: what the image of the stimulus shows where the object does not. [background] is the only
@@ -299,39 +335,71 @@ template <> inline constexpr auto names_of<RoughnessAs> = enum_names<RoughnessAs
 enum class MaterialBase : std::uint8_t { given, own };
 template <> inline constexpr auto names_of<MaterialBase> = enum_names<MaterialBase>("given", "own");
 
+/// The bumps that a material has: none, or those of the object's file (its normal map).
+enum class MaterialBumps : std::uint8_t { none, own };
+template <> inline constexpr auto names_of<MaterialBumps> = enum_names<MaterialBumps>("none", "own");
+
+/// Where the scratches of a brushed metal run: round the object's vertical, as turned on a lathe, or up and
+/// down.
+enum class BrushedAlong : std::uint8_t { around, upward };
+template <> inline constexpr auto names_of<BrushedAlong> = enum_names<BrushedAlong>("around", "upward");
+
 /// [[material]]
 struct MaterialSettings : ListEntry {
     MaterialKind kind = MaterialKind::smooth_conductor;
     std::string metal =
         "Au"; ///< "Au", "Ag", or a file (metal_table.h), resolved against the protocol's folder
-    double roughness = 0.13; ///< see alpha()
+    /// See alpha(). Left out: of `own` the file's, of glass none, of all else 0.13.
+    std::optional<double> roughness;
     double coat_ior = 1.4;
     std::array<double, 3> coat_absorbance{0.0, 0.10,
                                           0.75}; ///< red, green, blue, for one pass of the nominal thickness
     // The coat's shape, as shares of half the object's height.
-    double coat_thickness = 0.01;                     ///< in the mean
-    double coat_bump = 0.015;                         ///< height of its bumps
-    double coat_bump_width = 0.05;                    ///< from one bump to the next
-    int coat_seed = 0;                                ///< of the bumps
-    std::array<double, 3> reflectance{0.5, 0.5, 0.5}; ///< of diffuse, plastic, metallic_roughness
-    RoughnessAs roughness_as = RoughnessAs::alpha;    ///< of plastic; of metallic_roughness it is the root
+    double coat_thickness = 0.01;  ///< in the mean
+    double coat_bump = 0.015;      ///< height of its bumps
+    double coat_bump_width = 0.05; ///< from one bump to the next
+    int coat_seed = 0;             ///< of the bumps
+    /// Of diffuse, plastic, metallic_roughness; left out: 0.5, and of `own` the file's.
+    std::optional<glm::dvec3> reflectance;
+    RoughnessAs roughness_as = RoughnessAs::alpha; ///< of plastic; of metallic_roughness it is the root
     bool multiple_scattering = false;      ///< of rough_conductor: light of several micro-mirrors, too
     double ior = 1.5;                      ///< of plastic and metallic_roughness
     PlasticBody body = PlasticBody::light; ///< of plastic
     // Of metallic_roughness.
-    double metallic = 0.0;                   ///< share of metal
+    std::optional<double> metallic;          ///< share of metal; left out: none, and of `own` the file's
     double clear_coat = 0.0;                 ///< share that a clear coat covers
     double clear_coat_roughness = 0.0;       ///< root of its alpha
     MaterialBase base = MaterialBase::given; ///< of diffuse, plastic, metallic_roughness
+    // Of what is of the object's file.
+    std::optional<MaterialBumps> bumps; ///< left out: those of the file's, of what else is of the file
+    std::vector<std::string> of; ///< the file's materials that the given properties hold for; empty: all
+    // Of glass.
+    std::optional<double> abbe;                      ///< its Abbe number; left out: no dispersion
+    std::array<double, 3> absorbance{0.0, 0.0, 0.0}; ///< red, green, blue, over half the object's height
+    // Of rough_conductor.
+    double anisotropy = 0.0; ///< 0: alike in all directions
+    BrushedAlong brushed = BrushedAlong::around;
+    // A thin film on metals and glass.
+    std::optional<double> film_nm; ///< its thickness; left out: none
+    double film_ior = 1.33;
 
-    /// Whether it is of what the object's file says of the surface.
-    bool is_of_file() const { return kind == MaterialKind::own || base == MaterialBase::own; }
+    glm::dvec3 given_reflectance() const { return reflectance.value_or(glm::dvec3(0.5)); }
+    double given_metallic() const { return metallic.value_or(0.0); }
+    double given_roughness() const { return roughness.value_or(0.13); }
+    /// Whether its colour, or more, is what the object's file gives each place.
+    bool is_own() const { return kind == MaterialKind::own || base == MaterialBase::own; }
+    bool has_own_bumps() const {
+        return bumps.value_or(is_own() ? MaterialBumps::own : MaterialBumps::none) == MaterialBumps::own;
+    }
+    /// Whether anything of it is what the object's file says of the surface.
+    bool is_of_file() const { return is_own() || has_own_bumps(); }
 
     /// GGX alpha of what the kind has of rough surface, below a clear coat.
     double alpha() const {
         const bool is_root = kind == MaterialKind::metallic_roughness || kind == MaterialKind::own ||
                              roughness_as == RoughnessAs::root;
-        return is_root && kind != MaterialKind::rough_conductor ? roughness * roughness : roughness;
+        const double given = given_roughness();
+        return is_root && kind != MaterialKind::rough_conductor ? given * given : given;
     }
 };
 
@@ -434,6 +502,7 @@ struct Protocol {
     /// For each further size that slots have (Slot::size), in their order: all views, of that size. What is
     /// drawn for such a slot counts its views on from those of the list.
     std::vector<ViewSettings> views_in_slots;
+    std::vector<LampSettings> lamps; ///< that lights name
     std::vector<FrameSequenceSettings> frames;
     std::vector<PointListSettings> point_lists; ///< of places on the surfaces
     std::vector<TrialTable> trial_tables;       ///< of the tasks that name one

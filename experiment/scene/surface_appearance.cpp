@@ -36,12 +36,21 @@ int inside(std::int64_t place, int size, PictureEdge edge) {
     return static_cast<int>(there_and_back < size ? there_and_back : 2 * size - 1 - there_and_back);
 }
 
-/// What the look-ups mix of a texel: a colour's linear light, codes as shares, or its alpha three times.
-enum class TexelValue : std::uint8_t { srgb, linear, alpha };
+/// What the look-ups mix of a texel: a colour's linear light, codes as shares, its alpha three times, or the
+/// normal that it codes.
+enum class TexelValue : std::uint8_t { srgb, linear, alpha, normal };
+
+/// -1 … 1 (glTF 2.0: 2 c / 255 - 1). None is between two codes: either stands for it, or what is flat in the
+/// program that made it would lean by 0.3 degrees.
+float slope_of(std::uint8_t code) {
+    return code == 127 || code == 128 ? 0.0f : 2.0f * static_cast<float>(code) / 255.0f - 1.0f;
+}
 
 glm::vec3 value_of(const glm::u8vec4& texel, TexelValue which) {
     if (which == TexelValue::alpha)
         return glm::vec3(static_cast<float>(texel.w) / 255.0f);
+    if (which == TexelValue::normal)
+        return {slope_of(texel.x), slope_of(texel.y), slope_of(texel.z)};
     if (which == TexelValue::linear)
         return glm::vec3(texel.x, texel.y, texel.z) / 255.0f;
     const std::array<float, 256>& table = srgb_table();
@@ -139,6 +148,10 @@ ContentHash hash_of_appearance(const SurfaceAppearance& appearance) {
             hasher.add(static_cast<double>(number));
         add_placed(hasher, material.colour_picture);
         add_placed(hasher, material.surface_picture);
+        if (material.normal_picture.picture >= 0) { // looks without keep their names
+            add_placed(hasher, material.normal_picture);
+            hasher.add(static_cast<double>(material.normal_scale));
+        }
     }
     hasher.add(appearance.triangle_materials);
     for (const std::vector<CornerUvs>& set : appearance.uvs)
@@ -168,6 +181,29 @@ SurfaceLook look_at(const SurfaceAppearance& appearance, std::uint32_t triangle,
     look.metallic = std::clamp(look.metallic, 0.0f, 1.0f);
     look.roughness = std::clamp(look.roughness, 0.0f, 1.0f);
     return look;
+}
+
+bool has_bumps(const SurfaceAppearance& appearance) {
+    return std::ranges::any_of(appearance.materials, [](const FileMaterial& material) {
+        return material.normal_picture.picture >= 0 && material.normal_scale != 0.0f;
+    });
+}
+
+glm::vec3 bump_at(const SurfaceAppearance& appearance, std::uint32_t triangle, glm::vec2 place) {
+    constexpr glm::vec3 flat(0.0f, 0.0f, 1.0f);
+    if (appearance.materials.empty())
+        return flat;
+    const FileMaterial& material = appearance.material_of(triangle);
+    if (material.normal_picture.picture < 0)
+        return flat;
+    glm::vec3 bump = placed_value(appearance, material.normal_picture, triangle, place, TexelValue::normal);
+    bump.x *= material.normal_scale;
+    bump.y *= material.normal_scale;
+    if (bump.x == 0.0f && bump.y == 0.0f)
+        return flat;
+    // A normal that leans below the surface is none that glTF allows.
+    constexpr float least_height = 0.01f;
+    return glm::normalize(glm::vec3(bump.x, bump.y, std::max(bump.z, least_height)));
 }
 
 float alpha_at(const SurfaceAppearance& appearance, std::uint32_t triangle, glm::vec2 place) {

@@ -48,6 +48,8 @@ struct FileMaterial {
     float metallic = 0.0f;            ///< factor on the blue of surface_picture
     float roughness = 0.5f;           ///< factor on its green; the root of GGX alpha
     SurfacePlacement surface_picture; ///< linear
+    SurfacePlacement normal_picture;  ///< linear; of normals, x along u and y against v
+    float normal_scale = 1.0f;        ///< factor on their x and y
     bool is_unlit =
         false; ///< its colours are to be shown as they stand: photographs, with their light in them
 };
@@ -94,6 +96,14 @@ struct SurfaceLook {
 /// At a place of a triangle, which is (1 - u - v) of its first corner, u of its second and v of its third.
 /// Pictures are read between their four nearest texels, in linear light. Any thread; allocates nothing.
 SurfaceLook look_at(const SurfaceAppearance& appearance, std::uint32_t triangle, glm::vec2 place);
+
+/// The normal that a material's picture gives a place of a triangle, in the frame of its tangent, bitangent
+/// and normal: (0, 0, 1), of unit length, without a picture and where the picture is flat. Codes 127 and 128
+/// are none.
+glm::vec3 bump_at(const SurfaceAppearance& appearance, std::uint32_t triangle, glm::vec2 place);
+
+/// Whether any of its materials has a picture of normals.
+bool has_bumps(const SurfaceAppearance& appearance);
 
 /// The alpha of the colour's picture there, 0 … 1; 1 without a picture.
 float alpha_at(const SurfaceAppearance& appearance, std::uint32_t triangle, glm::vec2 place);

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "experiment/base/error.h"
 #include "experiment/protocol/all_stimuli.h"
@@ -196,10 +197,13 @@ std::vector<std::string> look_remarks(const SurfaceAppearance& appearance, const
         const double mean = static_cast<double>(look.colour.x + look.colour.y + look.colour.z) / 3.0;
         remarks.push_back(fmt::format(
             "Surface {}, {} of the area: reflectance {:.2f} {:.2f} {:.2f} in the mean, {} metal, roughness "
-            "{:.2f}.",
+            "{:.2f}{}.",
             name.empty() ? "without a name" : fmt::format("\"{}\"", name), as_percent(area / all),
             look.colour.x, look.colour.y, look.colour.z, as_percent(static_cast<double>(look.metallic)),
-            look.roughness));
+            look.roughness,
+            !appearance.materials.empty() && appearance.materials[i].normal_picture.picture >= 0
+                ? ", with a picture of bumps"
+                : ""));
         if (mean > 0.9 || overexposed > 0.01)
             remarks.push_back(fmt::format(
                 "Its colours are very bright, at the limit on {} of its area: a scan that was exposed to "
@@ -364,6 +368,23 @@ void expect_lit(const Object& object, const MaterialSettings& material) {
                 object.id, of_file.name, material.id));
 }
 
+/// The names that MaterialSettings::of has must be those of the file.
+void expect_known_names(const Object& object, const MaterialSettings& material) {
+    const std::vector<FileMaterial>& materials = object.appearance->materials;
+    for (const std::string& name : material.of) {
+        if (std::ranges::find(materials, name, &FileMaterial::name) != materials.end())
+            continue;
+        std::vector<std::string_view> names;
+        for (const FileMaterial& of_file : materials)
+            names.push_back(of_file.name);
+        throw InputError(fmt::format(
+            "object \"{}\": its file has no material \"{}\", for which the material \"{}\" is to hold; it "
+            "has {}",
+            object.id, name, material.id,
+            names.empty() ? "none with a name" : fmt::format("\"{}\"", fmt::join(names, "\", \""))));
+    }
+}
+
 /// Throws InputError if a stimulus that is to be rendered needs a look that its object's file does not give.
 void expect_appearances(const Protocol& protocol, std::span<const Object> objects) {
     if (!asks_for_appearance(protocol))
@@ -376,6 +397,7 @@ void expect_appearances(const Protocol& protocol, std::span<const Object> object
             continue;
         if (object.appearance) {
             expect_lit(object, material);
+            expect_known_names(object, material);
             continue;
         }
         const std::filesystem::path& file = protocol.objects[index].mesh;

@@ -7,11 +7,14 @@
 #include "experiment/base/error.h"
 #include "experiment/scene/mesh_topology.h"
 #include "experiment/spectra/metal_table.h"
+#include "render/bake/bumps.h"
 #include "render/bake/coat_surface.h"
+#include "render/bake/glass.h"
 #include "render/bake/layered_surface.h"
 #include "render/bake/light_colour.h"
 #include "render/bake/material_model.h"
 #include "render/bake/own_surface.h"
+#include "render/bake/thin_film.h"
 
 namespace overt {
 
@@ -24,20 +27,21 @@ constexpr double open_share = 1e-3;
 /// Normals of faces that meet at no more than this angle run into one another.
 constexpr double crease_deg = 50.0;
 
-/// Throws InputError if a coat cannot be put around the mesh.
-void check_coatable(const EdgeCounts& edges, double volume) {
+/// Throws InputError if a coat cannot be put around the mesh, or it cannot be of glass. `what`: "a coat",
+/// `instead`: "a material without a coat".
+void expect_body(const EdgeCounts& edges, double volume, std::string_view what, std::string_view instead) {
     const std::size_t faulty = edges.boundary + edges.non_manifold + edges.conflicting;
     if (static_cast<double>(faulty) > open_share * static_cast<double>(edges.edges)) {
         throw InputError(fmt::format(
-            "a coat needs a closed surface, but {} of the mesh's {} edges are open, {} belong to more than "
-            "two "
-            "triangles and at {} the fronts disagree: close the mesh, or use a material without a coat",
-            edges.boundary, edges.edges, edges.non_manifold, edges.conflicting));
+            "{} needs a closed surface, but {} of the mesh's {} edges are open, {} belong to more than two "
+            "triangles and at {} the fronts disagree: close the mesh, or use {}",
+            what, edges.boundary, edges.edges, edges.non_manifold, edges.conflicting, instead));
     }
     if (!(volume > 0.0)) {
-        throw InputError("a coat lies outside, but the mesh's fronts face inwards: turn its faces round, or "
-                         "use a material without a "
-                         "coat");
+        throw InputError(
+            fmt::format("{} lies {}, but the mesh's fronts face inwards: turn its faces round, or "
+                        "use {}",
+                        what, what == "glass" ? "inside" : "outside", instead));
     }
 }
 
@@ -50,8 +54,7 @@ CoatShape coat_shape(const MaterialSettings& material, double half_height) {
 std::shared_ptr<const SurfaceAppearance> of_one_colour(const MaterialSettings& material) {
     SurfaceAppearance appearance;
     FileMaterial& only = appearance.materials.emplace_back();
-    only.colour =
-        glm::vec3(glm::dvec3(material.reflectance[0], material.reflectance[1], material.reflectance[2]));
+    only.colour = glm::vec3(material.given_reflectance());
     return std::make_shared<const SurfaceAppearance>(std::move(appearance));
 }
 
@@ -73,15 +76,29 @@ BakeScene::BakeScene(const Mesh& mesh, const MaterialSettings& material,
     std::vector<const TracedSurface*> surfaces{body_surface_.get()};
     const MaterialKindRow& row = row_of(material.kind);
     if (row.has_key("reflectance"))
-        reflectance_ = Bins::of(reflectance_of(material.reflectance));
-    if (model_->has_coat())
-        check_coatable(edges, volume);
-    if (row.has_key("metal"))
-        metal_ = ConductorTable(load_metal(material.metal), model_->has_coat() ? material.coat_ior : 1.0);
-    if (model_->has_coat()) {
+        reflectance_ =
+            Bins::of(reflectance_of({material.given_reflectance().x, material.given_reflectance().y,
+                                     material.given_reflectance().z}));
+    if (has_coat())
+        expect_body(edges, volume, "a coat", "a material without a coat");
+    if (material.kind == MaterialKind::glass) {
+        expect_body(edges, volume, "glass", "a material that lets no light through");
+        absorbance_ = Bins::of(absorbance_of(material.absorbance));
+        scale(absorbance_, static_cast<float>(1.0 / half_height));
+        glass_ = std::make_unique<Glass>(material_);
+    }
+    if (row.has_key("metal")) {
+        const ComplexIndex metal = load_metal(material.metal);
+        metal_ = material.film_nm && row.has_key("film_nm")
+                     ? ConductorTable([&](double cosine) {
+                           return film_over_metal(metal, material.film_ior, *material.film_nm, cosine);
+                       })
+                     : ConductorTable(metal, has_coat() ? material.coat_ior : 1.0);
+    }
+    if (has_coat()) {
         const CoatShape shape = coat_shape(material, half_height);
-        coat_absorbance_ = Bins::of(absorbance_of(material.coat_absorbance));
-        scale(coat_absorbance_, static_cast<float>(1.0 / shape.thickness));
+        absorbance_ = Bins::of(absorbance_of(material.coat_absorbance));
+        scale(absorbance_, static_cast<float>(1.0 / shape.thickness));
         const Mesh outside = coat_over(mesh, shape);
         coat_surface_ = std::make_unique<TracedSurface>(outside, centre_, 180.0);
         for (const glm::vec3& position : coat_surface_->positions)
@@ -92,7 +109,9 @@ BakeScene::BakeScene(const Mesh& mesh, const MaterialSettings& material,
     tree_ = std::make_unique<SurfaceTree>(std::move(surfaces));
     if (model_->layers)
         layers_ = std::make_unique<LayeredSurface>(model_->layers(material_, reflectance_, metal_));
-    if (material_.is_of_file())
+    if (material_.has_own_bumps() && appearance && has_bumps(*appearance))
+        bumps_ = std::make_unique<Bumps>(appearance, mesh, body_surface_->normals);
+    if (material_.is_own())
         own_ = std::make_unique<OwnSurface>(appearance ? std::move(appearance) : of_one_colour(material_),
                                             material_);
 }

@@ -12,6 +12,8 @@
 
 namespace overt {
 
+class Bumps;
+class Glass;
 class LayeredSurface;
 class OwnSurface;
 struct MaterialModel;
@@ -48,7 +50,10 @@ class BakeScene {
     const Bins& reflectance() const { return reflectance_; }  ///< of a body with a colour
     const LayeredSurface& layers() const { return *layers_; } ///< only of a layered material
     const OwnSurface* own() const { return own_.get(); } ///< only of a material that is of the file's surface
-    const Bins& coat_absorbance() const { return coat_absorbance_; } ///< per unit of length
+    bool has_coat() const { return material_.kind == MaterialKind::coated_conductor; }
+    const Glass* glass() const { return glass_.get(); }    ///< null: light does not go through
+    const Bumps* bumps() const { return bumps_.get(); }    ///< null: the surface is as smooth as its mesh
+    const Bins& absorbance() const { return absorbance_; } ///< of coat or glass, per unit of length
 
   private:
     MaterialSettings material_;
@@ -57,11 +62,13 @@ class BakeScene {
     float radius_ = 1.0f;
     bool is_closed_ = false;
     ConductorTable metal_;
-    Bins reflectance_, coat_absorbance_;
+    Bins reflectance_, absorbance_;
     std::unique_ptr<TracedSurface> body_surface_, coat_surface_; // the trees hold their addresses
     std::unique_ptr<SurfaceTree> tree_, coat_body_;
     std::unique_ptr<LayeredSurface> layers_;
     std::unique_ptr<OwnSurface> own_;
+    std::unique_ptr<Bumps> bumps_;
+    std::unique_ptr<Glass> glass_;
 };
 
 } // namespace overt

@@ -64,6 +64,7 @@ struct FrameWork {
     BakeSettings settings;
     float turn;
     std::optional<glm::mat3> world_from_object; ///< see PathTracer
+    std::vector<LightSource> sources;           ///< likewise
 
     /// Samples first … last - 1 of one pixel.
     void sample(PathTracer& tracer, Film& film, std::size_t index, std::uint32_t first,
@@ -112,7 +113,8 @@ SpectralFrame bake_frame(const BakeScene& scene, const SpectralLight& light, con
         PixelSampling(settings.filter, settings.filter_width_px),
         settings,
         light.share_of_turn(object.is_turn() ? object.angle : Degrees{0.0}),
-        object.is_turn() ? std::nullopt : std::optional(glm::mat3(view.pose_at(object).world_from_object()))};
+        object.is_turn() ? std::nullopt : std::optional(glm::mat3(view.pose_at(object).world_from_object())),
+        light.sources_at(object)};
     ProgressReport report(progress, static_cast<double>(film.count()) * settings.samples);
     std::atomic<std::uint64_t> rays{0};
     std::vector<std::uint32_t> active(film.count());
@@ -128,7 +130,7 @@ SpectralFrame bake_frame(const BakeScene& scene, const SpectralLight& light, con
                 if (report.is_stopped())
                     return;
                 PathTracer tracer(scene, light, work.turn,
-                                  work.world_from_object ? &*work.world_from_object : nullptr);
+                                  work.world_from_object ? &*work.world_from_object : nullptr, work.sources);
                 const std::size_t begin = static_cast<std::size_t>(number) * batch;
                 const std::size_t end = std::min(begin + batch, active.size());
                 for (std::size_t i = begin; i < end; ++i)

@@ -16,11 +16,15 @@ const MaterialModel& model_of(MaterialKind kind) {
     return models[static_cast<std::size_t>(kind)]();
 }
 
-const MaterialModel& rough_metal_with_all_light(); // material_rough_conductor.cpp
+// material_rough_conductor.cpp
+const MaterialModel& rough_metal_with_all_light();
+const MaterialModel& brushed_metal();
 
 const MaterialModel& model_of(const MaterialSettings& material) {
-    if (material.is_of_file())
+    if (material.is_own())
         return material_model<MaterialKind::own>();
+    if (material.kind == MaterialKind::rough_conductor && material.anisotropy > 0.0)
+        return brushed_metal();
     return material.kind == MaterialKind::rough_conductor && material.multiple_scattering
                ? rough_metal_with_all_light()
                : model_of(material.kind);

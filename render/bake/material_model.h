@@ -32,7 +32,8 @@ struct LiveApproximation {
 
 struct MaterialModel {
     /// Gives the direction in which a path goes on from a surface, and takes from `carried` what the surface
-    /// does not send on; (0, 0, 0) ends the path. Null: the body is a smooth metal under a coat (PathTracer).
+    /// does not send on; (0, 0, 0) ends the path. Null: the
+    /// path goes into what is met, a coat or glass (PathTracer).
     glm::vec3 (*scatter)(const BakeScene& scene, const SurfaceEvent& event, SampleSequence& sequence,
                          Bins& carried);
 
@@ -50,8 +51,6 @@ struct MaterialModel {
     bool scatters;    ///< no two samples go the same way: a picture needs more of them
     double path_cost; ///< time of a path, that of a smooth metal being 1
     LiveApproximation live;
-
-    bool has_coat() const { return scatter == nullptr; }
 };
 
 /// The model of a kind: defined once for each, in material_….cpp. A kind without one does not link.
@@ -59,7 +58,8 @@ template <MaterialKind kind> const MaterialModel& material_model();
 
 const MaterialModel& model_of(MaterialKind kind);
 
-/// The same, but of a rough metal with all light between its mirrors the one that has it, and of a material
+/// The same, but of a rough metal that is brushed, or has all light between its mirrors, the one that has
+/// that, and of a material
 /// with base = own that of `own`, whose surface then is as the kind has it (OwnSurface).
 const MaterialModel& model_of(const MaterialSettings& material);
 

@@ -33,6 +33,39 @@ NormalFrame::NormalFrame(glm::vec3 of_normal) : normal(of_normal) {
     bitangent = {b, sign + normal.y * normal.y * a, -normal.y};
 }
 
+NormalFrame::NormalFrame(glm::vec3 of_normal, glm::vec3 along) : NormalFrame(of_normal) {
+    const glm::vec3 flat = along - glm::dot(along, normal) * normal;
+    const float length = glm::length(flat);
+    if (!(length > 1e-4f))
+        return;
+    tangent = flat / length;
+    bitangent = glm::cross(normal, tangent);
+}
+
+float ggx_visible_share(glm::vec3 direction, GgxWidths alpha) {
+    if (direction.z <= 0.0f)
+        return 0.0f;
+    const float x = alpha.along * direction.x, y = alpha.across * direction.y;
+    return 2.0f / (1.0f + std::sqrt(1.0f + (x * x + y * y) / (direction.z * direction.z)));
+}
+
+float ggx_density(glm::vec3 micro_normal, GgxWidths alpha) {
+    if (micro_normal.z <= 0.0f)
+        return 0.0f;
+    const float x = micro_normal.x / alpha.along, y = micro_normal.y / alpha.across;
+    const float stretched = x * x + y * y + micro_normal.z * micro_normal.z;
+    return 1.0f / (pi * alpha.along * alpha.across * stretched * stretched);
+}
+
+glm::vec3 ggx_visible_normal(glm::vec3 towards_eye, GgxWidths alpha, glm::vec2 place) {
+    // Seen from a hemisphere of stretched mirrors, as for one width (there with alpha 1).
+    const glm::vec3 eye =
+        glm::normalize(glm::vec3(alpha.along * towards_eye.x, alpha.across * towards_eye.y, towards_eye.z));
+    const glm::vec3 normal = ggx_visible_normal(eye, 1.0f, place);
+    return glm::normalize(
+        glm::vec3(alpha.along * normal.x, alpha.across * normal.y, std::max(1e-6f, normal.z)));
+}
+
 float ggx_visible_share(glm::vec3 direction, float alpha) {
     if (direction.z <= 0.0f)
         return 0.0f;

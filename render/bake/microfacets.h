@@ -10,6 +10,9 @@ namespace overt {
 struct NormalFrame {
     glm::vec3 tangent, bitangent, normal;
     explicit NormalFrame(glm::vec3 of_normal);
+    /// With its tangent along a direction in the surface, as near as may be to `along`; any, where that is
+    /// the normal's.
+    NormalFrame(glm::vec3 of_normal, glm::vec3 along);
     glm::vec3 to_local(glm::vec3 v) const { return {dot(v, tangent), dot(v, bitangent), dot(v, normal)}; }
     glm::vec3 to_world(glm::vec3 v) const { return v.x * tangent + v.y * bitangent + v.z * normal; }
 };
@@ -29,6 +32,16 @@ glm::vec3 ggx_visible_normal(glm::vec3 towards_eye, float alpha, glm::vec2 place
 /// Density per solid angle with which the mirrors that are seen from `to_eye` lead on in `out`, both in the
 /// local frame: G1(v) D(h) / (4 cos_v) (Walter et al. 2007, eq. 14; Heitz 2018).
 float ggx_mirror_density(glm::vec3 to_eye, glm::vec3 out, float alpha);
+
+/// Roughness along the tangent and across it, of what is brushed.
+struct GgxWidths {
+    float along = 0.1f, across = 0.1f;
+};
+
+// The same functions for mirrors that are spread unlike along and across.
+float ggx_visible_share(glm::vec3 direction, GgxWidths alpha);
+float ggx_density(glm::vec3 micro_normal, GgxWidths alpha);
+glm::vec3 ggx_visible_normal(glm::vec3 towards_eye, GgxWidths alpha, glm::vec2 place);
 
 /// Direction with density cosine / pi about +z.
 glm::vec3 cosine_direction(glm::vec2 place);

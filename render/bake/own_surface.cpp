@@ -75,7 +75,7 @@ OwnSurface::OwnSurface(std::shared_ptr<const SurfaceAppearance> appearance, cons
     if (material.kind == MaterialKind::plastic)
         metallic_ = 0.0f;
     else if (material.kind == MaterialKind::metallic_roughness)
-        metallic_ = static_cast<float>(material.metallic);
+        metallic_ = static_cast<float>(material.given_metallic());
     if (has_own_roughness_) {
         level_of_step_.assign(roughness_steps + 1, 0);
         for (const std::size_t step : steps_of(*appearance_)) {
@@ -83,6 +83,18 @@ OwnSurface::OwnSurface(std::shared_ptr<const SurfaceAppearance> appearance, cons
             const float roughness = static_cast<float>(step) / roughness_steps;
             levels_.push_back({usable_alpha(roughness * roughness), {}, {}, {}});
         }
+        Given given;
+        if (material.reflectance)
+            given.colour = glm::vec3(*material.reflectance);
+        if (material.metallic)
+            given.metallic = static_cast<float>(*material.metallic);
+        if (material.roughness) {
+            given.level = levels_.size();
+            levels_.push_back({usable_alpha(material.alpha()), {}, {}, {}});
+        }
+        if (given.colour || given.metallic || given.level)
+            for (const bool is_given : given_materials(material, *appearance_))
+                given_.push_back(is_given ? given : Given());
     } else {
         levels_.push_back({usable_alpha(material.alpha()), {}, {}, {}});
     }
@@ -104,13 +116,21 @@ OwnSurface::OwnSurface(std::shared_ptr<const SurfaceAppearance> appearance, cons
             });
         }
     });
-    if (material.kind == MaterialKind::metallic_roughness)
+    if (material.kind == MaterialKind::metallic_roughness || material.kind == MaterialKind::own)
         coat_ = clear_coat_of(material);
 }
 
 OwnPoint OwnSurface::point(std::uint32_t triangle, glm::vec2 place) const {
-    const SurfaceLook look = look_at(*appearance_, triangle, place);
+    SurfaceLook look = look_at(*appearance_, triangle, place);
     OwnPoint point;
+    std::optional<std::size_t> level;
+    if (!given_.empty()) {
+        const Given& given =
+            given_[appearance_->triangle_materials.empty() ? 0 : appearance_->triangle_materials[triangle]];
+        look.colour = given.colour.value_or(look.colour);
+        look.metallic = given.metallic.value_or(look.metallic);
+        level = given.level;
+    }
     add_lit(point.colour, Bins::filled(1.0f), basis_, look.colour);
     for (float& value : point.colour.value) {
         value = std::clamp(value, 0.0f, 1.0f);
@@ -119,7 +139,7 @@ OwnPoint OwnSurface::point(std::uint32_t triangle, glm::vec2 place) const {
     }
     point.metallic = metallic_.value_or(look.metallic);
     if (has_own_roughness_ && !is_matt_)
-        point.level = level_of_step_[step_of(look.roughness)];
+        point.level = level ? *level : level_of_step_[step_of(look.roughness)];
     return point;
 }
 
@@ -239,22 +259,39 @@ void OwnSurface::take(const SurfaceEvent& event, glm::vec3 onward, Bins& carried
     scale(carried, cosine / per_steradian);
 }
 
+std::vector<bool> given_materials(const MaterialSettings& material, const SurfaceAppearance& appearance) {
+    std::vector<bool> given(std::max<std::size_t>(appearance.materials.size(), 1), material.of.empty());
+    for (std::size_t i = 0; i < appearance.materials.size(); ++i)
+        given[i] =
+            given[i] || std::ranges::find(material.of, appearance.materials[i].name) != material.of.end();
+    return given;
+}
+
 MaterialSettings on_average(const MaterialSettings& material, const SurfaceAppearance& appearance,
                             const Mesh& mesh) {
     MaterialSettings mean = material;
     double area = 0.0, metallic = 0.0, roughness = 0.0;
     glm::dvec3 colour(0.0);
-    for (const MeanLook& of : mean_looks(appearance, mesh)) {
+    const std::vector<MeanLook> looks = mean_looks(appearance, mesh);
+    const std::vector<bool> given = given_materials(material, appearance);
+    const bool is_own = material.kind == MaterialKind::own;
+    for (std::size_t i = 0; i < looks.size(); ++i) {
+        const MeanLook& of = looks[i];
+        const bool may_be_given = is_own && given[i];
         area += of.area;
-        colour += of.area * glm::dvec3(of.look.colour);
-        metallic += of.area * static_cast<double>(of.look.metallic);
-        roughness += of.area * static_cast<double>(of.look.roughness);
+        colour += of.area *
+                  (may_be_given && material.reflectance ? *material.reflectance : glm::dvec3(of.look.colour));
+        metallic += of.area * (may_be_given && material.metallic ? *material.metallic
+                                                                 : static_cast<double>(of.look.metallic));
+        roughness += of.area * (may_be_given && material.roughness ? *material.roughness
+                                                                   : static_cast<double>(of.look.roughness));
     }
     if (!(area > 0.0))
         return mean;
-    mean.reflectance = {colour.x / area, colour.y / area, colour.z / area};
+    mean.reflectance = colour / area;
     mean.base = MaterialBase::given;
-    if (material.kind == MaterialKind::own) {
+    mean.bumps = MaterialBumps::none;
+    if (is_own) {
         mean.kind = MaterialKind::metallic_roughness;
         mean.metallic = metallic / area;
         mean.roughness = std::max(0.001, roughness / area);

@@ -53,11 +53,22 @@ class OwnSurface {
     float ior_ = 1.5f, inner_ = 0.0f;
     std::optional<float> metallic_; ///< of the protocol, in place of the file's
     bool has_own_roughness_ = true;
+    /// What a material of kind `own` gives in place of what the file says.
+    struct Given {
+        std::optional<glm::vec3> colour;
+        std::optional<float> metallic;
+        std::optional<std::size_t> level; ///< of roughness
+    };
+    std::vector<Given> given_; ///< for each of the file's materials; empty: nothing
     std::vector<Level> levels_;
     std::vector<std::size_t> level_of_step_;
     std::optional<LayeredSurface::Mirrors> coat_;
     std::array<Bins, 3> basis_; ///< reflectances of linear red, green and blue
 };
+
+/// For each of the file's materials (for one, where it has none) whether it is among those that the
+/// properties hold for that are given in place of the file's (MaterialSettings::of).
+std::vector<bool> given_materials(const MaterialSettings& material, const SurfaceAppearance& appearance);
 
 /// What a material of the file's is where one colour has to stand for all: the mean over the surface.
 MaterialSettings on_average(const MaterialSettings& material, const SurfaceAppearance& appearance,

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "render/bake/bumps.h"
+#include "render/bake/glass.h"
 #include "render/bake/material_model.h"
 #include "render/bake/own_surface.h"
 
@@ -57,7 +59,7 @@ bool goes_on(Bins& carried, float set_out, SampleSequence& sequence) {
 
 bool PathTracer::add_sample(const PathRay& from_eye, SampleSequence& sequence, Bins& sum) {
     ++rays_;
-    if (scene_->model().has_coat()) {
+    if (scene_->has_coat()) {
         if (scene_->body_tree().first_distance(from_eye, true) < 0.0f)
             return false;
         CoatedPath path{from_eye, Bins::filled(1.0f)};
@@ -67,6 +69,11 @@ bool PathTracer::add_sample(const PathRay& from_eye, SampleSequence& sequence, B
     const SurfaceHit hit = scene_->tree().first_hit(from_eye, no_limit, true);
     if (hit.surface < 0)
         return false;
+    if (scene_->glass()) {
+        GlassPath path{from_eye, Bins::filled(1.0f)};
+        follow_glass(path, hit, sequence, sum);
+        return true;
+    }
     follow(hit, from_eye, sequence, sum);
     return true;
 }
@@ -74,12 +81,15 @@ bool PathTracer::add_sample(const PathRay& from_eye, SampleSequence& sequence, B
 void PathTracer::follow(SurfaceHit hit, PathRay ray, SampleSequence& sequence, Bins& sum) {
     Bins carried = Bins::filled(1.0f);
     const bool aims = light_->aim() != nullptr && scene_->model().density != nullptr;
+    const bool aims_at_sources = !sources_.empty() && scene_->model().density != nullptr;
     const OwnSurface* const own = scene_->own();
+    const Bumps* const bumps = scene_->bumps();
     OwnPoint point;
     // Density of the path's direction where it could have been aimed, too; 0: where not.
     float density = 0.0f;
     for (int event = 0; event < most_events; ++event) {
-        glm::vec3 surface_normal = hit.triangle_normal, normal = hit.shading_normal;
+        glm::vec3 surface_normal = hit.triangle_normal,
+                  normal = bumps ? bumps->normal_at(hit) : hit.shading_normal;
         const bool from_behind = glm::dot(surface_normal, ray.direction) > 0.0f;
         if (from_behind) {
             surface_normal = -surface_normal;
@@ -97,10 +107,12 @@ void PathTracer::follow(SurfaceHit hit, PathRay ray, SampleSequence& sequence, B
             }
             if (aims)
                 add_aimed(surface, hit, surface_normal, carried, sequence, sum);
+            if (aims_at_sources)
+                add_sources(surface, hit, surface_normal, carried, sequence, sum);
             const glm::vec3 onward = scene_->model().scatter(*scene_, surface, sequence, carried);
             if (onward == glm::vec3(0.0f))
                 return;
-            if (aims) {
+            if (aims || aims_at_sources) {
                 density = is_above(onward, surface_normal) ? scene_->model().density(*scene_, surface, onward)
                                                            : 0.0f;
             }
@@ -111,9 +123,11 @@ void PathTracer::follow(SurfaceHit hit, PathRay ray, SampleSequence& sequence, B
         }
         ++rays_;
         hit = scene_->tree().first_hit(ray, no_limit, false);
+        if (!sources_.empty())
+            add_met_sources(ray, hit.surface < 0 ? no_limit : hit.distance, density, carried, sum);
         if (hit.surface < 0) {
             glm::vec3 light = light_towards(ray.direction);
-            if (density > 0.0f)
+            if (aims && density > 0.0f)
                 light *= density / (density + light_->aim()->density(in_light(ray.direction), turn_));
             add_lit(sum, carried, light_->basis(), light);
             return;
@@ -143,16 +157,50 @@ void PathTracer::add_aimed(const SurfaceEvent& event, const SurfaceHit& hit, glm
     add_lit(sum, passed, light_->basis(), share * light);
 }
 
+void PathTracer::add_sources(const SurfaceEvent& event, const SurfaceHit& hit, glm::vec3 surface_normal,
+                             const Bins& carried, SampleSequence& sequence, Bins& sum) {
+    const glm::vec3 from = hit.position + scene_->step_off() * surface_normal;
+    for (const LightSource& source : sources_) {
+        const LightSource::Aim aim = source.aim(from, sequence.next_two());
+        if (!(aim.density > 0.0f) || !is_above(aim.direction, surface_normal))
+            continue;
+        const float own = scene_->model().density(*scene_, event, aim.direction);
+        if (own <= 0.0f)
+            continue;
+        ++rays_;
+        const float hidden_at = scene_->tree().first_distance({from, aim.direction}, false);
+        if (hidden_at >= 0.0f && hidden_at < aim.distance)
+            continue;
+        Bins passed = carried;
+        scene_->model().take(*scene_, event, aim.direction, passed);
+        add_lit(sum, passed, light_->basis(), own / (own + aim.density) * source.light);
+    }
+}
+
+void PathTracer::add_met_sources(const PathRay& ray, float distance, float density, const Bins& carried,
+                                 Bins& sum) {
+    for (const LightSource& source : sources_) {
+        const float at = source.met_at(ray.origin, ray.direction);
+        if (!(at > 0.0f && (at < distance || (at == no_limit && distance == no_limit))))
+            continue;
+        const float share =
+            density > 0.0f ? density / (density + source.density(ray.origin, ray.direction, at)) : 1.0f;
+        add_lit(sum, carried, light_->basis(), share * source.light);
+    }
+}
+
 void PathTracer::follow_coated(CoatedPath& path, SampleSequence sequence, Bins& sum) {
     for (int event = 0; event < most_events; ++event) {
         ++rays_;
         const SurfaceHit hit = scene_->tree().first_hit(path.ray, no_limit, event == 0 && !path.has_split);
+        if (!sources_.empty() && path.has_split) // the eye itself sees none
+            add_met_sources(path.ray, hit.surface < 0 ? no_limit : hit.distance, 0.0f, path.carried, sum);
         if (hit.surface < 0) {
             add_lit(sum, path.carried, light_->basis(), light_towards(path.ray.direction));
             return;
         }
         if (path.layers > 0)
-            absorb(path.carried, scene_->coat_absorbance(), hit.distance);
+            absorb(path.carried, scene_->absorbance(), hit.distance);
         if (hit.surface == BakeScene::coat) {
             if (!meet_coat(path, hit, sequence, sum))
                 return;
@@ -167,6 +215,64 @@ void PathTracer::follow_coated(CoatedPath& path, SampleSequence sequence, Bins& 
             path.ray.origin = hit.position + scene_->step_off() * hit.triangle_normal;
         }
         if (!goes_on(path.carried, path.set_out, sequence))
+            return;
+    }
+}
+
+void PathTracer::follow_glass(GlassPath& path, SurfaceHit hit, SampleSequence sequence, Bins& sum) {
+    const Glass& glass = *scene_->glass();
+    for (int event = 0; event < most_events; ++event) {
+        if (event > 0 || path.has_split) {
+            ++rays_;
+            hit = scene_->tree().first_hit(path.ray, no_limit, false);
+            if (!sources_.empty())
+                add_met_sources(path.ray, hit.surface < 0 ? no_limit : hit.distance, 0.0f, path.carried, sum);
+            if (hit.surface < 0) {
+                add_lit(sum, path.carried, light_->basis(), light_towards(path.ray.direction));
+                return;
+            }
+        }
+        const bool enters = glm::dot(hit.triangle_normal, path.ray.direction) < 0.0f;
+        if (!enters)
+            absorb(path.carried, scene_->absorbance(), hit.distance);
+        const float side = enters ? 1.0f : -1.0f;
+        const glm::vec3 surface_normal = side * hit.triangle_normal, to_eye = -path.ray.direction;
+        const GlassMeeting met = glass.meet(to_eye, facing(side * hit.shading_normal, to_eye), surface_normal,
+                                            enters, path.band, sequence);
+        const auto go_back = [&](GlassPath& back, float chance) {
+            multiply(back.carried, met.mirrored);
+            scale(back.carried, met.mirrored_share / chance);
+            back.ray = {hit.position + scene_->step_off() * surface_normal, above(met.back, surface_normal)};
+        };
+        if (!met.goes_through) {
+            go_back(path, 1.0f);
+        } else {
+            float chance_through = 1.0f;
+            bool is_back = false;
+            if (!path.has_split) {
+                // Both ways once, at the first meeting, as for a coat.
+                path.has_split = true;
+                GlassPath mirrored = path;
+                go_back(mirrored, 1.0f);
+                mirrored.set_out = mirrored.carried.largest();
+                if (mirrored.set_out > 0.0f)
+                    follow_glass(mirrored, hit, sequence, sum);
+            } else {
+                is_back = sequence.next() < met.chance_back;
+                chance_through = 1.0f - met.chance_back;
+            }
+            if (is_back) {
+                go_back(path, met.chance_back);
+            } else {
+                multiply(path.carried, met.passed);
+                scale(path.carried, met.passed_share / chance_through);
+                path.ray = {hit.position - scene_->step_off() * surface_normal, met.through};
+                if (met.band != path.band) // one colour stands for all from here on
+                    path.set_out *= static_cast<float>(spectral_bins);
+                path.band = met.band;
+            }
+        }
+        if (!(path.carried.largest() > 0.0f) || !goes_on(path.carried, path.set_out, sequence))
             return;
     }
 }

@@ -5,7 +5,9 @@
 #include <numbers>
 
 #include <fmt/format.h>
+#include <glm/gtc/matrix_transform.hpp>
 
+#include "experiment/scene/viewing.h"
 #include "render/bake/light_colour.h"
 
 namespace overt {
@@ -21,7 +23,9 @@ LightProbe unturned_probe(LightSettings light) {
 } // namespace
 
 SpectralLight::SpectralLight(const LightSettings& light)
-    : SpectralLight(unturned_probe(light), light.exposure, light.rotation_deg) {}
+    : SpectralLight(unturned_probe(light), light.exposure, light.rotation_deg) {
+    sources_ = light_sources(light);
+}
 
 SpectralLight::SpectralLight(const LightProbe& probe, double exposure, double rotation_deg)
     : size_(probe.radiance.size_px), stride_(size_.x + 2), exposure_(exposure), rotation_deg_(rotation_deg) {
@@ -50,6 +54,16 @@ SpectralLight::SpectralLight(const LightProbe& probe, double exposure, double ro
 float SpectralLight::share_of_turn(Degrees angle) const {
     const double turn = (rotation_deg_ + turn_deg_ - angle.value) / 360.0 + 0.5;
     return static_cast<float>(turn - std::floor(turn));
+}
+
+std::vector<LightSource> SpectralLight::sources_at(const ObjectPose& object) const {
+    if (sources_.empty())
+        return {};
+    const glm::dmat3 turned(glm::rotate(glm::dmat4(1.0), to_radians({rotation_deg_ + turn_deg_}).value,
+                                        glm::dvec3(0.0, 0.0, 1.0)));
+    const glm::dmat3 object_from_world =
+        glm::transpose(glm::dmat3(TurntablePose{glm::dvec3(0.0), object}.world_from_object()));
+    return moved(sources_, object_from_world * turned, -(object_from_world * object.shift));
 }
 
 glm::vec3 SpectralLight::towards(glm::vec3 direction, float turn) const {

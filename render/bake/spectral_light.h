@@ -8,6 +8,7 @@
 
 #include "experiment/protocol/protocol.h"
 #include "render/bake/light_aim.h"
+#include "render/bake/light_sources.h"
 #include "render/bake/spectral_bins.h"
 #include "render/image/light_probe.h"
 
@@ -34,6 +35,10 @@ class SpectralLight {
     /// Where paths are aimed at, or null where the light is broad: LightAim::pays.
     const LightAim* aim() const { return aim_ ? &*aim_ : nullptr; }
 
+    /// The sun and the lamps that shine besides, as an object has them that stands so, about the
+    /// centre of its box: turned as the light is, and seen from the object's own coordinates.
+    std::vector<LightSource> sources_at(const ObjectPose& object) const;
+
     /// For comparisons: paths find sources by chance alone.
     void aim_nowhere() { aim_.reset(); }
 
@@ -53,6 +58,7 @@ class SpectralLight {
     int stride_ = 0;     ///< texels of a row, with a column more at each side
     std::vector<glm::vec4> texels_;
     std::optional<LightAim> aim_;
+    std::vector<LightSource> sources_; ///< see light_sources()
     RgbBasis basis_;
     double exposure_ = 1.0;
     double rotation_deg_ = 0.0, turn_deg_ = 0.0;

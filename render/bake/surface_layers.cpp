@@ -99,7 +99,7 @@ LayeredSurface rough_metal_surface(const MaterialSettings& material, const Condu
 LayeredSurface metallic_roughness_surface(const MaterialSettings& material, const Bins& reflectance) {
     LayeredSurface surface;
     const double alpha = usable(material.alpha()), ior = material.ior;
-    const auto metallic = static_cast<float>(material.metallic);
+    const auto metallic = static_cast<float>(material.given_metallic());
     // Schlick's curve from the colour at normal incidence to white (glTF 2.0, appendix B).
     const ConductorTable metal([&](double cosine) {
         const auto rise = static_cast<float>(std::pow(1.0 - cosine, 5));

@@ -139,6 +139,8 @@ LightProbe load_light_probe(const LightSettings& light) {
         probe = overcast_city_probe();
     } else if (light.probe == "gallery") {
         probe = gallery_probe();
+    } else if (light.probe == "dark") {
+        probe.radiance = LinearImage({64, 32});
     } else {
         probe.radiance = read_linear_image(light.probe, FrameEncoding::linear, FileColours::as_rec709);
         const glm::ivec2 size = probe.radiance.size_px;

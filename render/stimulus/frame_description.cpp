@@ -14,8 +14,27 @@ namespace {
 
 std::string text_of(glm::dvec3 vector) { return fmt::format("{} {} {}", vector.x, vector.y, vector.z); }
 
-/// The value of a key of a material, as its file has it.
+/// The value of a key of a material, as its file has it; empty where the key is left out and nothing stands
+/// in its place.
 std::string text_of(const Key& key, const MaterialSettings& material) {
+    const bool has_usual = material.kind != MaterialKind::own && material.kind != MaterialKind::glass;
+    if (key.rule.name == "roughness")
+        return material.roughness || has_usual ? fmt::format("{}", material.given_roughness()) : "";
+    if (key.rule.name == "metallic")
+        return material.metallic || has_usual ? fmt::format("{}", material.given_metallic()) : "";
+    if (key.rule.name == "reflectance") {
+        const glm::dvec3 of = material.given_reflectance();
+        return material.reflectance || has_usual ? fmt::format("[{}, {}, {}]", of.x, of.y, of.z) : "";
+    }
+    if (key.rule.name == "bumps") // frames without describe themselves as they did before the key
+        return material.has_own_bumps() ? "own" : "";
+    if ((key.rule.name == "film_ior" && !material.film_nm) ||
+        ((key.rule.name == "anisotropy" || key.rule.name == "brushed") && !(material.anisotropy > 0.0)))
+        return ""; // likewise
+    if (key.rule.name == "of")
+        return fmt::format("{}", fmt::join(material.of, " "));
+    if (const auto* number = key.get_if<std::optional<double>>(&material))
+        return *number ? fmt::format("{}", **number) : "";
     if (const auto* text = key.get_if<std::string>(&material))
         return *text;
     if (const auto* number = key.get_if<double>(&material))
@@ -33,12 +52,40 @@ std::string text_of(const MaterialSettings& material) {
     const MaterialKindRow& row = row_of(material.kind);
     std::string text = fmt::format("kind = {}", row.name);
     for (const std::string_view name : row.keys) {
-        if (name == "base" && !material.is_of_file())
+        if (name == "base" && !material.is_own())
             continue; // frames describe themselves as they did before the key
         for (const Key& key : protocol_keys().section("material").keys) {
-            if (key.rule.name == name)
-                text += fmt::format(", {} = {}", name, text_of(key, material));
+            if (const std::string value = key.rule.name == name ? text_of(key, material) : ""; !value.empty())
+                text += fmt::format(", {} = {}", name, value);
         }
+    }
+    return text;
+}
+
+/// What a light is, as frames say it: the name of its probe, or what is added up.
+std::string name_of_light(const LightSettings& light) {
+    std::string sum;
+    for (const auto& [id, share] : light.sum)
+        sum += fmt::format("{}{} x {}", sum.empty() ? "" : " + ", share, id);
+    return light.sum.empty() ? light.probe : sum;
+}
+
+/// Its sun and lamps, as their keys have them.
+std::string text_of_sources(const LightSettings& light) {
+    std::string text = fmt::format("unit {} cd/m2", light.unit_cd_m2.value_or(1.0));
+    if (light.sun_lux)
+        text += fmt::format("; sun {} lx, azimuth {} deg, elevation {} deg, radius {} deg, colour {}",
+                            *light.sun_lux, light.sun_azimuth_deg, light.sun_elevation_deg,
+                            light.sun_radius_deg, fmt::join(light.sun_colour, " "));
+    for (const LampSettings& lamp : light.shining) {
+        const glm::dvec3 none(0.0);
+        text += fmt::format("; {} {} {} cd/m2, colour {}, at {}", name_of(lamp.shape), lamp.id,
+                            lamp.cd_m2.value_or(0.0), fmt::join(lamp.colour, " "),
+                            text_of(lamp.position.value_or(none)));
+        if (lamp.shape != LampShape::sphere)
+            text += fmt::format(", faces {}", text_of(lamp.faces.value_or(none)));
+        text += lamp.shape == LampShape::rectangle ? fmt::format(", {} x {}", lamp.width, lamp.height)
+                                                   : fmt::format(", radius {}", lamp.radius);
     }
     return text;
 }
@@ -61,8 +108,10 @@ ImageAttributes describe_stimulus(const Protocol& protocol, std::span<const Obje
         {"overt:camera_position", text_of(camera.position)},
         {"overt:camera_target", text_of(camera.target)},
         {"overt:camera_vertical_fov_deg", fmt::format("{}", camera.vertical_fov.value)},
-        {"overt:light", light.probe},
+        {"overt:light", name_of_light(light)},
         {"overt:light_rotation_deg", fmt::format("{}", light.rotation_deg + pose.light.value)}};
+    if (light.has_sources())
+        words.emplace_back("overt:light_sources", text_of_sources(light));
     if (material.is_of_file() && object.appearance)
         words.emplace_back("overt:surface_sha256", object.appearance_hash);
     if (!pose.object.is_turn())

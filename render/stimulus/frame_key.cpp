@@ -2,7 +2,10 @@
 
 #include "experiment/spectra/metal_table.h"
 #include "render/bake/frame_baker.h"
+#include "render/bake/glass.h"
+#include "render/bake/light_sources.h"
 #include "render/bake/own_surface.h"
+#include "render/bake/thin_film.h"
 #include "render/image/gallery_probe.h"
 #include "render/stimulus/stimulus_renderer.h"
 
@@ -34,28 +37,47 @@ void add_to(ContentHasher& hasher, const SceneView& scene) {
 }
 
 void add_to(ContentHasher& hasher, const MaterialSettings& material) {
-    static_assert(value_count<MaterialSettings>() == 19, "what was added counts here, or is of no light");
+    static_assert(value_count<MaterialSettings>() == 27, "what was added counts here, or is of no light");
     const MaterialSettings& m = material;
     hasher.add(static_cast<int>(m.kind))
         .add(std::string_view(is_metal_file(m.metal) ? hash_of_file(m.metal) : m.metal));
-    for (const double number : {m.roughness, m.coat_ior, m.coat_thickness, m.coat_bump, m.coat_bump_width})
+    for (const double number :
+         {m.given_roughness(), m.coat_ior, m.coat_thickness, m.coat_bump, m.coat_bump_width})
         hasher.add(number);
     for (const double number : m.coat_absorbance)
         hasher.add(number);
     hasher.add(m.coat_seed);
-    for (const double number : m.reflectance)
-        hasher.add(number);
+    const glm::dvec3 reflectance = m.given_reflectance();
+    hasher.add(reflectance.x).add(reflectance.y).add(reflectance.z);
     // Frames that were there before these keys keep their names.
     if (m.multiple_scattering)
         hasher.add(std::string_view("multiple scattering")).add(layered_surface_version);
     if (row_of(m.kind).has_key("ior")) {
         hasher.add(layered_surface_version).add(static_cast<int>(m.roughness_as));
         hasher.add(static_cast<int>(m.body));
-        for (const double number : {m.ior, m.metallic, m.clear_coat, m.clear_coat_roughness})
+        for (const double number : {m.ior, m.given_metallic(), m.clear_coat, m.clear_coat_roughness})
             hasher.add(number);
     }
-    if (m.is_of_file())
+    if (m.is_own())
         hasher.add(std::string_view("of the file")).add(static_cast<int>(m.base)).add(own_surface_version);
+    if (m.is_of_file())
+        hasher.add(std::string_view(m.has_own_bumps() ? "its bumps" : "no bumps"));
+    if (m.kind == MaterialKind::own) {
+        for (const bool is_given :
+             {m.reflectance.has_value(), m.metallic.has_value(), m.roughness.has_value()})
+            hasher.add(is_given ? 1 : 0);
+        for (const std::string& name : m.of)
+            hasher.add(std::string_view(name));
+    }
+    if (row_of(m.kind).has_key("film_nm") && m.film_nm)
+        hasher.add(std::string_view("film")).add(thin_film_version).add(*m.film_nm).add(m.film_ior);
+    if (m.kind == MaterialKind::rough_conductor && m.anisotropy > 0.0)
+        hasher.add(std::string_view("brushed")).add(m.anisotropy).add(static_cast<int>(m.brushed));
+    if (m.kind == MaterialKind::glass) {
+        hasher.add(glass_version).add(m.roughness.has_value() ? 1 : 0).add(m.abbe.value_or(0.0));
+        for (const double number : m.absorbance)
+            hasher.add(number);
+    }
 }
 
 void add_to(ContentHasher& hasher, const BakeSettings& settings) {
@@ -65,12 +87,35 @@ void add_to(ContentHasher& hasher, const BakeSettings& settings) {
 }
 
 Surroundings::Surroundings(const LightSettings& settings)
-    : light(settings), content(settings.is_file() ? hash_of_file(settings.probe) : settings.probe) {}
+    : light(settings), content(settings.is_file() ? hash_of_file(settings.probe) : settings.probe) {
+    for (const LightSettings& part : settings.parts)
+        parts.emplace_back(part);
+}
+
+namespace {
+
+void add_to(ContentHasher& hasher, const LampSettings& lamp) {
+    const auto& [id, shape, cd_m2, colour, position, faces, width, height, radius] = lamp;
+    hasher.add(static_cast<int>(shape)).add(cd_m2.value_or(0.0)).add(width).add(height).add(radius);
+    for (const double number : colour)
+        hasher.add(number);
+    for (const glm::dvec3& place : {position.value_or(glm::dvec3(0.0)), faces.value_or(glm::dvec3(0.0))})
+        hasher.add(place.x).add(place.y).add(place.z);
+}
+
+} // namespace
 
 ContentHash hash_of_surroundings(const Surroundings& surroundings, Degrees turn) {
     const LightSettings& light = surroundings.light;
-    static_assert(value_count<LightSettings>() == 4, "what was added counts here, or is the exposure");
+    static_assert(value_count<LightSettings>() == 14, "what was added counts here, or is the exposure");
     ContentHasher hasher;
+    if (!surroundings.parts.empty()) {
+        hasher.add(std::string_view("sum"));
+        for (std::size_t i = 0; i < surroundings.parts.size(); ++i)
+            hasher.add(light.sum[i].second)
+                .add(std::string_view(hash_of_surroundings(surroundings.parts[i], turn)));
+        return hasher.finish();
+    }
     hasher.add(std::string_view(surroundings.content)).add(light.rotation_deg + turn.value);
     // The overcast sky is as it always was, and no path is aimed in it.
     if (light.probe == "gallery")
@@ -79,6 +124,15 @@ ContentHash hash_of_surroundings(const Surroundings& surroundings, Degrees turn)
         hasher.add(aimed_paths_version);
     if (light.is_file())
         hasher.add(probe_file_version);
+    if (!light.has_sources())
+        return hasher.finish(); // as there were lights before there were sun and lamps
+    hasher.add(std::string_view("sources")).add(light_sources_version).add(light.unit_cd_m2.value_or(1.0));
+    hasher.add(light.sun_lux.value_or(0.0)).add(light.sun_azimuth_deg).add(light.sun_elevation_deg);
+    hasher.add(light.sun_radius_deg);
+    for (const double number : light.sun_colour)
+        hasher.add(number);
+    for (const LampSettings& lamp : light.shining)
+        add_to(hasher, lamp);
     return hasher.finish();
 }
 

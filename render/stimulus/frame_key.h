@@ -1,6 +1,8 @@
 /// Names for rendered frames and maps: hashes of everything that makes them.
 #pragma once
 
+#include <vector>
+
 #include "experiment/base/content_hash.h"
 #include "experiment/stimulus/object.h"
 #include "render/bake/bake_settings.h"
@@ -21,7 +23,8 @@ struct Surroundings {
     explicit Surroundings(const LightSettings& light);
 
     LightSettings light;
-    ContentHash content; ///< of the probe's file; its name if the program makes it
+    ContentHash content;             ///< of the probe's file; its name if the program makes it
+    std::vector<Surroundings> parts; ///< of a sum
 };
 
 /// Of the surroundings themselves, turned by so much from where their settings have them, without the

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "experiment/base/error.h"
 #include "experiment/base/whole_file.h"
 #include "render/bake/own_surface.h"
 
@@ -24,8 +25,10 @@ void FrameMaker::make_frames(std::span<const Stimulus> stimuli, const FrameQuali
     double all = 0.0, done = 0.0;
     int count = 0, frames = 0;
     const auto cost_of = [&](const Stimulus& stimulus) {
-        return quality.is_live()
-                   ? 1.0
+        if (quality.is_live())
+            return 1.0;
+        return is_sum(stimulus, quality)
+                   ? 0.0
                    : expected_cost(quality, cache_->protocol(), cache_->material_of(stimulus).kind);
     };
     // Stimuli may share frames: each is made once, with the first that needs it.
@@ -35,12 +38,20 @@ void FrameMaker::make_frames(std::span<const Stimulus> stimuli, const FrameQuali
     };
     std::vector<Missing> missing;
     std::set<std::filesystem::path> files, folders;
+    // What is added up comes after its parts.
+    std::vector<Stimulus> in_order;
     for (const Stimulus& stimulus : stimuli) {
+        if (is_sum(stimulus, quality) && !missing_frames(stimulus, quality, only).empty())
+            for (const Stimulus& part : cache_->parts_of(stimulus))
+                in_order.push_back(part);
+        in_order.push_back(stimulus);
+    }
+    for (const Stimulus& stimulus : in_order) {
         for (const Pose& pose : cache_->pictures_of(stimulus))
             folders.insert(cache_->frame_file_of(stimulus, quality, pose).parent_path());
     }
     std::ranges::for_each(folders, remove_abandoned_files);
-    for (const Stimulus& stimulus : stimuli) {
+    for (const Stimulus& stimulus : in_order) {
         for (const Pose& pose : missing_frames(stimulus, quality, only)) {
             if (!files.insert(cache_->frame_file_of(stimulus, quality, pose)).second)
                 continue;
@@ -60,7 +71,7 @@ void FrameMaker::make_frames(std::span<const Stimulus> stimuli, const FrameQuali
         const auto tell = [&](double share_of_frame) {
             try {
                 if (progress)
-                    progress(what, frames, count, (done + share_of_frame * cost) / all);
+                    progress(what, frames, count, all > 0.0 ? (done + share_of_frame * cost) / all : 0.0);
             } catch (...) {
                 stopped = std::current_exception();
             }
@@ -70,6 +81,10 @@ void FrameMaker::make_frames(std::span<const Stimulus> stimuli, const FrameQuali
             std::rethrow_exception(stopped);
         if (quality.is_live()) {
             draw_live_frame(stimulus, pose, quality, writing);
+        } else if (is_sum(stimulus, quality)) {
+            if (writing.valid())
+                writing.get();
+            cache_->add_up(stimulus, pose, quality);
         } else {
             SpectralFrame frame = trace(stimulus, pose, quality, tell);
             if (writing.valid())
@@ -90,6 +105,16 @@ void FrameMaker::make_frames(std::span<const Stimulus> stimuli, const FrameQuali
         progress(what, count, count, 1.0);
 }
 
+void FrameMaker::add_up_what_is_there(std::span<const Stimulus> stimuli, const FrameQuality& quality) {
+    for (const Stimulus& stimulus : stimuli) {
+        if (!is_sum(stimulus, quality))
+            continue;
+        for (const Pose& pose : missing_frames(stimulus, quality, std::nullopt))
+            if (cache_->can_add_up(stimulus, pose, quality))
+                cache_->add_up(stimulus, pose, quality);
+    }
+}
+
 void FrameMaker::draw_live_frame(const Stimulus& stimulus, const Pose& pose, const FrameQuality& quality,
                                  std::future<void>& writing) {
     const SceneView& scene = cache_->scene_of(stimulus);
@@ -102,8 +127,8 @@ void FrameMaker::draw_live_frame(const Stimulus& stimulus, const Pose& pose, con
     live_size_px_ = scene.view.image_px;
     const MaterialSettings& material = cache_->material_of(stimulus);
     const Object& object = cache_->object_of(stimulus);
-    if (live_material_ != stimulus.material || (material.is_of_file() && live_object_ != stimulus.object))
-        renderer_->set_material(material.is_of_file() && object.appearance
+    if (live_material_ != stimulus.material || (material.is_own() && live_object_ != stimulus.object))
+        renderer_->set_material(material.is_own() && object.appearance
                                     ? on_average(material, *object.appearance, object.mesh)
                                     : material);
     live_material_ = stimulus.material;
@@ -121,6 +146,7 @@ void FrameMaker::draw_live_frame(const Stimulus& stimulus, const Pose& pose, con
 
 SpectralFrame FrameMaker::trace(const Stimulus& stimulus, const Pose& pose, const FrameQuality& quality,
                                 const BakeProgress& progress) {
+    OVERT_EXPECTS(!is_sum(stimulus, quality));
     const PoseIndex turn = cache_->poses().index_of(pose.object);
     maps_->draw_missing_map(viewed(stimulus), turn);
     const TriangleMap map = cache_->read_map(viewed(stimulus), turn);

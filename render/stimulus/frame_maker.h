@@ -21,15 +21,24 @@ class FrameMaker {
     void make_frames(std::span<const Stimulus> stimuli, const FrameQuality& quality, const Progress& progress,
                      std::optional<Pose> only = {});
 
+    /// Adds up frames of stimuli whose light is a sum, where those of all parts are there and it is not.
+    /// Throws InputError, RecordError.
+    void add_up_what_is_there(std::span<const Stimulus> stimuli, const FrameQuality& quality);
+
     /// Traces one frame on all processors (see bake_frame()), drawing its map before if the cache lacks it;
-    /// the cache does not get it. Not complete if `progress` stopped it. What a stimulus needs is built when
-    /// it comes up and kept until another does. Throws InputError, GraphicsError.
+    /// the cache does not get it. Of no stimulus whose light is a sum. Not complete if `progress` stopped it.
+    /// What a stimulus needs is built when it comes up and kept until another does. Throws InputError,
+    /// GraphicsError.
     SpectralFrame trace(const Stimulus& stimulus, const Pose& pose, const FrameQuality& quality,
                         const BakeProgress& progress);
 
   private:
     std::vector<Pose> missing_frames(const Stimulus& stimulus, const FrameQuality& quality,
                                      const std::optional<Pose>& only) const;
+    /// Whether its frames are added up of others; live ones are drawn like all.
+    bool is_sum(const Stimulus& stimulus, const FrameQuality& quality) const {
+        return !quality.is_live() && !cache_->protocol().light_of(stimulus).sum.empty();
+    }
     void draw_live_frame(const Stimulus& stimulus, const Pose& pose, const FrameQuality& quality,
                          std::future<void>& writing);
 

@@ -1,6 +1,7 @@
 /// How well frames are rendered, as protocols and people ask for it.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 
@@ -18,6 +19,10 @@ struct FrameQuality {
 
     bool is_live() const { return level == BakeQuality::live; }
 };
+
+/// The levels of traced frames.
+inline constexpr std::array traced_qualities{BakeQuality::preview, BakeQuality::draft, BakeQuality::standard,
+                                             BakeQuality::reference};
 
 /// A level as a protocol has it: the samples and the target of [bake] belong to its own level.
 FrameQuality quality_of(BakeQuality level, const BakingSettings& baking);

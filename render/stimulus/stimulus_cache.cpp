@@ -222,6 +222,45 @@ void StimulusCache::store_live(const Stimulus& stimulus, const Pose& pose, const
                        std::move(attributes));
 }
 
+std::vector<Stimulus> StimulusCache::parts_of(const Stimulus& stimulus) const {
+    std::vector<Stimulus> parts;
+    for (const auto& [id, share] : protocol_->light_of(stimulus).sum) {
+        const auto found = std::ranges::find(protocol_->lights, id, &LightSettings::id);
+        OVERT_EXPECTS(found != protocol_->lights.end());
+        Stimulus& part = parts.emplace_back(stimulus);
+        part.light = static_cast<int>(found - protocol_->lights.begin());
+    }
+    return parts;
+}
+
+bool StimulusCache::can_add_up(const Stimulus& stimulus, const Pose& pose,
+                               const FrameQuality& quality) const {
+    return std::ranges::all_of(parts_of(stimulus),
+                               [&](const Stimulus& part) { return has_frame(part, quality, pose); });
+}
+
+void StimulusCache::add_up(const Stimulus& stimulus, const Pose& pose, const FrameQuality& quality) const {
+    const std::vector<Stimulus> parts = parts_of(stimulus);
+    LinearImage sum, part;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        read_frame(parts[i], quality, pose, part);
+        if (i == 0) {
+            sum = part; // with its alpha, which is that of all
+            for (glm::vec4& pixel : sum.pixels)
+                pixel = glm::vec4(0.0f, 0.0f, 0.0f, pixel.a);
+        }
+        const auto share = static_cast<float>(protocol_->light_of(stimulus).sum[i].second);
+        for (std::size_t pixel = 0; pixel < sum.pixels.size(); ++pixel)
+            sum.pixels[pixel] += glm::vec4(share * glm::vec3(part.pixels[pixel]), 0.0f);
+    }
+    const std::filesystem::path file = frame_file_of(stimulus, quality, pose);
+    std::filesystem::create_directories(file.parent_path());
+    ImageAttributes attributes = describe_stimulus(*protocol_, objects_, stimulus, pose);
+    for (auto& attribute : describe_tracing(quality, *protocol_, material_of(stimulus).kind))
+        attributes.push_back(std::move(attribute));
+    write_cached_frame(file, sum, identity_of(stimulus, quality, pose), std::move(attributes));
+}
+
 void StimulusCache::store(const Stimulus& stimulus, const Pose& pose, const FrameQuality& quality,
                           const SpectralFrame& frame) const {
     OVERT_EXPECTS(frame.is_complete);
@@ -304,7 +343,7 @@ std::filesystem::path StimulusCache::file_of(std::string_view kind, const Conten
     if (!object.is_turn()) {
         ContentHasher hasher;
         add_object(hasher, object);
-        name += "-" + hasher.finish().substr(0, 16);
+        name += fmt::format("-{}", hasher.finish().substr(0, 16));
     }
     return folder_ / kind / hash.substr(0, 24) / (name + ".exr");
 }

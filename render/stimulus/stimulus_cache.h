@@ -117,6 +117,16 @@ class StimulusCache {
     void store_live(const Stimulus& stimulus, const Pose& pose, const FrameQuality& quality,
                     const LinearImage& image, const std::string& renderer) const;
 
+    /// The stimuli whose traced frames are added up for this one's, in the order of LightSettings::sum; none
+    /// where its light is no sum.
+    std::vector<Stimulus> parts_of(const Stimulus& stimulus) const;
+
+    /// Whether the frames of all its parts are there, of a stimulus whose light is a sum.
+    bool can_add_up(const Stimulus& stimulus, const Pose& pose, const FrameQuality& quality) const;
+
+    /// Adds them up and writes the sum. Throws InputError for a frame that is not whole, RecordError.
+    void add_up(const Stimulus& stimulus, const Pose& pose, const FrameQuality& quality) const;
+
     /// Writes a traced frame, which must be complete. Throws RecordError.
     void store(const Stimulus& stimulus, const Pose& pose, const FrameQuality& quality,
                const SpectralFrame& frame) const;

@@ -43,6 +43,9 @@ void StimulusLibrary::prepare_frames(const Progress& progress, BakeQuality least
     const std::vector<Stimulus> stimuli = cache_.rendered_stimuli();
     for (const Stimulus& stimulus : stimuli)
         cache_.require_mesh(stimulus);
+    for (const BakeQuality level : traced_qualities)
+        if (level >= least)
+            frames_.add_up_what_is_there(stimuli, quality_of(level, protocol_->bake));
     if (const std::optional<FrameQuality> best = cache_.best_quality(stimuli, least)) {
         take_frames(*best);
         return;
@@ -78,6 +81,8 @@ void StimulusLibrary::prepare_frames(const Stimulus& stimulus, const Progress& p
     cache_.require_mesh(stimulus);
     const std::span<const Stimulus> one(&stimulus, 1);
     const BakeQuality least = std::min(protocol_->bake.least(), BakeQuality::preview);
+    for (const BakeQuality level : traced_qualities)
+        frames_.add_up_what_is_there(one, quality_of(level, protocol_->bake));
     if (const std::optional<FrameQuality> best = cache_.best_quality(one, least)) {
         qualities_[stimulus] = *best;
         return;

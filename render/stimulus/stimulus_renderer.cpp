@@ -5,6 +5,7 @@
 #include "experiment/base/error.h"
 #include "experiment/spectra/metal_table.h"
 #include "render/bake/layered_surface.h"
+#include "render/bake/light_sources.h"
 #include "stimulus_shaders.h"
 
 namespace overt {
@@ -21,7 +22,7 @@ Texture2D texture_of(const GlContext& context, const LightProbe& probe) {
 } // namespace
 
 StimulusRenderer::StimulusRenderer(const GlContext& context, const LightSettings& light, glm::ivec2 image_px)
-    : context_(&context), light_(light), probe_(load_light_probe(light)), image_px_(image_px),
+    : context_(&context), light_(light), probe_(distant_probe(light)), image_px_(image_px),
       program_(context, "stimulus", embedded::stimulus_vert, embedded::stimulus_frag),
       sharp_(texture_of(context, probe_)), soft_(texture_of(context, irradiance_over_pi(probe_, {64, 32}))),
       samples_(context, image_px * samples_per_side, PixelFormat::rgba32f, true),
@@ -33,8 +34,9 @@ void StimulusRenderer::set_material(const MaterialSettings& material) {
     live_ = &model_of(material.kind).live;
     mirrored_ = texture_of(*context_, live_->mirrored(probe_, material));
     const bool coated = live_->shading == LiveApproximation::Shading::coated_metal;
-    reflectance_ = row_of(material.kind).has_key("reflectance") || material.kind == MaterialKind::own
-                       ? glm::dvec3(material.reflectance[0], material.reflectance[1], material.reflectance[2])
+    reflectance_ = material.kind == MaterialKind::glass ? glm::dvec3(0.0)
+                   : row_of(material.kind).has_key("reflectance")
+                       ? material.given_reflectance()
                        : linear_rec709_of(normal_reflectance(load_metal(material.metal),
                                                              coated ? material.coat_ior : 1.0));
     if (live_->shading == LiveApproximation::Shading::plastic && material.body == PlasticBody::pigment) {
@@ -71,7 +73,7 @@ LinearImage StimulusRenderer::draw(const MeshBuffers& mesh, const SceneView& sce
     program_.set("is_plastic", live_->shading == Shading::plastic ? 1 : 0);
     program_.set("plastic_ior", static_cast<float>(material_.ior));
     const bool is_mixed = material_.kind == MaterialKind::metallic_roughness;
-    program_.set("metallic", is_mixed ? static_cast<float>(material_.metallic) : 0.0f);
+    program_.set("metallic", is_mixed ? static_cast<float>(material_.given_metallic()) : 0.0f);
     program_.set("clear_coat", is_mixed ? static_cast<float>(material_.clear_coat) : 0.0f);
     program_.set("is_coated", live_->shading == Shading::coated_metal ? 1 : 0);
     program_.set("coat_ior", static_cast<float>(material_.coat_ior));

@@ -126,7 +126,16 @@ void complete(Protocol& protocol) {
         LightSettings& light = protocol.lights[i];
         if (light.is_file())
             light.probe = (folder_of(protocol, fmt::format("light[{}].probe", i)) / light.probe).string();
+        for (const std::string& id : light.lamps)
+            if (const auto found = std::ranges::find(protocol.lamps, id, &LampSettings::id);
+                found != protocol.lamps.end())
+                light.shining.push_back(*found);
     }
+    const std::vector<LightSettings> lights = protocol.lights;
+    for (LightSettings& light : protocol.lights)
+        for (const auto& [id, share] : light.sum)
+            if (const auto found = std::ranges::find(lights, id, &LightSettings::id); found != lights.end())
+                light.parts.push_back(*found);
 }
 
 /// Reads the table that a key of a task names; its text stands beside those of included files. -1 where there

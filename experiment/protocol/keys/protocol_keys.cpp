@@ -37,9 +37,13 @@ const KeyTable& protocol_keys() {
              &Protocol::lights,
              light(),
              "What surrounds the objects and is reflected in them; one section `[light]`, or several, "
-             "`[[light]]`.",
+             "`[[light]]`. See [lights.md](lights.md).",
              {},
              "light"},
+            {"lamp", &Protocol::lamps, lamp(),
+             "Something near the objects that shines evenly, and that `[[light]]` names. It is seen in what "
+             "mirrors, but not by the eye, and hides nothing. Lengths are in the unit of the mesh; places "
+             "count from the centre of the object's box, as it stands before it turns."},
             {"background",
              &Protocol::backgrounds,
              background(),

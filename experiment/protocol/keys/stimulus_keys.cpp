@@ -84,15 +84,52 @@ std::vector<Key> light() {
         {
             {"probe", &L::probe,
              "\"gallery\" for a hall with windows, lamps and a low sun, in which gloss is seen best, "
-             "\"overcast\" for a cloudy sky, or a latitude-longitude picture of the surroundings (EXR or "
-             "HDR, "
-             "linear Rec. 709, +y up)."},
+             "\"overcast\" for a cloudy sky, \"dark\" for none, or a latitude-longitude picture of the "
+             "surroundings (EXR or HDR, linear Rec. 709, +y up)."},
             {"exposure", &L::exposure, range(1e-6, 1e6),
              "Factor from the probe's radiance to the display's white."},
             {"rotation_deg", &L::rotation_deg, range(-360, 360, "deg"),
-             "Turns the surroundings about the vertical."},
+             "Turns the surroundings about the vertical, with their sun and lamps."},
+            {"unit_cd_m2", &L::unit_cd_m2,
+             range(1e-6, 1e9, "cd/m2").left_out("1 with `dark`; else not known, and needed by sun and lamps"),
+             "The luminance that the probe's 1 stands for. Then `exposure` = 1 / N shows N of these as the "
+             "display's white."},
+            {"sun_lux", &L::sun_lux, range(0, 1e6, "lx").left_out("no sun but what the probe has"),
+             "Illuminance by a sun that is added to the probe, on a surface that faces it; the real one "
+             "gives "
+             "100,000 lx from a clear sky."},
+            {"sun_azimuth_deg", &L::sun_azimuth_deg, range(-360, 360, "deg"),
+             "Where the sun stands: 0 behind the observer, 90 to the observer's right, 180 behind the "
+             "object."},
+            {"sun_elevation_deg", &L::sun_elevation_deg, range(-90, 90, "deg"), "How high."},
+            {"sun_radius_deg", &L::sun_radius_deg, range(0.01, 45, "deg"),
+             "Half the angle that it fills: the larger, the softer its shadows, at the same illuminance."},
+            {"sun_colour", &L::sun_colour, range(0, 1),
+             "Linear red, green and blue (Rec. 709) of its light; only their proportions count."},
+            {"lamps", &L::lamps, left_out("none"), "Ids of `[[lamp]]`s that shine besides."},
+            {"sum", &L::sum, range(0, 1e6).left_out("none"),
+             "In place of all these keys but `exposure`: other lights of this list, each times a number, "
+             "`{ key = 1, fill = 0.25 }`. Nothing is rendered for it: the frames of those are added up."},
         },
         true);
+}
+
+std::vector<Key> lamp() {
+    using L = LampSettings;
+    return {
+        {"id", &L::id, identifier().required(), "Short name, by which lights name it."},
+        {"shape", &L::shape, "What shines. A rectangle and a disc do to the side that they face."},
+        {"cd_m2", &L::cd_m2, range(1e-6, 1e9, "cd/m2").required(), "Its luminance."},
+        {"colour", &L::colour, range(0, 1),
+         "Linear red, green and blue (Rec. 709) of its light; only their proportions count."},
+        {"position", &L::position, required(),
+         "Its middle, [x, y, z]: x to the right of the front view, y away from it, z up."},
+        {"faces", &L::faces, left_out("the centre of the object's box"),
+         "The place that a rectangle or disc is turned to. Its width is level."},
+        {"width", &L::width, range(0, 1e6), "Of a rectangle."},
+        {"height", &L::height, range(0, 1e6), "Of a rectangle."},
+        {"radius", &L::radius, range(0, 1e6), "Of a disc or sphere."},
+    };
 }
 
 std::vector<Key> background() {
@@ -298,21 +335,32 @@ std::vector<Key> material() {
         {"metal", &M::metal,
          "\"Au\" for gold, \"Ag\" for silver, or a table of another conductor: a CSV file with the columns "
          "wavelength_nm, n and k, by its path from the protocol's folder."},
-        {"roughness", &M::roughness, range(0.001, 1),
-         "GGX alpha of a rough metal or plastic; of `metallic-roughness` its square root, as other programs "
-         "have it."},
+        {"roughness", &M::roughness,
+         range(0.001, 1).left_out("0.13; of `own` as the object's file has it, and of glass none"),
+         "GGX alpha of a rough metal, plastic or glass; of `metallic-roughness` and `own` its square root, "
+         "as "
+         "other programs have it. Of `own` it stands everywhere in place of what the file says."},
         {"roughness_as", &M::roughness_as,
-         "Whether the `roughness` of a plastic is the GGX alpha, or its root."},
+         "Whether the `roughness` of a plastic or glass is the GGX alpha, or its root."},
+        {"anisotropy", &M::anisotropy, range(0, 1),
+         "Of a rough metal: how much rougher it is across its scratches than along them, as glTF has it: "
+         "alpha along is that of `roughness`, across it that + (1 - that) times the square of this."},
+        {"brushed", &M::brushed,
+         "Where the scratches run: around the object's vertical, as on a lathe, or upward. Highlights are "
+         "long "
+         "across them."},
         {"multiple_scattering", &M::multiple_scattering, left_out("false, as frames always were"),
          "Of a rough metal: whether the light counts that leaves by several micro-mirrors, too. Without it "
          "rough metals are too dark: by 4 % at a roughness of 0.13, by 38 % at 0.6."},
         {"ior", &M::ior, range(1.01, 3),
-         "Index of refraction of the clear surface of a plastic, and of what is no metal."},
+         "Index of refraction of the clear surface of a plastic, of what is no metal, and of glass, there "
+         "for "
+         "the yellow light of 587.6 nm."},
         {"body", &M::body,
          "What `reflectance` is of: of the light that comes out of a plastic, as a colour measured on it is, "
          "or "
          "of the pigment inside, from which less comes out, and deeper coloured."},
-        {"metallic", &M::metallic, range(0, 1),
+        {"metallic", &M::metallic, range(0, 1).left_out("0; of `own` as the object's file has it"),
          "Share of a metal of the colour `reflectance`; the rest is plastic."},
         {"clear_coat", &M::clear_coat, range(0, 1), "Share of the surface under a clear coat, of index 1.5."},
         {"clear_coat_roughness", &M::clear_coat_roughness, range(0, 1),
@@ -328,13 +376,29 @@ std::vector<Key> material() {
         {"coat_bump_width", &M::coat_bump_width, range(0.005, 2),
          "From one bump to the next, as share of half the object's height."},
         {"coat_seed", &M::coat_seed, range(0, 2147483647), "Another number, other bumps."},
-        {"reflectance", &M::reflectance, range(0, 1),
+        {"reflectance", &M::reflectance,
+         range(0, 1).left_out("[0.5, 0.5, 0.5]; of `own` as the object's file has it"),
          "Share of red, green and blue light that a matt surface returns, or the body of a plastic; the "
-         "colour of "
-         "`metallic-roughness`."},
+         "colour of `metallic-roughness`. Of `own` it stands everywhere in place of the file's colours."},
         {"base", &M::base,
          "Whose colour it has: `given`, its `reflectance`; or `own`, the colour that the object's file gives "
          "each place, in place of it. See docs/objects.md."},
+        {"bumps", &M::bumps, left_out("`own` of `own` and with `base = \"own\"`, else `none`"),
+         "The bumps that light meets: `none`, or those of the object's file (its normal map). They change no "
+         "outline, and no place that gaze is found at."},
+        {"of", &M::of, left_out("all"),
+         "Of `own`: the file's materials, by their names, for which the keys here hold that stand in place "
+         "of "
+         "what the file says; all others stay as they are."},
+        {"film_nm", &M::film_nm, range(1, 8000, "nm").left_out("no film"),
+         "Thickness of a clear film on a metal, whose colours come of the light that goes to and fro in it: "
+         "heat tints, oxide, soap."},
+        {"film_ior", &M::film_ior, range(1, 4), "Index of refraction of that film."},
+        {"abbe", &M::abbe, range(10, 120).left_out("one index for all light"),
+         "Abbe number of glass: how far its index differs between colours; 64.2 for N-BK7, 25 for dense "
+         "flint."},
+        {"absorbance", &M::absorbance, range(0, 100),
+         "Optical depth of glass in red, green and blue, over half the object's height."},
     });
 }
 

@@ -6,6 +6,7 @@
 
 #include "experiment/base/base64.h"
 #include "experiment/base/path_inside.h"
+#include "experiment/base/safe_text.h"
 #include "experiment/base/whole_file.h"
 #include "experiment/scene/files/mesh_text.h"
 
@@ -83,6 +84,14 @@ std::string_view GltfBuffers::resource(const GltfValue& uri, std::string* media_
     bytes_there_ += bytes.size();
     kept_.push_back(std::move(bytes));
     return resources_[text] = kept_.back();
+}
+
+std::vector<std::string> GltfBuffers::files() const {
+    std::vector<std::string> files;
+    for (const auto& [uri, bytes] : resources_)
+        if (!uri.starts_with("data:"))
+            files.push_back(printable_text(without_percents(uri)));
+    return files;
 }
 
 std::string_view GltfBuffers::buffer(const GltfValue& index) {

@@ -5,6 +5,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "experiment/scene/files/gltf_json.h"
 
@@ -26,6 +27,9 @@ class GltfBuffers {
     /// What a URI leads to: the bytes of a data: URI, or of a file in the folder of the mesh. Throws
     /// InputError at `uri` for anything else. `media_type` gets what a data: URI says of itself.
     std::string_view resource(const GltfValue& uri, std::string* media_type = nullptr);
+
+    /// The names of the files that were read by now.
+    std::vector<std::string> files() const;
 
     /// How many bytes were read by now, with those of the file itself.
     std::size_t bytes_there() const { return bytes_there_ + root_.source().bytes().size(); }

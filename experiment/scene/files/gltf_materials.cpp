@@ -52,10 +52,14 @@ class MaterialReader {
             remark(name,
                    "does not say whether it is metal: glTF then takes it for metal. If it is none, write "
                    "a metallicFactor of 0, or show it in a material of another kind with base = \"own\".");
+        look.normal_picture = placed(of, "normalTexture");
+        if (const std::optional<GltfValue> bumps = of.find("normalTexture"))
+            look.normal_scale = static_cast<float>(bumps->number_or("scale", 1.0));
         read_alpha(of, material);
         say_what_is_left(of, name);
         look.is_unlit = has_extension(of, "KHR_materials_unlit");
-        for (const SurfacePlacement* picture : {&look.colour_picture, &look.surface_picture})
+        for (const SurfacePlacement* picture :
+             {&look.colour_picture, &look.surface_picture, &look.normal_picture})
             if (picture->picture >= 0)
                 material.needs_uvs[picture->uv_set] = true;
         return material;
@@ -90,8 +94,6 @@ class MaterialReader {
 
     void say_what_is_left(const GltfValue& of, const std::string& name) {
         std::vector<std::string> left;
-        if (of.find("normalTexture"))
-            left.emplace_back("its bumps (normalTexture)");
         if (of.find("occlusionTexture"))
             left.emplace_back("its occlusion, which paths find themselves");
         const std::optional<GltfValue> emission = of.find("emissiveFactor");

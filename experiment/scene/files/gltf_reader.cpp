@@ -306,6 +306,8 @@ class GltfReader {
 
     void say_what_is_left() {
         std::vector<std::string>& remarks = mesh_.remarks;
+        if (const std::vector<std::string> files = buffers_.files(); !files.empty())
+            remarks.push_back(MeshText::files_beside(files));
         const auto count_of = [&](const GltfValue& of, std::string_view list) {
             const std::optional<GltfValue> entries = of.find(list);
             return entries ? entries->size() : 0;

@@ -156,4 +156,12 @@ void MeshText::refuse_coordinate(char axis, std::string_view owner) const {
                      quoted(last_)));
 }
 
+std::string MeshText::files_beside(std::span<const std::string> files) {
+    std::string text = "Read beside it: ";
+    constexpr std::size_t most = 20;
+    for (std::size_t i = 0; i < std::min(files.size(), most); ++i)
+        text += fmt::format("{}{}", i == 0 ? "" : ", ", files[i]);
+    return text + (files.size() > most ? fmt::format(" and {} more.", files.size() - most) : ".");
+}
+
 } // namespace overt

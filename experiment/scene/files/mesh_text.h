@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -75,6 +76,9 @@ class MeshText {
 
     /// The word for a message: in quotes, cut when long, with a ? for each byte that does not print.
     static std::string quoted(std::string_view word);
+
+    /// A sentence for who looks at what a mesh makes the program read.
+    static std::string files_beside(std::span<const std::string> files);
 
   private:
     std::size_t joint_length() const;

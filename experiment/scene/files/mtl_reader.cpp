@@ -95,8 +95,10 @@ class MtlLibrary::Reader {
                 remark(fmt::format("is seen through ({} {:.3g}): it is shown solid.", word, given));
         } else if (word == "map_Kd") {
             material_->colour_picture = placed_picture();
-        } else if (word.starts_with("map_") || word == "norm" || word == "bump" || word == "disp" ||
-                   word == "decal" || word == "refl") {
+        } else if (word == "norm") {
+            material_->normal_picture = placed_picture();
+        } else if (word.starts_with("map_") || word == "bump" || word == "disp" || word == "decal" ||
+                   word == "refl") {
             remark(fmt::format("has {}, which is left aside.", printable_text(word)));
         }
     }
@@ -186,6 +188,7 @@ class MtlLibrary::Reader {
             source_.fail_at(place.line, place.column,
                             fmt::format("the picture {} {}.", MeshText::quoted(name), why));
         const std::string bytes = read_whole_file(folder / name, most_picture_file_bytes);
+        library_.files_.push_back(printable_text(name));
         library_.appearance_->pictures.push_back(read_surface_picture(bytes, (folder / name).string()));
         return known->second;
     }
@@ -202,6 +205,7 @@ class MtlLibrary::Reader {
 
 void MtlLibrary::read(const std::filesystem::path& file) {
     const MeshSource source(file);
+    files_.push_back(printable_text(file.filename().string()));
     Reader(*this, source).read();
 }
 

@@ -18,10 +18,14 @@ class MtlLibrary {
     /// library.
     explicit MtlLibrary(SurfaceAppearance& appearance) : appearance_(&appearance) {}
 
-    /// Reads a file, whose pictures lie in its folder or below. Kd is linear, and a factor on map_Kd; Pr is
-    /// roughness and Pm the share of metal; without Pr, Ns is what Blinn and Phong have, taken as the GGX
-    /// alpha sqrt(2 / (Ns + 2)) (Walter et al. 2007). Throws InputError with line and column.
+    /// Reads a file, whose pictures lie in its folder or below. Kd is linear, and a factor on map_Kd; norm is
+    /// a picture of normals; Pr is roughness and Pm the share of metal; without Pr, Ns is what Blinn and
+    /// Phong have, taken as the GGX alpha sqrt(2 / (Ns + 2)) (Walter et al. 2007). Throws InputError with
+    /// line and column.
     void read(const std::filesystem::path& file);
+
+    /// The names of what was read beside the mesh, in that order.
+    const std::vector<std::string>& files() const { return files_; }
 
     /// Null if no file has one of that name; the first that was read counts.
     const FileMaterial* find(const std::string& name) const;
@@ -32,6 +36,7 @@ class MtlLibrary {
     SurfaceAppearance* appearance_;
     std::map<std::string, FileMaterial> materials_;
     std::map<std::filesystem::path, int> pictures_;
+    std::vector<std::string> files_;
 };
 
 } // namespace overt

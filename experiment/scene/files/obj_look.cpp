@@ -144,19 +144,22 @@ void ObjLook::give_materials(RawMesh& mesh, const MeshSource& source) {
                                 MeshText::quoted(name), why));
             library.read(folder / name);
         }
+    mesh.remarks.push_back(MeshText::files_beside(library.files()));
     for (const std::string& name : names_) {
         const FileMaterial* const found = library.find(name);
         if (!found && name != "no material")
             source.fail(fmt::format("its faces are of the material {}, which none of its .mtl files has.",
                                     MeshText::quoted(name)));
-        look.materials.push_back(found ? *found
-                                       : FileMaterial{name, glm::vec3(1.0f), {}, 0.0f, 1.0f, {}, false});
+        FileMaterial unsaid;
+        unsaid.name = name;
+        unsaid.roughness = 1.0f;
+        look.materials.push_back(found ? *found : unsaid);
     }
 }
 
 void ObjLook::give_uvs(RawMesh& mesh) const {
     const bool has_picture = std::ranges::any_of(mesh.appearance.materials, [](const FileMaterial& material) {
-        return material.colour_picture.picture >= 0;
+        return material.colour_picture.picture >= 0 || material.normal_picture.picture >= 0;
     });
     if (!has_picture)
         return;

@@ -107,6 +107,7 @@ void PlyLook::finish(RawMesh& mesh, const MeshSource& source, const PlyHeader& h
     }
     const bool has_places = !vertex_places_.empty() || !corner_places_.empty();
     const std::filesystem::path folder = source.path().parent_path();
+    std::vector<std::string> files;
     for (const std::string& name : header.picture_files) {
         if (!has_places)
             source.fail(fmt::format("it names the picture {}, but does not say where on it its corners lie.",
@@ -121,6 +122,7 @@ void PlyLook::finish(RawMesh& mesh, const MeshSource& source, const PlyHeader& h
         constexpr std::size_t most_bytes = std::size_t{1} << 30;
         look.pictures.push_back(
             read_surface_picture(read_whole_file(folder / name, most_bytes), (folder / name).string()));
+        files.push_back(printable_text(name));
     }
     if (!look.colours.empty() && look.materials.empty()) {
         // Colours alone say nothing of gloss: without any.
@@ -129,6 +131,7 @@ void PlyLook::finish(RawMesh& mesh, const MeshSource& source, const PlyHeader& h
     }
     if (header.picture_files.empty())
         return;
+    mesh.remarks.push_back(MeshText::files_beside(files));
     look.uvs[0].resize(triangles);
     for (std::size_t i = 0; i < triangles; ++i) {
         if (i < corner_places_.size()) {

@@ -61,7 +61,7 @@ TEST_CASE("no kind of material gives more light than it gets, and none loses muc
     for (const MaterialKindRow& row : material_kinds) {
         CAPTURE(row.name);
         MaterialSettings material = test::material_of(row.kind, white.file());
-        material.reflectance = {1.0, 1.0, 1.0};
+        material.reflectance = glm::dvec3(1.0, 1.0, 1.0);
         material.coat_absorbance = {0.0, 0.0, 0.0};
         // What chooses between coat and body by chance is noisier than a mirror.
         const FurnaceResult lit = furnace(test::bust(), material, 64);
@@ -80,7 +80,7 @@ TEST_CASE("a metal that reflects all light is as bright as its surroundings ever
 
 TEST_CASE("a matt white surface is as bright as its surroundings", "[unit]") {
     MaterialSettings material = test::material_of(MaterialKind::diffuse);
-    material.reflectance = {1.0, 1.0, 1.0};
+    material.reflectance = glm::dvec3(1.0, 1.0, 1.0);
     CHECK(furnace(test::bust(), material, 16).worst < 2e-6);
 }
 
@@ -89,7 +89,7 @@ TEST_CASE("a dark surface is as bright as its reflectance, though chance ends mo
     // carry less than a tenth go on by chance, which must be right in the mean.
     for (const double reflectance : {0.05, 0.02}) {
         MaterialSettings material = test::material_of(MaterialKind::diffuse);
-        material.reflectance = {reflectance, reflectance, reflectance};
+        material.reflectance = glm::dvec3(reflectance, reflectance, reflectance);
         const FurnaceResult dark = furnace(test::ball({0.0, 0.0, 0.0}, 50.0), material, 256);
         CHECK(dark.lit > 300);
         CHECK(dark.mean == Approx(reflectance).epsilon(0.02));

@@ -189,7 +189,7 @@ TEST_CASE("a matt surface under a small source is as bright as its irradiance sa
         }
     }
     MaterialSettings material = test::material_of(MaterialKind::diffuse);
-    material.reflectance = {0.5, 0.5, 0.5};
+    material.reflectance = glm::dvec3(0.5, 0.5, 0.5);
     const Mesh box = test::box({-1, -0.1, -1}, {1, 0.1, 1});
     const BakeScene scene(box, material);
     const SpectralLight light(probe, 1.0);

@@ -116,6 +116,54 @@ TEST_CASE("a surface of one look is what the kind of the same numbers is", "[uni
     CHECK(difference_of(OwnSurface(of_one_look({0.5f, 0.3f, 0.2f}, 0.0f, 0.9f), coated), given) < 2e-3);
 }
 
+TEST_CASE("what is given in place of the file's word holds for the materials that are named, and no others",
+          "[unit]") {
+    auto look = of_one_look({0.5f, 0.3f, 0.2f}, 0.3f, 0.90625f);
+    look->materials[0].name = "glaze";
+    look->materials.push_back(look->materials[0]);
+    look->materials[1].name = "foot";
+    look->triangle_materials = {0, 1};
+    MaterialSettings own, expected;
+    own.kind = MaterialKind::own;
+    own.roughness = 0.237; // none of the steps
+    expected.kind = MaterialKind::metallic_roughness;
+    expected.roughness = 0.237;
+    expected.metallic = 0.3;
+    const Bins brown = Bins::of(reflectance_of({0.5, 0.3, 0.2})),
+               blue = Bins::of(reflectance_of({0.1, 0.2, 0.6}));
+    CHECK(difference_of(OwnSurface(look, own), metallic_roughness_surface(expected, brown)) < 2e-3);
+    own.metallic = 0.8;
+    own.reflectance = glm::dvec3(0.1, 0.2, 0.6);
+    expected.metallic = 0.8;
+    const LayeredSurface given = metallic_roughness_surface(expected, blue);
+    CHECK(difference_of(OwnSurface(look, own), given) < 2e-3);
+    expected.metallic = 0.3;
+    expected.roughness = 0.90625; // a step of those that pictures are taken in
+    own.of = {"foot"};
+    const OwnSurface foot(look, own);
+    CHECK(difference_of(foot, metallic_roughness_surface(expected, brown)) <
+          0.02); // steps of a thirty-second
+    CHECK(foot.point(1, {0.2f, 0.2f}).metallic == 0.8f);
+    CHECK(foot.point(0, {0.2f, 0.2f}).metallic == 0.3f);
+    CHECK(foot.point(1, {0.2f, 0.2f}).level != foot.point(0, {0.2f, 0.2f}).level);
+    // Live frames have the mean of what is shown.
+    Mesh two;
+    two.positions = {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}, {2, 0, 0}};
+    two.triangles = {{0, 1, 2}, {1, 3, 2}};
+    const MaterialSettings mean = on_average(own, *look, two);
+    CHECK(mean.given_metallic() == Approx(0.55));
+    CHECK(mean.given_roughness() == Approx(0.5 * (0.90625 + 0.237)));
+    CHECK(mean.given_reflectance().z == Approx(0.4));
+    // A varnish over what the file says.
+    own = {};
+    own.kind = MaterialKind::own;
+    own.clear_coat = 0.7;
+    own.clear_coat_roughness = 0.3;
+    expected.clear_coat = 0.7;
+    expected.clear_coat_roughness = 0.3;
+    CHECK(difference_of(OwnSurface(look, own), metallic_roughness_surface(expected, brown)) < 2e-3);
+}
+
 TEST_CASE("each square of a painted plate is baked in its own colour, by any number of threads", "[unit]") {
     const Plate plate;
     MaterialSettings matt;

@@ -35,6 +35,23 @@ struct Inputs {
     }
 };
 
+LampSettings& with_lamp(Inputs& inputs) {
+    LampSettings& lamp = inputs.light.shining.emplace_back();
+    inputs.light.lamps = {"lamp"};
+    lamp.id = "lamp";
+    lamp.cd_m2 = 10.0;
+    lamp.radius = 0.5;
+    lamp.position = glm::dvec3(1.0, 2.0, 3.0);
+    return lamp;
+}
+
+LightSettings& with_sum(Inputs& inputs) {
+    inputs.light.sum = {{"a", 1.0}, {"b", 0.5}};
+    inputs.light.parts = std::vector<LightSettings>(2);
+    inputs.light.parts[0].probe = "gallery";
+    return inputs.light;
+}
+
 Inputs some_inputs() {
     Inputs inputs;
     inputs.object.mesh = bust();
@@ -57,14 +74,14 @@ TEST_CASE("whatever makes a traced frame changes its key, and nothing else does"
         {"size", [](Inputs& i) { i.object.scenes[0].view.image_px.y += 1; }},
         {"kind", [](Inputs& i) { i.material.kind = MaterialKind::diffuse; }},
         {"metal", [](Inputs& i) { i.material.metal = "Ag"; }},
-        {"roughness", [](Inputs& i) { i.material.roughness *= 1.001; }},
+        {"roughness", [](Inputs& i) { i.material.roughness = 0.1301; }},
         {"index", [](Inputs& i) { i.material.coat_ior *= 1.001; }},
         {"absorbance", [](Inputs& i) { i.material.coat_absorbance[2] *= 1.001; }},
         {"thickness", [](Inputs& i) { i.material.coat_thickness *= 1.001; }},
         {"width of bumps", [](Inputs& i) { i.material.coat_bump_width *= 1.001; }},
         {"other bumps", [](Inputs& i) { i.material.coat_seed += 1; }},
         {"bumps", [](Inputs& i) { i.material.coat_bump *= 1.001; }},
-        {"reflectance", [](Inputs& i) { i.material.reflectance[0] *= 1.001; }},
+        {"reflectance", [](Inputs& i) { i.material.reflectance = glm::dvec3(0.5005, 0.5, 0.5); }},
         {"base",
          [](Inputs& i) {
              i.material.kind = MaterialKind::diffuse;
@@ -76,6 +93,105 @@ TEST_CASE("whatever makes a traced frame changes its key, and nothing else does"
              i.material.kind = MaterialKind::own;
              i.object.appearance_hash = "other";
          }},
+        {"own, with a roughness of its own",
+         [](Inputs& i) {
+             i.material.kind = MaterialKind::own;
+             i.material.roughness = 0.13; // what stands there where nothing is given
+         }},
+        {"own, with a metal of its own",
+         [](Inputs& i) {
+             i.material.kind = MaterialKind::own;
+             i.material.metallic = 0.0;
+         }},
+        {"own, with a colour of its own",
+         [](Inputs& i) {
+             i.material.kind = MaterialKind::own;
+             i.material.reflectance = glm::dvec3(0.5);
+         }},
+        {"own, of one of the file's materials",
+         [](Inputs& i) {
+             i.material.kind = MaterialKind::own;
+             i.material.roughness = 0.13;
+             i.material.of = {"glaze"};
+         }},
+        {"own without bumps",
+         [](Inputs& i) {
+             i.material.kind = MaterialKind::own;
+             i.material.bumps = MaterialBumps::none;
+         }},
+        {"the file's bumps", [](Inputs& i) { i.material.bumps = MaterialBumps::own; }},
+        {"glass", [](Inputs& i) { i.material.kind = MaterialKind::glass; }},
+        {"rough glass",
+         [](Inputs& i) {
+             i.material.kind = MaterialKind::glass;
+             i.material.roughness = 0.13;
+         }},
+        {"glass of an Abbe number",
+         [](Inputs& i) {
+             i.material.kind = MaterialKind::glass;
+             i.material.abbe = 60.0;
+         }},
+        {"coloured glass",
+         [](Inputs& i) {
+             i.material.kind = MaterialKind::glass;
+             i.material.absorbance[1] = 0.2;
+         }},
+        {"film", [](Inputs& i) { i.material.film_nm = 300.0; }},
+        {"index of the film",
+         [](Inputs& i) {
+             i.material.film_nm = 300.0;
+             i.material.film_ior = 1.5;
+         }},
+        {"brushed",
+         [](Inputs& i) {
+             i.material.kind = MaterialKind::rough_conductor;
+             i.material.anisotropy = 0.5;
+         }},
+        {"brushed upward",
+         [](Inputs& i) {
+             i.material.kind = MaterialKind::rough_conductor;
+             i.material.anisotropy = 0.5;
+             i.material.brushed = BrushedAlong::upward;
+         }},
+        {"dark", [](Inputs& i) { i.light.probe = "dark"; }},
+        {"sun", [](Inputs& i) { i.light.sun_lux = 1000.0; }},
+        {"unit of the sun",
+         [](Inputs& i) {
+             i.light.sun_lux = 1000.0;
+             i.light.unit_cd_m2 = 2.0;
+         }},
+        {"azimuth",
+         [](Inputs& i) {
+             i.light.sun_lux = 1000.0;
+             i.light.sun_azimuth_deg = 1.0;
+         }},
+        {"elevation",
+         [](Inputs& i) {
+             i.light.sun_lux = 1000.0;
+             i.light.sun_elevation_deg = 46.0;
+         }},
+        {"radius of the sun",
+         [](Inputs& i) {
+             i.light.sun_lux = 1000.0;
+             i.light.sun_radius_deg = 1.0;
+         }},
+        {"colour of the sun",
+         [](Inputs& i) {
+             i.light.sun_lux = 1000.0;
+             i.light.sun_colour[2] = 0.9;
+         }},
+        {"lamp", [](Inputs& i) { with_lamp(i); }},
+        {"luminance of the lamp", [](Inputs& i) { with_lamp(i).cd_m2 = 11.0; }},
+        {"shape of the lamp", [](Inputs& i) { with_lamp(i).shape = LampShape::sphere; }},
+        {"place of the lamp", [](Inputs& i) { with_lamp(i).position = glm::dvec3(1.0, 2.0, 3.1); }},
+        {"where the lamp faces", [](Inputs& i) { with_lamp(i).faces = glm::dvec3(0.0, 0.0, 0.1); }},
+        {"width of the lamp", [](Inputs& i) { with_lamp(i).width = 0.5; }},
+        {"height of the lamp", [](Inputs& i) { with_lamp(i).height = 0.5; }},
+        {"radius of the lamp", [](Inputs& i) { with_lamp(i).radius = 0.6; }},
+        {"colour of the lamp", [](Inputs& i) { with_lamp(i).colour[0] = 0.6; }},
+        {"sum", [](Inputs& i) { with_sum(i); }},
+        {"share in the sum", [](Inputs& i) { with_sum(i).sum[1].second = 0.4; }},
+        {"part of the sum", [](Inputs& i) { with_sum(i).parts[1].rotation_deg = 3.0; }},
         {"probe", [&](Inputs& i) { i.light.probe = probe.string(); }},
         {"gallery", [](Inputs& i) { i.light.probe = "gallery"; }},
         {"rotation", [](Inputs& i) { i.light.rotation_deg = 1.0; }},
