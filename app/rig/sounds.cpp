@@ -1,4 +1,4 @@
-#include "app/rig/setup_sounds.h"
+#include "app/rig/sounds.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 
 namespace overt {
 
-SetupSounds::SetupSounds(bool wanted) : description_("none") {
+Sounds::Sounds(bool wanted) : description_("none") {
     if (!wanted)
         return;
     try {
@@ -18,9 +18,9 @@ SetupSounds::SetupSounds(bool wanted) : description_("none") {
     }
 }
 
-SetupSounds::~SetupSounds() = default;
+Sounds::~Sounds() = default;
 
-void SetupSounds::play(SetupBeep beep) noexcept {
+void Sounds::play(Beep beep) noexcept {
     if (beeper_)
         beeper_->play(beep);
 }

@@ -1,23 +1,25 @@
-/// What is heard while the eye tracker is set up.
+/// What operator and observer hear.
 #pragma once
 
 #include <memory>
 #include <string>
 
-#include "experiment/ports/setup_screen.h"
+#include "experiment/ports/beep.h"
 
 namespace overt {
 
 class Beeper;
 
 /// The default sound device, or silence where there is none.
-class SetupSounds {
+class Sounds {
   public:
     /// `wanted`: else silence, and nothing is opened.
-    explicit SetupSounds(bool wanted);
-    ~SetupSounds();
+    explicit Sounds(bool wanted);
+    ~Sounds();
 
-    void play(SetupBeep beep) noexcept;
+    void play(Beep beep) noexcept;
+    /// What is played is heard; false if nothing is wanted.
+    bool are_heard() const noexcept { return beeper_ != nullptr; }
     /// For the operator: the device, or why there is no sound.
     const std::string& description() const { return description_; }
 

@@ -1,5 +1,7 @@
 #include "app/session/session_equipment.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "app/inputs/prepared_stimuli.h"
@@ -73,9 +75,17 @@ void SessionEquipment::open(const Protocol& protocol, const RunOptions& options,
     for (const std::string& description : markers_->descriptions())
         fmt::print("markers: {}\n", description);
     const bool beeps = protocol.calibration.beeps && rig_.tracker().measures_gaze() && !options.virtual_time;
-    sounds_.emplace(beeps);
-    if (beeps)
-        fmt::print("sounds of the set-up: {}\n", sounds_->description());
+    const bool tones = !options.virtual_time && std::ranges::any_of(protocol.tasks, [](const Task& task) {
+        return have_tones(task.steps);
+    });
+    sounds_.emplace(beeps || tones);
+    if (beeps || tones)
+        fmt::print("sounds: {}\n", sounds_->description());
+    if (tones && !sounds_->are_heard() && !options.simulate_observer)
+        throw InputError(
+            fmt::format("the observer would not hear the tone of the feedback ({}): plug in what "
+                        "plays, or take `tone` out of the protocol's steps",
+                        sounds_->description()));
     answers_.reset(new AnswerEquipment(rig_.answer_equipment())); // it cannot be moved
     fmt::print("spoken answers: {}\n", answers_->description());
 }

@@ -10,7 +10,7 @@
 #include "app/rig/answer_equipment.h"
 #include "app/rig/marker_outputs.h"
 #include "app/rig/rig.h"
-#include "app/rig/setup_sounds.h"
+#include "app/rig/sounds.h"
 #include "app/session/session_boxes.h"
 #include "app/session/session_plan.h"
 
@@ -31,7 +31,7 @@ class SessionEquipment {
     /// Where observer and operator answer: the response boxes with what they stand around, or that alone.
     ResponsePanel& keys() { return buttons_ ? *buttons_ : rig_.panel(); }
     const MarkerEquipment& markers() const { return *markers_; }
-    SetupSounds& sounds() { return *sounds_; }
+    Sounds& sounds() { return *sounds_; }
     AnswerEquipment& answers() { return *answers_; }
     /// What the operator should know once the session has ended, a line each.
     std::vector<std::string> closing_warnings() const;
@@ -46,7 +46,7 @@ class SessionEquipment {
     std::optional<BoxInUse> box_;
     std::unique_ptr<ResponsePanel> buttons_; ///< null: there are no response boxes
     std::optional<MarkerEquipment> markers_;
-    std::optional<SetupSounds> sounds_;
+    std::optional<Sounds> sounds_;
     std::unique_ptr<AnswerEquipment> answers_;
 };
 

@@ -56,7 +56,7 @@ class WatchedSitting {
             .on_level = view_ ? view_->meter_besides(answers.meter()) : answers.meter(),
             .markers = equipment_.markers().sinks(),
             .further_trackers = record_.further_ports(),
-            .on_beep = [this](SetupBeep beep) { equipment_.sounds().play(beep); },
+            .on_beep = [this](Beep beep) { equipment_.sounds().play(beep); },
             .on_camera = [this](const CameraImage& image) { show(image); },
             .area_of = [this](const PlacedStimulus& stimulus,
                               const std::string& area) { return equipment_.rig().area_of(stimulus, area); },

@@ -4,7 +4,7 @@
 #include "app/cli/own_folders.h"
 #include "app/inputs/protocol_inputs.h"
 #include "app/rig/rig.h"
-#include "app/rig/setup_sounds.h"
+#include "app/rig/sounds.h"
 #include "app/tracker/calibration_text.h"
 #include "app/tracker/chosen_tracker.h"
 #include "app/tracker/tracker_commands.h"
@@ -58,7 +58,7 @@ int run_tracker_calibrate(const TrackerCalibrateOptions& options) {
     if (!rig.tracker().measures_gaze())
         throw InputError("there is no eye tracker to calibrate: name one with --tracker, or in the protocol");
     PrintingLog log;
-    SetupSounds sounds(protocol.calibration.beeps && !options.virtual_time);
+    Sounds sounds(protocol.calibration.beeps && !options.virtual_time);
     fmt::print("sounds: {}\n", sounds.description());
     SessionPorts ports{.clock = rig.clock(),
                        .presenter = rig.presenter(),
@@ -66,7 +66,7 @@ int run_tracker_calibrate(const TrackerCalibrateOptions& options) {
                        .panel = rig.panel(),
                        .log = log,
                        .listeners = rig.listeners(),
-                       .on_beep = [&](SetupBeep beep) { sounds.play(beep); }};
+                       .on_beep = [&](Beep beep) { sounds.play(beep); }};
     SessionState state(protocol, ports);
     OperatorControl(state).calibrate();
     for (const std::string& sentence : rig.tracker().finish(".", {}))

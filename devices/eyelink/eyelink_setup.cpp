@@ -207,15 +207,15 @@ std::int16_t EyelinkSetup::beep(int which) noexcept {
     return guarded([&] {
         switch (which) {
         case -2:
-            return setup_screen_->beep(SetupBeep::drift_bad);
+            return setup_screen_->beep(Beep::drift_bad);
         case -1:
-            return setup_screen_->beep(SetupBeep::calibration_bad);
+            return setup_screen_->beep(Beep::calibration_bad);
         case 0:
-            return setup_screen_->beep(SetupBeep::calibration_good);
+            return setup_screen_->beep(Beep::calibration_good);
         case 2:
-            return setup_screen_->beep(SetupBeep::drift_good);
+            return setup_screen_->beep(Beep::drift_good);
         default:
-            return setup_screen_->beep(SetupBeep::target_appears);
+            return setup_screen_->beep(Beep::target_appears);
         }
     });
 }

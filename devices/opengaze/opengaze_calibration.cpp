@@ -79,7 +79,7 @@ Course follow(OpenGazeLink& link, SetupScreen& setup_screen, const OpenGazeCalib
         else if (message.value("ID") == "CALIB_START_PT" && x && y &&
                  !calibration.settings.own_calibration_screen) {
             setup_screen.show_target(place_of({*x, *y}, calibration.wish.screen), target_diameter);
-            setup_screen.beep(SetupBeep::target_appears);
+            setup_screen.beep(Beep::target_appears);
         }
     }
     return course;

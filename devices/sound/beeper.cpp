@@ -16,24 +16,37 @@ constexpr double loudness = 0.3; ///< of full scale: to be heard, and not to sta
 constexpr BeepTone short_tone[] = {{800.0, 0.08}};
 constexpr BeepTone rising_tones[] = {{800.0, 0.1}, {0.0, 0.03}, {1200.0, 0.15}};
 constexpr BeepTone falling_tones[] = {{600.0, 0.15}, {0.0, 0.05}, {400.0, 0.3}};
+// Of feedback: high is right, low is wrong, and they differ in length too, for who hears no high tones.
+constexpr BeepTone middle_tone[] = {{600.0, 0.1}};
+constexpr BeepTone high_tone[] = {{1200.0, 0.1}};
+constexpr BeepTone low_tone[] = {{300.0, 0.25}};
+constexpr BeepTone low_tones[] = {{300.0, 0.1}, {0.0, 0.05}, {300.0, 0.1}};
 
 } // namespace
 
-std::span<const BeepTone> tones_of(SetupBeep beep) noexcept {
+std::span<const BeepTone> tones_of(Beep beep) noexcept {
     switch (beep) {
-    case SetupBeep::target_appears:
+    case Beep::target_appears:
         return short_tone;
-    case SetupBeep::calibration_good:
-    case SetupBeep::drift_good:
+    case Beep::calibration_good:
+    case Beep::drift_good:
         return rising_tones;
-    case SetupBeep::calibration_bad:
-    case SetupBeep::drift_bad:
+    case Beep::calibration_bad:
+    case Beep::drift_bad:
         return falling_tones;
+    case Beep::answered:
+        return middle_tone;
+    case Beep::correct:
+        return high_tone;
+    case Beep::wrong:
+        return low_tone;
+    case Beep::missed:
+        return low_tones;
     }
     return {};
 }
 
-void BeepSound::start(SetupBeep beep) noexcept { wanted_ = static_cast<int>(beep); }
+void BeepSound::start(Beep beep) noexcept { wanted_ = static_cast<int>(beep); }
 
 float BeepSound::next() noexcept {
     while (!tones_.empty()) {
@@ -56,7 +69,7 @@ float BeepSound::next() noexcept {
 
 void BeepSound::fill(std::span<float> samples) noexcept {
     if (const int wanted = wanted_.exchange(-1); wanted >= 0) {
-        tones_ = tones_of(static_cast<SetupBeep>(wanted));
+        tones_ = tones_of(static_cast<Beep>(wanted));
         sample_ = 0;
         silent_ = 0;
     }
@@ -111,7 +124,7 @@ Beeper::~Beeper() = default;
 
 const std::string& Beeper::name() const { return state_->name; }
 
-void Beeper::play(SetupBeep beep) noexcept {
+void Beeper::play(Beep beep) noexcept {
     state_->sound->start(beep);
     if (Pa_IsStreamActive(state_->stream) == 1)
         return;

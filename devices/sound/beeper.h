@@ -1,4 +1,4 @@
-/// Sounds while an eye tracker is set up.
+/// Tones that tell the operator and the observer something.
 #pragma once
 
 #include <atomic>
@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-#include "experiment/ports/setup_screen.h"
+#include "experiment/ports/beep.h"
 
 namespace overt {
 
@@ -16,7 +16,7 @@ struct BeepTone {
     double pitch_hz = 0.0; ///< 0: silence
     double length_s = 0.0;
 };
-std::span<const BeepTone> tones_of(SetupBeep beep) noexcept;
+std::span<const BeepTone> tones_of(Beep beep) noexcept;
 
 /// Makes the samples of beeps. start() may be called from another thread than fill().
 class BeepSound {
@@ -24,7 +24,7 @@ class BeepSound {
     explicit BeepSound(double sample_rate_hz) : rate_hz_(sample_rate_hz) {}
 
     /// From the next fill() on; ends one that still sounds.
-    void start(SetupBeep beep) noexcept;
+    void start(Beep beep) noexcept;
     /// The next samples, -1 to 1; silence where nothing sounds. Allocates and waits for nothing.
     void fill(std::span<float> samples) noexcept;
     /// For so many samples nothing has sounded.
@@ -34,14 +34,14 @@ class BeepSound {
     float next() noexcept;
 
     double rate_hz_;
-    std::atomic<int> wanted_{-1}; ///< a SetupBeep; -1: none
+    std::atomic<int> wanted_{-1}; ///< a Beep; -1: none
     std::span<const BeepTone> tones_;
     std::int64_t sample_ = 0; ///< of the first of tones_
     std::int64_t silent_ = 0;
 };
 
 /// Plays them through PortAudio's default output. What drives it rests when nothing has sounded for two
-/// seconds, and so during presentations.
+/// seconds.
 class Beeper {
   public:
     /// Throws DeviceError if there is no sound device that plays.
@@ -52,7 +52,7 @@ class Beeper {
 
     const std::string& name() const;
     /// May take some milliseconds.
-    void play(SetupBeep beep) noexcept;
+    void play(Beep beep) noexcept;
 
   private:
     struct State;

@@ -50,7 +50,7 @@ class Course {
             const double factor = 1.0 + (appears_larger - 1.0) * step / steps_of_shrinking;
             setup_screen_.show_target(target, Degrees{factor * settings_.target.value});
             if (step == steps_of_shrinking)
-                setup_screen_.beep(SetupBeep::target_appears);
+                setup_screen_.beep(Beep::target_appears);
             setup_screen_.wait(settings_.target_delay / (steps_of_shrinking + 1));
             if (is_cancelled())
                 return false;
@@ -190,15 +190,15 @@ SetupOutcome calibrate_tobii(std::shared_ptr<const TobiiLibrary> library, TobiiE
         if (course.is_cancelled())
             break;
         course.discard(target);
-        setup_screen.beep(SetupBeep::calibration_bad);
+        setup_screen.beep(Beep::calibration_bad);
         course.measure(target);
     }
     if (course.is_cancelled())
         return {SetupOutcome::Kind::cancelled, {}, {}, "the calibration was broken off"};
     const std::shared_ptr<TobiiCalibrationResult> result = course.compute();
     SetupOutcome outcome = outcome_of(*result, wish);
-    setup_screen.beep(outcome.kind == SetupOutcome::Kind::done ? SetupBeep::calibration_good
-                                                               : SetupBeep::calibration_bad);
+    setup_screen.beep(outcome.kind == SetupOutcome::Kind::done ? Beep::calibration_good
+                                                               : Beep::calibration_bad);
     return outcome;
 }
 

@@ -131,7 +131,7 @@ CalibratedTracker::Looked CalibratedTracker::look_at(SetupScreen& setup_screen, 
         Degrees{settings_.fixation_reach_deg}};
     std::array<RestingGaze, 2> eyes_of{RestingGaze(setup_screen.geometry(), resting),
                                        RestingGaze(setup_screen.geometry(), resting)};
-    setup_screen.beep(SetupBeep::target_appears);
+    setup_screen.beep(Beep::target_appears);
     const SessionTime onset =
         setup_screen.show_target(target, Degrees{appears_larger * settings_.target_deg});
     const SessionTime latest = onset + from_seconds(settings_.patience_s);
@@ -272,7 +272,7 @@ SetupOutcome CalibratedTracker::set_up(SetupScreen& setup_screen) {
     const auto ended = [&](SetupOutcome::Kind kind, std::string message) {
         tracker_->stop_recording();
         setup_screen.clear();
-        setup_screen.beep(SetupBeep::calibration_bad);
+        setup_screen.beep(Beep::calibration_bad);
         if (tracker_->lost())
             throw DeviceError("the eye tracker was lost while it was calibrated");
         return SetupOutcome{kind, {}, {}, std::move(message)};
@@ -309,7 +309,7 @@ SetupOutcome CalibratedTracker::set_up(SetupScreen& setup_screen) {
     }
     tracker_->stop_recording();
     setup_screen.clear();
-    setup_screen.beep(SetupBeep::calibration_good);
+    setup_screen.beep(Beep::calibration_good);
     return {SetupOutcome::Kind::done, result, method,
             missed == 0 ? std::string()
                         : fmt::format("{} of the validation not seen", counted(missed, "target", "targets"))};

@@ -125,6 +125,10 @@ std::vector<OpenedThing> opened_by(const Protocol& protocol) {
                    protocol.answers.device.empty() ? "the system's default input" : protocol.answers.device);
     if (protocol.calibration.beeps && row_of(protocol.tracker.kind).measures_gaze)
         opened.add("sound", "[calibration] beeps", "the system's default output");
+    for (const Task& task : protocol.tasks)
+        if (have_tones(task.steps))
+            opened.add("sound", fmt::format("feedback of task \"{}\"", task.id),
+                       "the system's default output");
     add_files(opened, protocol);
     return opened.list;
 }

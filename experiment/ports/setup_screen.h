@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "experiment/ports/beep.h"
 #include "experiment/ports/validation.h"
 #include "experiment/screen_geometry.h"
 #include "experiment/session_time.h"
@@ -20,15 +21,6 @@ struct CameraImage {
     int width_px = 0, height_px = 0;
     std::vector<std::byte> rgba;
     std::string title; ///< UTF-8, such as which eye and the thresholds
-};
-
-/// What a set-up tells by ear.
-enum class SetupBeep : std::uint8_t {
-    target_appears,
-    calibration_good,
-    calibration_bad,
-    drift_good,
-    drift_bad
 };
 
 /// A key of the operator, for the tracker's host or for the program's own calibration.
@@ -68,7 +60,7 @@ class SetupScreen {
     virtual void show_text(const std::string& text) = 0;
     /// Shows where each target was and where gaze was measured, with the words below.
     virtual void show_result(const ValidationResult& result, const std::string& text) = 0;
-    virtual void beep(SetupBeep beep) = 0;
+    virtual void beep(Beep beep) = 0;
     /// The next key that was pressed, if there was one.
     virtual std::optional<SetupKey> next_key() = 0;
     virtual SessionTime now() const noexcept = 0;

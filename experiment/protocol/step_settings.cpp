@@ -31,6 +31,10 @@ std::string seconds_column(const StepSettings& step) {
     return fmt::format("{}_s", step.id.empty() ? name_of(step.kind) : std::string_view(step.id));
 }
 
+bool have_tones(const std::vector<StepSettings>& steps) {
+    return std::ranges::any_of(steps, &StepSettings::has_tone);
+}
+
 namespace {
 
 /// Reads entries and collects all that is wrong with them.
@@ -164,14 +168,17 @@ class StepReader {
                 take(key.value, key.key, step.wrong, required());
             else if (key.key == "colour")
                 take(key.value, key.key, step.is_coloured);
+            else if (key.key == "tone")
+                take(key.value, key.key, step.has_tone);
             else
                 fault(key.key_place, fmt::format("feedback: unknown key \"{}\"", key.key),
-                      "keys are answered, correct, wrong, missed, colour");
+                      "keys are answered, correct, wrong, missed, colour, tone");
         }
         if (step.answered.empty() && step.missed.empty() && step.correct.empty() && step.wrong.empty() &&
-            faults.size() == before)
-            fault(value.place, "feedback: no words are given",
-                  "write correct = \"…\", wrong = \"…\", missed = \"…\", answered = \"…\", or some of them");
+            !step.has_tone && faults.size() == before)
+            fault(value.place, "feedback: neither words nor a tone are given",
+                  "write correct = \"…\", wrong = \"…\", missed = \"…\", answered = \"…\", or some of "
+                  "them, or tone = true");
     }
 
     void read_other(const StepKindRow& kind, const TomlEntry& key, StepSettings& step) {

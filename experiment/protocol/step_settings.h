@@ -50,7 +50,11 @@ inline constexpr auto step_kinds = std::to_array<StepKindRow>({
      {"for_s", "cell_deg"},
      true},
     {StepKind::answer, "answer", "the screen of the answer", {"limit_s"}, false},
-    {StepKind::feedback, "feedback", "words by what was answered", {"for_s", "answered", "missed"}, false},
+    {StepKind::feedback,
+     "feedback",
+     "words, or a tone, by what was answered",
+     {"for_s", "answered", "missed"},
+     false},
     {StepKind::drift_check, "drift_check", "the target by which the tracker's drift is measured", {}, false},
 });
 
@@ -133,7 +137,11 @@ struct StepSettings {
     std::string answered, missed; ///< words of a feedback
     std::string correct, wrong;   ///< the same, where that is known; empty: as `answered`
     bool is_coloured = false;     ///< they are green and red
+    bool has_tone = false;        ///< it is heard, too
 };
+
+/// A step of feedback among them is heard.
+bool have_tones(const std::vector<StepSettings>& steps);
 
 /// An hour: nobody looks at a step for longer, and refreshes can be counted.
 inline constexpr double longest_step_s = 3600.0;

@@ -32,7 +32,7 @@ class DiarySetupScreen final : public SetupScreen {
     }
     void show_text(const std::string& text) override { diary.push_back("text " + text); }
     void show_result(const ValidationResult&, const std::string&) override {}
-    void beep(SetupBeep beep) override { diary.push_back(fmt::format("beep {}", static_cast<int>(beep))); }
+    void beep(Beep beep) override { diary.push_back(fmt::format("beep {}", static_cast<int>(beep))); }
     std::optional<SetupKey> next_key() override {
         if (keys.empty())
             return std::nullopt;

@@ -13,7 +13,7 @@ class StillSetupScreen final : public SetupScreen {
     void show_camera(const CameraImage&) override {}
     void show_text(const std::string&) override {}
     void show_result(const ValidationResult&, const std::string&) override {}
-    void beep(SetupBeep) override {}
+    void beep(Beep) override {}
     std::optional<SetupKey> next_key() override { return std::nullopt; }
     SessionTime now() const noexcept override { return now_; }
     void wait(SessionDuration time) override { now_ += time; }

@@ -46,8 +46,8 @@ TEST_CASE("an EyeLink is set up on the set-up screen: targets, camera, sounds, w
     CHECK(outcome.validation->mean_error.value == 0.45);
     CHECK(bench.setup_screen.showed("target 960 540 of 0.6"));
     CHECK(bench.setup_screen.showed(is_old ? "target 100 50 of 0.6" : "target 100 50.5 of 0.6"));
-    CHECK(bench.setup_screen.showed(fmt::format("beep {}", static_cast<int>(SetupBeep::target_appears))));
-    CHECK(bench.setup_screen.showed(fmt::format("beep {}", static_cast<int>(SetupBeep::calibration_good))));
+    CHECK(bench.setup_screen.showed(fmt::format("beep {}", static_cast<int>(Beep::target_appears))));
+    CHECK(bench.setup_screen.showed(fmt::format("beep {}", static_cast<int>(Beep::calibration_good))));
     CHECK(bench.setup_screen.showed("text no pupil in 50%s"));
     CHECK(bench.setup_screen.showed("camera 32x24 Left, threshold 80"));
     REQUIRE(bench.setup_screen.camera.rgba.size() == 4 * 32 * 24);

@@ -31,7 +31,7 @@ class ScriptedSetupScreen final : public SetupScreen {
     void show_camera(const CameraImage&) override {}
     void show_text(const std::string& text) override { texts.push_back(text); }
     void show_result(const ValidationResult&, const std::string& text) override { texts.push_back(text); }
-    void beep(SetupBeep) override { ++beeps; }
+    void beep(Beep) override { ++beeps; }
     std::optional<SetupKey> next_key() override {
         if (keys.empty() || targets.size() < keys_after)
             return std::nullopt;
