@@ -23,6 +23,7 @@
 #include "experiment/record/read/session_record.h"
 #include "experiment/record/session_schema.h"
 #include "experiment/study/gauge_reliefs.h"
+#include "experiment/study/methods/study_facts.h"
 #include "experiment/study/tables/study_tables.h"
 #include "render/gl/headless_context.h"
 
@@ -275,8 +276,8 @@ void print_answers(const StudyResults& results) {
 void print(const StudyResults& results, const fs::path& analysis) {
     fmt::print("{}, {}, {} samples, {} of {} fixations counted\n",
                counted(results.glance.observers, "simulated observer"),
-               counted(results.glance.trials, "trial"), results.glance.samples, results.glance.counted,
-               results.glance.fixations);
+               counted(results.glance.trials, unit_of_gaze(results)), results.glance.samples,
+               results.glance.counted, results.glance.fixations);
     for (const std::string& remark : results.remarks)
         fmt::print("note: {}\n", remark);
     fmt::print("share of fixations on areas; corrected: with the tracker's error taken out\n"

@@ -1,5 +1,8 @@
 #include "app/check/check_commands.h"
 
+#include <fmt/ranges.h>
+
+#include "app/check/shipped_protocols.h"
 #include "app/cli/command_options.h"
 
 namespace overt {
@@ -30,9 +33,18 @@ void add_check(CLI::App& app, ChosenCommand& chosen) {
 void add_new(CLI::App& app, ChosenCommand& chosen) {
     const auto [command, options] =
         add_command(app, chosen, run_new, "new", "Writes a protocol to begin with, every key explained",
-                    "overt new my_experiment.toml --short");
+                    "overt new my_experiment.toml --short\n  overt new my_study.toml --from gloss_scaling");
     command.add_option("PROTOCOL", options.protocol, "File to write (TOML)")->required();
-    command.add_flag("--short", options.is_short, "Only the lines that matter, without the other keys");
+    CLI::Option* const is_short =
+        command.add_flag("--short", options.is_short, "Only the lines that matter, without the other keys");
+    std::vector<std::string> lines;
+    for (const ShippedProtocol& one : shipped_protocols())
+        lines.push_back(fmt::format("{}: {}", one.name, one.what));
+    command
+        .add_option("--from", options.from,
+                    fmt::format("Begin from one that comes with overt. {}", fmt::join(lines, "; ")))
+        ->type_name("NAME")
+        ->excludes(is_short);
 }
 
 void add_schema(CLI::App& app, ChosenCommand& chosen) {

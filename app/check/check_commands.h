@@ -27,6 +27,7 @@ int run_check(const CheckOptions& options);
 struct NewOptions {
     std::filesystem::path protocol; ///< to write; never over a file that is there
     bool is_short = false;          ///< only the keys that one has to decide on
+    std::string from = {};          ///< a protocol that comes with the program; empty: none
 };
 int run_new(const NewOptions& options);
 

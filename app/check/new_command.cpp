@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -6,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/check/check_commands.h"
+#include "app/check/shipped_protocols.h"
 #include "experiment/base/error.h"
 #include "experiment/protocol/keys/protocol_schema.h"
 #include "experiment/protocol/keys/protocol_starter.h"
@@ -26,6 +28,18 @@ std::string name_from(const std::filesystem::path& file) {
     return name;
 }
 
+const ShippedProtocol& shipped(const std::string& name) {
+    const std::span<const ShippedProtocol> all = shipped_protocols();
+    const auto found = std::ranges::find(all, name, &ShippedProtocol::name);
+    if (found != all.end())
+        return *found;
+    std::string known;
+    for (const ShippedProtocol& one : all)
+        known += fmt::format("\n  {:20} {}", one.name, one.what);
+    throw InputError(
+        fmt::format("--from {}: no protocol of that name comes with overt; there are{}", name, known));
+}
+
 } // namespace
 
 int run_new(const NewOptions& options) {
@@ -36,7 +50,9 @@ int run_new(const NewOptions& options) {
     if (std::filesystem::exists(std::filesystem::symlink_status(file, ignored)))
         throw InputError(fmt::format("{}: exists already, and is not overwritten", file.string()));
     const std::string name = name_from(file);
-    const std::string text = options.is_short ? short_protocol_starter(name) : protocol_starter(name);
+    const std::string text = options.from.empty()
+                                 ? options.is_short ? short_protocol_starter(name) : protocol_starter(name)
+                                 : begun_from(shipped(options.from), name, file.string());
     std::FILE* const stream = std::fopen(file.c_str(), "wbx"); // x: not over one that came meanwhile
     if (!stream)
         throw InputError(fmt::format("{}: cannot be written", file.string()));

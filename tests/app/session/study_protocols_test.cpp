@@ -2,6 +2,7 @@
 /// they are about is in the record.
 #include <catch2/catch.hpp>
 
+#include <cmath>
 #include <fstream>
 #include <map>
 #include <set>
@@ -74,7 +75,7 @@ std::filesystem::path run_study(const SmallExperiment& experiment,
 } // namespace
 
 TEST_CASE("nine qualities are judged of each material, in an order drawn for each trial", "[session]") {
-    const SmallExperiment experiment(shortened("nine_qualities"));
+    const SmallExperiment experiment(shortened("material_ratings"));
     const std::filesystem::path tables = run_study(experiment, {"--trials", "3"});
     const SessionRecord record(experiment.session());
     std::set<std::vector<std::string>> orders;
@@ -101,7 +102,7 @@ TEST_CASE("nine qualities are judged of each material, in an order drawn for eac
 
 TEST_CASE("shapes that were learned are old in the test, and gaze on the middle begins their trials",
           "[session]") {
-    const SmallExperiment experiment(with(shortened("learn_and_recognise"), "for_s = 3 }", "for_s = 0.3 }"));
+    const SmallExperiment experiment(with(shortened("shape_recognition"), "for_s = 3 }", "for_s = 0.3 }"));
     const std::filesystem::path tables = run_study(experiment);
     const SessionRecord record(experiment.session());
     CHECK(record.is_complete());
@@ -170,4 +171,84 @@ TEST_CASE("of two small choices one has the material of the large sample, under 
     }
     CHECK(trials == 4);
     CHECK(TsvFile(tables / "presentations.tsv").size() == 12);
+}
+
+TEST_CASE("of two pairs the one that differs more is chosen, as simulated observers mean it", "[session]") {
+    const SmallExperiment experiment(shortened("gloss_scaling"));
+    const std::filesystem::path tables = run_study(experiment, {"--trials", "24"});
+    const SessionRecord record(experiment.session());
+    int judged = 0, larger = 0;
+    for (const TrialRecord& trial : record.trials()) {
+        if (!trial.counts || trial.trial.shown_count() != 4)
+            continue;
+        const auto roughness = [&](std::size_t place) {
+            constexpr double levels[] = {0.04, 0.08, 0.14, 0.22, 0.32, 0.45};
+            return levels[trial.trial.shown(place).stimulus.material];
+        };
+        const double upper = std::abs(roughness(0) - roughness(1)),
+                     lower = std::abs(roughness(2) - roughness(3));
+        REQUIRE(trial.outcome.given.size() == 1);
+        if (std::abs(upper - lower) < 0.1)
+            continue; // hard to tell
+        ++judged;
+        larger += (trial.outcome.given.front().value == "pair-1") == (upper > lower);
+    }
+    CHECK(judged >= 5);
+    CHECK(larger >= judged - 2);
+}
+
+TEST_CASE("a target among others is there in half of the trials, and what is right is known", "[session]") {
+    const SmallExperiment experiment(shortened("material_search"));
+    const std::filesystem::path tables = run_study(experiment, {"--trials", "10"});
+    const SessionRecord record(experiment.session());
+    std::set<std::size_t> sizes;
+    for (const TrialRecord& trial : record.trials()) {
+        if (!trial.counts)
+            continue;
+        sizes.insert(trial.trial.shown_count());
+        bool is_there = false;
+        for (std::size_t i = 0; i < trial.trial.shown_count(); ++i)
+            is_there = is_there || trial.trial.shown(i).stimulus.material == 0;
+        CHECK(trial.trial.correct == (is_there ? "present" : "absent"));
+        REQUIRE(trial.outcome.given.size() == 1);
+        if (!trial.outcome.given.front().is_missed)
+            CHECK(trial.outcome.given.front().is_correct ==
+                  (trial.outcome.given.front().value == trial.trial.correct));
+    }
+    CHECK(sizes.size() >= 2);
+    CHECK(TsvFile(tables / "given_answers.tsv").size() == 10);
+}
+
+TEST_CASE("three that differ are shown for the odd one out, and one of them is chosen", "[session]") {
+    const SmallExperiment experiment(shortened("odd_one_out"));
+    run_study(experiment, {"--trials", "6"});
+    const SessionRecord record(experiment.session());
+    std::set<std::string> chosen;
+    for (const TrialRecord& trial : record.trials()) {
+        if (!trial.counts)
+            continue;
+        std::set<int> materials;
+        for (std::size_t i = 0; i < trial.trial.shown_count(); ++i)
+            materials.insert(trial.trial.shown(i).stimulus.material);
+        CHECK(materials.size() == 3);
+        REQUIRE(trial.outcome.given.size() == 1);
+        chosen.insert(trial.outcome.given.front().value);
+    }
+    for (const std::string& value : chosen)
+        CHECK((value == "place-1" || value == "place-2" || value == "place-3"));
+}
+
+TEST_CASE("a shape is gone once the eyes were on its crest, and free viewing asks nothing", "[session]") {
+    const SmallExperiment contingent(shortened("gaze_contingent"));
+    const std::filesystem::path tables = run_study(contingent, {"--trials", "4"});
+    int by_gaze = 0;
+    const SessionRecord record(contingent.session());
+    for (const TrialRecord& trial : record.trials())
+        for (const AttemptStep& step : trial.outcome.steps)
+            by_gaze += step.id == "search" && step.ended_by == StepEnd::gaze;
+    CHECK(by_gaze >= 2);
+    const SmallExperiment viewing(shortened("mesh_saliency"));
+    run_study(viewing, {"--trials", "2"});
+    for (const TrialRecord& trial : SessionRecord(viewing.session()).trials())
+        CHECK(trial.outcome.given.empty());
 }
