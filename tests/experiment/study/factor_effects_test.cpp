@@ -106,7 +106,7 @@ TEST_CASE("where an effect cannot be tested the row says why", "[unit]") {
     CHECK(row_of(rows, "share on head", "hand").absent ==
           "fewer than two observers have numbers in two levels");
     CHECK(row_of(rows, "share on head", "task:hand").absent ==
-          "fewer than two observers have numbers in all combinations of both");
+          "fewer than two observers have numbers that tell it from both by themselves");
     study.options.by = {"task", "unknown"};
     const auto others = factor_effects(study.results, {}, study.options);
     CHECK(row_of(others, "log WSS", "unknown").absent == "there is one level alone");
