@@ -217,7 +217,7 @@ draw_figure5();
          {x_label: 'gain of gaze along the surface', most: 1.1, label: 'Gain of gaze along the motion of the surface'});
     by_id('motion_body').append(table({name: 'motion', title: 'Does gaze go with the surface?', rows, columns: [
         ...factor_columns(rows, r => r.keys), number_column('gain', r => r.gain), number_column('without the tracker\'s error', r => r.corrected), number_column('speed of the surface / (deg/s)', r => r.speed), number_column('observers', r => r.observers), number_column('fixations', r => r.fixations)],
-        note: `While a fixation lasts the object turns on. Gain 1: gaze goes with the place that it looks at; 0: it stays on the screen. In brackets the ${level} over observers. The tracker\'s constant error makes the gain smaller; without it: extrapolated from points that lie as far again from the measured ones.`}));
+        note: `While a fixation lasts the object turns on. Gain 1: gaze goes with the place that it looks at; 0: it stays on the screen. In brackets the ${level} over observers. The tracker\'s constant error changes the gain; without it: extrapolated from points that lie as far again from the measured ones.`}));
   } else by_id('motion').hidden = true;
 }
 

@@ -16,10 +16,10 @@ namespace overt {
 /// sample makes the gain uncertain and not smaller, for it is in gaze alone; the surface point is that of the
 /// whole fixation.
 ///
-/// The tracker's constant error does make it smaller: the way is that of a point beside the one that was
-/// looked at, and varies by more. `corrected_gain` takes that off by simulation and extrapolation (Cook and
-/// Stefanski, J. Am. Stat. Assoc. 89, 1994, 1314-1328): points about the measured one, as far from it as the
-/// validation says, have twice the error's variance, and both sums are continued on a line to none of it.
+/// The tracker's constant error changes it: the way is that of a point beside the one that was looked at.
+/// `corrected_gain` takes that off by simulation and extrapolation (Cook and Stefanski, J. Am. Stat. Assoc.
+/// 89, 1994, 1314-1328): points about the measured one, as far from it as the validation says, have twice the
+/// error's variance, and both sums are continued on a line to none of it.
 ///
 /// Rows for all trials and for each level of each column of `--by` but the observer: means over observers.
 std::vector<GazeMotionRow> gaze_motions(const StudyResults& results, const LevelLists& levels,

@@ -439,7 +439,7 @@ struct FactorEffectRow {
 struct GazeMotionRow {
     std::vector<StudyKey> keys;   ///< a level of a column; empty: all
     Estimate surface_gain;        ///< 1: gaze goes with the surface; 0: it stays on the screen
-    Estimate corrected_gain;      ///< the same without what the tracker's error takes from it
+    Estimate corrected_gain;      ///< the same without what the tracker's error makes of it
     Estimate surface_speed_deg_s; ///< of the surface under these fixations, mean
     int observers = 0, fixations = 0;
 };
