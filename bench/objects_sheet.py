@@ -186,14 +186,14 @@ exposure = 0.0015
 [[lamp]]
 id = "window"
 shape = "rectangle"
-cd_m2 = 2500
+luminance_cd_m2 = 2500
 position = [-160, -160, 120]
 width = 120
 height = 160
 [[lamp]]
 id = "bulb"
 shape = "sphere"
-cd_m2 = 12000
+luminance_cd_m2 = 12000
 colour = [1, 0.75, 0.45]
 position = [180, -110, 60]
 radius = 25

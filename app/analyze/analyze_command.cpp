@@ -104,6 +104,7 @@ void print_summary(const StudyResults& results, const std::filesystem::path& out
     for (const AreaRow& row : results.area_rows)
         for (const StudyKey& key : row.keys)
             levels[key.column].insert(key.value);
+    const bool by_duration = rate_too_low_for_counts(results).has_value();
     for (const AreaRow& row : results.area_rows) {
         // The levels of single columns of the area of figure 4; of others all trials. The groups are in the
         // tables.
@@ -112,11 +113,12 @@ void print_summary(const StudyResults& results, const std::filesystem::path& out
         // A column's only level is all trials once more.
         if (!row.keys.empty() && levels[row.keys[0].column].size() < 2)
             continue;
-        fmt::print("on {}, {}: {:.3f}", row.area == head_area ? "the head" : row.area,
+        const Estimate& share = by_duration ? row.by_duration : row.by_count;
+        fmt::print("on {}, {}: {:.3f}{}", row.area == head_area ? "the head" : row.area,
                    row.keys.empty() ? "all" : row.keys[0].column + " " + row.keys[0].value,
-                   *row.by_count.value);
-        if (row.by_count.interval)
-            fmt::print(" ({:.3f} … {:.3f})", row.by_count.interval->low, row.by_count.interval->high);
+                   share.value.value_or(*row.by_count.value), by_duration ? " of the time" : "");
+        if (share.interval)
+            fmt::print(" ({:.3f} … {:.3f})", share.interval->low, share.interval->high);
         if (row.corrected.value)
             fmt::print("; with the tracker's error taken out {:.3f}", *row.corrected.value);
         if (row.corrected.interval)
@@ -260,6 +262,10 @@ void add_study_options(CLI::App& command, AnalyzeOptions& options) {
            one_of({"geodesic", "euclidean", "voxel"}), shown_default);
     option(command, "--seed", study.seed, "SEED", "Of the bootstrap, the permutations and the halves",
            seed_number(), shown_default);
+    option(command, "--smallest-effect", study.smallest_effect, "D",
+           "Smallest effect of interest, in standard deviations of observers' differences: whether an effect "
+           "is smaller is tested beside each p of two levels",
+           CLI::PositiveNumber, shown_default);
     option(command, "--shortest-fixation", study.shortest_fixation_s, "S", "Fixations below are not counted",
            not_negative(), shown_default);
     option(command, "--least-on-surface", study.least_on_surface, "",

@@ -46,6 +46,11 @@ constexpr Benchmark benchmarks[] = {
     {"procedures",
      "procedures that choose levels, and fits of answers, against known answers and simulated observers",
      bench_procedures},
+    {"statistics",
+     "the analysis of 4,000 simulated studies: how often tests find what is not there, and intervals hold "
+     "the truth "
+     "(hours)",
+     bench_statistics},
     {"growth",
      "run, export, analyze, verify and replay over 30, 300 and 3,000 trials and 10, 100 and 1,000 sessions, "
      "their "
@@ -108,8 +113,10 @@ void add_bench(CLI::App& app, ChosenCommand& chosen) {
         ->type_name("S")
         ->check(CLI::Range(0.5, 3600.0))
         ->capture_default_str();
-    command.add_flag("--quick", options.is_quick,
-                     "growth: over 2 to 6 trials and 2 to 4 sessions, to see that it goes; no targets");
+    command.add_flag(
+        "--quick", options.is_quick,
+        "growth: over 2 to 6 trials and 2 to 4 sessions; statistics: 10 studies of each kind; to see "
+        "that it goes, without targets");
     add_threshold_options(command, options.thresholds);
     add_context_option(command, options.context);
     add_json_flag(command, options.json);

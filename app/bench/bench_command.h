@@ -47,6 +47,9 @@ BenchFigures bench_gaze_step(const BenchOptions& options);
 BenchFigures bench_input(const BenchOptions& options);
 /// Procedures that choose levels, and fits of answers, against known answers and simulated observers.
 BenchFigures bench_procedures(const BenchOptions& options);
+/// Each p and each interval of the analysis in simulated studies whose truth is known: false positives,
+/// coverage.
+BenchFigures bench_statistics(const BenchOptions& options);
 /// Time and memory of whole commands as sessions have more trials, and studies more sessions; the exponents.
 BenchFigures bench_growth(const BenchOptions& options);
 /// Layered surfaces against laws of light and numbers that others worked out.

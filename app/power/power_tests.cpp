@@ -97,7 +97,7 @@ std::vector<StudyOutcome> tested(const GazeStudies& studies, const StudyResults&
             const auto& scale = studies.surfaces()[static_cast<std::size_t>(one.object)].scale;
             values.push_back({one.observer, effect.measure == PowerMeasure::area
                                                 ? area_difference(one, results, effect.area)
-                                                : std::optional(wss_difference_deg2(one, *scale))});
+                                                : wss_difference_deg2(one, *scale)});
         }
     }
     for (const int count : observers)

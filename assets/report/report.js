@@ -6,6 +6,8 @@ const colour_tables = Object.fromEntries(Object.entries(data.colours).map(([name
 const words = keys => keys.map(([column, value]) => `${column} ${value}`).join(', ') || 'all';
 const short = keys => keys.map(key => key[1]).join(', ') || 'all';
 const alpha = 1 - data.confidence;
+const evidence_note = 'Effect size: mean over standard deviation of observers\' differences (Hedges\' g), with its interval. Bayes factor (JZS): above 3 it speaks for a difference, below 1/3 for none. ' +
+    `p of equivalence: small where the effect is shown to be smaller than ${(data.parameters.find(p => p.name === 'smallest-effect') || {value: 'the smallest of interest'}).value}.`;
 const level = `${Math.round(100 * data.confidence)} % interval`;
 
 function fill(select, options) {
@@ -100,8 +102,8 @@ if (data.areas.length) {
   const pairs = data.tables.area_pairs.filter(r => r.difference.v !== null);
   if (pairs.length) by_id('area_pairs_table').append(table({name: 'area_pairs', title: `Do levels of ${pairs[0].column} differ in where gaze goes?`, rows: pairs, columns: [
       text_column('area', r => r.area), ...factor_columns(pairs, r => r.keys), text_column('a', r => r.a), text_column('b', r => r.b), number_column('share, a − b', r => r.difference), p_column('p', r => r.p),
-      p_column('p after Holm', r => r.holm), p_column('over all areas, too', r => r.holm_areas), number_column('observers', r => r.observers), number_column('comparisons', r => r.comparisons)],
-      note: `Within observers and objects. In brackets the ${level} over observers; p by flipping the signs of observers' differences. Holm: over the rows of an area, and over those of all areas.`}));
+      p_column('p after Holm', r => r.holm), p_column('over all areas, too', r => r.holm_areas), ...evidence_columns('', r => r.evidence), number_column('observers', r => r.observers), number_column('comparisons', r => r.comparisons)],
+      note: `Within observers and objects. In brackets the ${level} over observers; p by flipping the signs of observers' differences. Holm: over the rows of an area, and over those of all areas. ${evidence_note}`}));
 } else by_id('surface_areas').hidden = true;
 
 // Figure 5.
@@ -128,13 +130,13 @@ draw_figure5();
   const rows = data.tables.pairs;
   by_id('table1_body').append(rows.length ? table({name: 'table_1', title: 'Pairs of conditions within observers', rows, columns: [
       ...factor_columns(rows, r => r.keys), text_column('a', r => r.a), text_column('b', r => r.b),
-      number_column('WSS a - b / deg²', r => r.wss_deg), p_column('WSS: p', r => r.p), p_column('WSS: p after Holm', r => r.holm),
+      number_column('WSS a - b / deg²', r => r.wss_deg), p_column('WSS: p', r => r.p), p_column('WSS: p after Holm', r => r.holm), ...evidence_columns('WSS: ', r => r.evidence),
       number_column('CC of all maps', r => r.maps_cc), p_column('CC of all maps: p', r => r.maps_p), p_column('CC of all maps: p after Holm', r => r.maps_holm),
       ...[['CC', 'cc'], ['SIM', 'sim']].flatMap(([name, key]) => [number_column(name, r => r[key].value), number_column(name + ': two observers, other level', r => r[key].other), number_column(name + ': two observers, same level', r => r[key].same), number_column(name + ': same less other', r => r[key].effect)]),
       number_column('observers', r => r.observers), ...remark_column(rows, r => r.absent)],
       note: `WSS, CC and SIM are of one observer and one object, then averaged; in brackets the ${level} over observers. CC of all maps: the maps of all observers are added up for each level. ` +
       'Whether maps differ is told by its p, for which an observer\'s two levels are swapped, whole maps at once; for the p of WSS the signs of observers\' differences are flipped. After Holm: corrected for the rows of the table, those over all groups apart. ' +
-      'A similarity grows with the number of fixations and is below 1 even where nothing differs. So maps of two observers are compared, all of as many fixations: the same level is the ceiling of the other level, and their difference is 0 where levels make none. SIM: maps scaled from 0 to 1 first (MIT benchmark); table1_pairs has it without scaling, too.'})
+      'A similarity grows with the number of fixations and is below 1 even where nothing differs. So maps of two observers are compared, all of as many fixations: the same level is the ceiling of the other level, and their difference is 0 where levels make none. SIM: maps scaled from 0 to 1 first (MIT benchmark); table1_pairs has it without scaling, too. ' + evidence_note})
       : element('p', {class: 'note'}, 'There is no factor whose levels the same observers saw on the same object.'));
 }
 
@@ -158,7 +160,7 @@ draw_figure5();
       p_column('smallest p there can be', r => r.d.least_p)],
       note:
       'Each observer with fixations in both conditions gives a map of differences; clusters of vertices with a t beyond the threshold are tested by flipping the signs of ' +
-      'observers\' maps (largest cluster, sum of t times area). p holds for the whole surface of one object; "over all maps" also for all rows (Bonferroni). ' +
+      'observers\' maps (largest cluster, sum of t times area). p holds for the whole surface of one object; "over all maps" is that of the largest cluster of any row. ' +
       'Shown are the largest cluster of each map, and others with p up to 0.2.'}));
 }
 
@@ -202,7 +204,7 @@ draw_figure5();
             text_column('measure', r => r.measure), text_column('effect', r => r.effect.replace(':', ' × ')), p_column('p', r => r.p), p_column('p after Holm', r => r.holm),
             number_column('observers', r => r.observers), ...remark_column(rows, r => r.absent || (r.least > alpha + 1e-9 ? `so many observers can give no p below ${digits(r.least)}` : ''))],
             note:
-            'Of trials: the share of counted fixations on an area, and the logarithm of WSS. Permutations within observers: of a factor the levels are exchanged, of two together (×) the signs of whole observers. ' +
+            'Of trials: the share of counted fixations on an area, and the logarithm of WSS. p is of the largest difference of two levels, of two factors together (×) of the largest difference of differences, under flips of the signs of whole observers; levels may vary differently, and trials may be missing. ' +
             'Holm: corrected over the rows of the same measure. Mixed models (lme4): run mixed_models.R beside this page.'}));
   else by_id('effects').hidden = true;
 }
@@ -214,8 +216,8 @@ draw_figure5();
     bars(by_id('motion_chart'), panels_of(found, r => (r.keys[0] || [''])[0], r => ({label: r.keys.length ? r.keys[0][1] : 'all', estimate: r.gain})),
          {x_label: 'gain of gaze along the surface', most: 1.1, label: 'Gain of gaze along the motion of the surface'});
     by_id('motion_body').append(table({name: 'motion', title: 'Does gaze go with the surface?', rows, columns: [
-        ...factor_columns(rows, r => r.keys), number_column('gain', r => r.gain), number_column('speed of the surface / (deg/s)', r => r.speed), number_column('observers', r => r.observers), number_column('fixations', r => r.fixations)],
-        note: `While a fixation lasts the object turns on. Gain 1: gaze goes with the place that it looks at; 0: it stays on the screen. In brackets the ${level} over observers.`}));
+        ...factor_columns(rows, r => r.keys), number_column('gain', r => r.gain), number_column('without the tracker\'s error', r => r.corrected), number_column('speed of the surface / (deg/s)', r => r.speed), number_column('observers', r => r.observers), number_column('fixations', r => r.fixations)],
+        note: `While a fixation lasts the object turns on. Gain 1: gaze goes with the place that it looks at; 0: it stays on the screen. In brackets the ${level} over observers. The tracker\'s constant error changes the gain; without it: extrapolated from points that lie as far again from the measured ones.`}));
   } else by_id('motion').hidden = true;
 }
 

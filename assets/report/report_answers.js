@@ -243,7 +243,7 @@ function show_differences() {
   if (!rows.length) return;
   answer_part('answers_body', 'Do levels of factors differ in what is answered?', table({name: 'answer_differences', title: 'Differences of answers between levels', rows, columns: [
       ...answer_columns(rows).slice(1), text_column('measure', r => r.measure), text_column('factor', r => r.column), text_column('a', r => r.a), text_column('b', r => r.b), number_column('a − b', r => r.difference),
-      p_column('p', r => r.p), p_column('p after Holm', r => r.holm), number_column('observers', r => r.observers), ...if_any(rows, number_column('planted', r => r.planted))],
+      p_column('p', r => r.p), p_column('p after Holm', r => r.holm), ...evidence_columns('', r => r.evidence), number_column('observers', r => r.observers), ...if_any(rows, number_column('planted', r => r.planted))],
       note: `Within observers. In brackets the ${level} over observers; p by flipping the signs of observers' differences. Holm: over the rows of an answer's measure.`}));
 }
 
@@ -334,7 +334,7 @@ if (answers && answers.gaze.length) {
   }
   by_id('answer_gaze_table').append(table({name: 'gaze_and_choice', title: 'Looking and answering', rows: rows_shown(answers.gaze), columns: [
       ...answer_columns(answers.gaze), text_column('measure', r => r.measure), text_column('area', r => r.area || 'all'), ...if_any(answers.gaze, text_column('a', r => r.a)), ...if_any(answers.gaze, text_column('b', r => r.b)),
-      number_column('value', r => r.value), number_column('by chance', r => r.chance), p_column('p', r => r.p), p_column('p after Holm', r => r.holm), number_column('observers', r => r.observers), number_column('answers', r => r.trials),
+      number_column('value', r => r.value), number_column('by chance', r => r.chance), p_column('p', r => r.p), p_column('p after Holm', r => r.holm), ...evidence_columns('', r => r.evidence), number_column('observers', r => r.observers), number_column('answers', r => r.trials),
       ...if_any(answers.gaze, number_column('planted', r => r.planted))],
       note: `Counted fixations that began before the answer, up to it. In brackets the ${level} over observers; p by flipping the signs of observers' differences from chance, after Holm over the rows of the answer. Each answer is in the table answer_gaze.` + on_rows(answers.gaze, 'gaze_and_choice')}));
 } else by_id('answer_gaze').hidden = true;

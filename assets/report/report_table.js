@@ -7,6 +7,9 @@
 const text_column = (name, of, more = {}) => ({name, of, text: true, ...more});
 const number_column = (name, of, more = {}) => ({name, of, ...more});
 const p_column = (name, of) => ({name, of, show: p_text});
+// What is said beside p of a difference within observers.
+const evidence_columns = (prefix, of) => [
+  number_column(prefix + 'effect size', r => of(r).effect), number_column(prefix + 'Bayes factor', r => of(r).bf), p_column(prefix + 'p of equivalence', r => of(r).eq)];
 const mm_column = (name, of) => ({name, of, show: mm_text});
 const share_column = (name, of) => ({name: name + ' / %', of, scale: 100});
 

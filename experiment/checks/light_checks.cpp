@@ -65,7 +65,7 @@ void check_sources(ProtocolExamination& examination, std::size_t index) {
                               light.lamps[i]) != light.lamps.begin() + static_cast<std::ptrdiff_t>(i))
             examination.error({light_path(index, "lamps")},
                               fmt::format("the lamp \"{}\" stands there twice", light.lamps[i]),
-                              "a brighter one has more cd_m2");
+                              "a brighter one has a higher luminance_cd_m2");
     }
     if (!light.sun_lux)
         for (const std::string_view key :

@@ -18,10 +18,11 @@ constexpr const char* height_name = "overt:image_height_px";
 constexpr const char* square_name = "overt:square_px";
 constexpr const char* pictures_name = "overt:poses"; // as the first programs called them
 
-/// CIE 1976 L* of a luminance relative to white (ISO/CIE 11664-4).
+/// CIE 1976 L* of a luminance relative to white (ISO/CIE 11664-4). The display shows nothing brighter than
+/// its white.
 double lightness(double luminance) {
     constexpr double delta = 6.0 / 29.0;
-    const double y = std::max(luminance, 0.0);
+    const double y = std::clamp(luminance, 0.0, 1.0);
     return 116.0 * (y > delta * delta * delta ? std::cbrt(y) : y / (3.0 * delta * delta) + 4.0 / 29.0) - 16.0;
 }
 

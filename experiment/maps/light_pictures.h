@@ -39,7 +39,7 @@ LightPictures read_light_pictures(const std::filesystem::path& file, glm::ivec2 
 
 /// How bright places of a stimulus are against the rest of the object in the same picture: CIE 1976 lightness
 /// (ISO/CIE 11664-4) in standard deviations from its mean over the object, each square weighted by its
-/// coverage.
+/// coverage. Light beyond the display's white is taken for white, as it was shown.
 class LightScores {
   public:
     explicit LightScores(const LightPictures& light);

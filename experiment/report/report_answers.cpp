@@ -213,6 +213,8 @@ Json report_answers(const StudyResults& results) {
                                {"difference", json_of(row.difference)},
                                {"p", number(row.p)},
                                {"holm", number(row.p_holm)},
+                               {"evidence", json_of(row.evidence)},
+                               {"evidence", json_of(row.evidence)},
                                {"observers", row.observers},
                                {"planted", number(row.planted)}});
     for (const GazeChoiceRow& row : answers.gaze_choices)

@@ -41,6 +41,12 @@ Json json_of(const SimilarityEstimate& similarity) {
             {"null", json_of(similarity.null)},       {"p", number(similarity.p)}};
 }
 
+Json json_of(const PairedEvidence& evidence) {
+    return {{"effect", json_of(evidence.effect_size)},
+            {"bf", number(evidence.bayes_factor, 3)},
+            {"eq", number(evidence.equivalence_p)}};
+}
+
 Json json_of(const glm::dvec3& v) { return {number(v.x, 8), number(v.y, 8), number(v.z, 8)}; }
 
 } // namespace overt

@@ -25,6 +25,8 @@ Json json_of(const std::vector<StudyKey>& keys);
 /// Its value, those of two observers of the "other" and the "same" level and their "effect", the "null" and
 /// p.
 Json json_of(const SimilarityEstimate& similarity);
+/// The "effect" size, Bayes' factor "bf" and the p of equivalence, "eq".
+Json json_of(const PairedEvidence& evidence);
 /// An array of three.
 Json json_of(const glm::dvec3& v);
 

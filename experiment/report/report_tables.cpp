@@ -54,6 +54,7 @@ Json report_tables(const StudyResults& results) {
                               {"p", number(row.p)},
                               {"holm", number(row.p_holm)},
                               {"holm_areas", number(row.p_holm_areas)},
+                              {"evidence", json_of(row.evidence)},
                               {"observers", row.observers},
                               {"comparisons", row.comparisons}});
     for (const DistributionRow& row : results.distributions) {
@@ -82,6 +83,7 @@ Json report_tables(const StudyResults& results) {
                          {"wss_deg", json_of(row.wss_difference_deg2)},
                          {"p", number(row.wss_p)},
                          {"holm", number(row.wss_p_holm)},
+                         {"evidence", json_of(row.wss_evidence)},
                          {"maps_cc", number(row.maps_cc)},
                          {"maps_p", number(row.maps_p)},
                          {"maps_holm", number(row.maps_p_holm)},
@@ -102,6 +104,7 @@ Json report_tables(const StudyResults& results) {
     for (const GazeMotionRow& row : results.motions)
         motions.push_back({{"keys", json_of(row.keys)},
                            {"gain", json_of(row.surface_gain)},
+                           {"corrected", json_of(row.corrected_gain)},
                            {"speed", json_of(row.surface_speed_deg_s)},
                            {"observers", row.observers},
                            {"fixations", row.fixations}});

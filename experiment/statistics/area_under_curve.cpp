@@ -1,6 +1,7 @@
 #include "experiment/statistics/area_under_curve.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -9,6 +10,13 @@
 #include "experiment/base/random.h"
 
 namespace overt {
+
+namespace {
+
+/// By how much values may differ that ought to be the same.
+double rounding_of(double most, double least) { return 1e-12 * std::max(std::abs(most), std::abs(least)); }
+
+} // namespace
 
 std::optional<double> auc_judd(std::span<const double> map, std::span<const double> areas,
                                std::span<const double> at_fixations) {
@@ -29,13 +37,15 @@ std::optional<double> auc_judd(std::span<const double> map, std::span<const doub
     std::vector<double> thresholds(at_fixations.begin(), at_fixations.end());
     std::sort(thresholds.begin(), thresholds.end(), std::greater<>());
 
+    // Between places a value is reckoned from several, and may be off by rounding.
+    const double rounding = rounding_of(falling.front().first, falling.back().first);
     double above = 0.0, sum = 0.0, hits = 0.0, alarms = 0.0;
     std::size_t next = 0;
     for (std::size_t i = 0; i < thresholds.size(); ++i) {
         // Fixations where the map is as high are reached together.
-        if (i + 1 < thresholds.size() && thresholds[i + 1] == thresholds[i])
+        if (i + 1 < thresholds.size() && thresholds[i] - thresholds[i + 1] <= rounding)
             continue;
-        for (; next < falling.size() && falling[next].first >= thresholds[i]; ++next)
+        for (; next < falling.size() && falling[next].first >= thresholds[i] - rounding; ++next)
             above += falling[next].second;
         const auto rank = static_cast<double>(i + 1);
         // On unequal areas fixations can take more than there is.
@@ -85,7 +95,7 @@ std::optional<double> auc_borji(std::span<const double> map, std::span<const dou
             most = std::max(most, map[i]);
         }
     }
-    if (at_fixations.empty() || !(least < most))
+    if (at_fixations.empty() || !(most - least > rounding_of(most, least)))
         return std::nullopt;
     const auto scaled = [&](double value) { return (value - least) / (most - least); };
     std::vector<double> fixated, random_values(at_fixations.size());

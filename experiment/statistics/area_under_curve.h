@@ -11,7 +11,8 @@ namespace overt {
 /// AUC after Judd: the thresholds are the map's values at the fixations; at the i-th highest the hits are
 /// i / N of the fixations, and the false alarms (A / m - i) / (M - N) with the area A on which the map
 /// reaches the threshold, the number M of places with area and their mean area m. On equal areas that is the
-/// benchmark's formula, without its random jitter. Nothing without fixations, or with as many as places.
+/// benchmark's formula, without its random jitter. Values that differ by rounding are the same (1e-12 of the
+/// highest), so that a constant map has 0.5. Nothing without fixations, or with as many as places.
 std::optional<double> auc_judd(std::span<const double> map, std::span<const double> areas,
                                std::span<const double> at_fixations);
 

@@ -76,6 +76,20 @@ Interval bca_interval(std::vector<double> draws, double observed, std::span<cons
     return {end(outside), end(1.0 - outside)};
 }
 
+std::optional<Interval> jackknife_interval(double value, std::span<const double> without, double confidence) {
+    constexpr std::size_t least_for_jackknife = 4;
+    if (without.size() < least_for_jackknife)
+        return std::nullopt;
+    const auto n = static_cast<double>(without.size());
+    const double mean = mean_of(without);
+    double squares = 0.0;
+    for (const double one : without)
+        squares += (one - mean) * (one - mean);
+    const double half =
+        student_quantile(0.5 + 0.5 * confidence, n - 1.0) * std::sqrt((n - 1.0) / n * squares);
+    return Interval{value - half, value + half};
+}
+
 std::optional<Interval> bootstrap_interval(std::uint32_t count, const StatisticOf& statistic,
                                            const BootstrapSettings& settings) {
     if (count < 3)

@@ -45,6 +45,11 @@ std::optional<Interval> bootstrap_interval_of_mean(std::span<const double> value
 Estimate estimated_mean(std::span<const double> values, const BootstrapSettings& settings,
                         const std::string& reason);
 
+/// Student's interval about a number of n observers from the values that it has without each of them (the
+/// jackknife; Tukey 1958), for what is more than a mean: where observers depend on each other since all are
+/// compared with all. Nothing with fewer than four.
+std::optional<Interval> jackknife_interval(double value, std::span<const double> without, double confidence);
+
 /// The ends of the interval from the draws' values, the value of all, and the values of the jackknife.
 Interval bca_interval(std::vector<double> draws, double observed, std::span<const double> jackknife,
                       double confidence);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "experiment/base/parallel.h"
 #include "experiment/base/random.h"
@@ -116,12 +117,23 @@ class ClusterSearch {
     std::vector<std::uint32_t> cluster_;
 };
 
-void set_signs(std::span<double> signs, std::uint64_t permutation, bool is_exact, std::uint64_t seed) {
+/// Signs of the observers with these numbers, of so many in all.
+void set_signs(std::span<double> signs, std::span<const std::size_t> numbers, std::size_t all,
+               std::uint64_t permutation, bool is_exact, std::uint64_t seed) {
     RandomStream random(seed, "cluster test", permutation);
-    for (std::size_t o = 0; o < signs.size(); ++o) {
-        const bool flip = is_exact ? (permutation >> o & 1u) : permutation > 0 && (random.next_bits() & 1u);
-        signs[o] = flip ? -1.0 : 1.0;
+    std::vector<double> of_all(all, 1.0);
+    for (std::size_t o = 0; o < all; ++o) {
+        if (is_exact ? (permutation >> o & 1u) : permutation > 0 && (random.next_bits() & 1u))
+            of_all[o] = -1.0;
     }
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+        signs[i] = of_all[numbers[i]];
+}
+
+double share_of_as_large(const std::vector<double>& largest, double mass) {
+    const double threshold = mass * (1.0 - 1e-9);
+    return static_cast<double>(std::ranges::count_if(largest, [&](double one) { return one >= threshold; })) /
+           static_cast<double>(largest.size());
 }
 
 } // namespace
@@ -132,10 +144,18 @@ ClusterTest cluster_test(std::span<const std::vector<float>> differences, std::s
     const std::size_t observers = all.observers();
     ClusterTest test;
     test.threshold_t = student_quantile(1.0 - 0.5 * settings.threshold_p, static_cast<double>(observers - 1));
-    test.is_exact = observers < 63 && (std::uint64_t{1} << observers) <= settings.most_exact;
+    std::vector<std::size_t> numbers = settings.observers;
+    if (numbers.empty()) {
+        numbers.resize(observers);
+        std::iota(numbers.begin(), numbers.end(), std::size_t{0});
+    }
+    const std::size_t flipped_observers = std::max(settings.all_observers, observers);
+    test.is_exact = flipped_observers < 63 && (std::uint64_t{1} << flipped_observers) <= settings.most_exact;
     // Flipping all signs gives the same clusters with the other sign: half of the flips are all.
-    test.permutations = test.is_exact ? std::uint64_t{1} << (observers - 1)
+    test.permutations = test.is_exact ? std::uint64_t{1} << (flipped_observers - 1)
                                       : static_cast<std::uint64_t>(settings.permutations);
+    test.least_p = std::max(std::exp2(1.0 - static_cast<double>(observers)),
+                            1.0 / static_cast<double>(test.permutations));
 
     std::vector<double> signs(observers, 1.0);
     ClusterSearch search(all, adjacency, test.threshold_t);
@@ -150,12 +170,9 @@ ClusterTest cluster_test(std::span<const std::vector<float>> differences, std::s
     });
     std::stable_sort(test.clusters.begin(), test.clusters.end(),
                      [](const Cluster& a, const Cluster& b) { return std::abs(a.mass) > std::abs(b.mass); });
-    if (test.clusters.empty())
-        return test;
-
-    // The largest cluster of each permutation; the first is the observed one.
     constexpr std::uint64_t at_a_time = 16;
-    std::vector<double> largest(test.permutations, 0.0);
+    std::vector<double>& largest = test.largest;
+    largest.assign(test.permutations, 0.0);
     parallel_for(
         static_cast<int>((test.permutations + at_a_time - 1) / at_a_time),
         [&](int turn) {
@@ -163,7 +180,7 @@ ClusterTest cluster_test(std::span<const std::vector<float>> differences, std::s
             std::vector<double> flipped(observers);
             const std::uint64_t begin = static_cast<std::uint64_t>(turn) * at_a_time;
             for (std::uint64_t i = begin; i < std::min(test.permutations, begin + at_a_time); ++i) {
-                set_signs(flipped, i, test.is_exact, settings.seed);
+                set_signs(flipped, numbers, flipped_observers, i, test.is_exact, settings.seed);
                 permuted.reckon(flipped);
                 permuted.for_each([&](const auto&, double mass, double) {
                     largest[i] = std::max(largest[i], std::abs(mass));
@@ -172,12 +189,29 @@ ClusterTest cluster_test(std::span<const std::vector<float>> differences, std::s
         },
         settings.most_threads);
     for (Cluster& cluster : test.clusters) {
-        const double threshold = std::abs(cluster.mass) * (1.0 - 1e-9);
-        cluster.p = static_cast<double>(std::count_if(largest.begin(), largest.end(),
-                                                      [&](double mass) { return mass >= threshold; })) /
-                    static_cast<double>(largest.size());
+        // Random flips of many can by chance be fewer of these few than all.
+        cluster.p = std::max(share_of_as_large(largest, std::abs(cluster.mass)), test.least_p);
     }
     return test;
+}
+
+std::vector<std::vector<double>> p_over_tests(std::span<const ClusterTest> tests) {
+    std::vector<double> scales, largest;
+    for (const ClusterTest& test : tests) {
+        const double sum = std::accumulate(test.largest.begin(), test.largest.end(), 0.0);
+        scales.push_back(sum > 0.0 ? static_cast<double>(test.largest.size()) / sum : 0.0);
+        largest.resize(std::max(largest.size(), test.largest.size()), 0.0);
+        for (std::size_t i = 0; i < test.largest.size(); ++i)
+            largest[i] = std::max(largest[i], scales.back() * test.largest[i]);
+    }
+    std::vector<std::vector<double>> p;
+    for (std::size_t i = 0; i < tests.size(); ++i) {
+        std::vector<double>& own = p.emplace_back();
+        for (const Cluster& cluster : tests[i].clusters)
+            own.push_back(
+                std::max(share_of_as_large(largest, scales[i] * std::abs(cluster.mass)), cluster.p));
+    }
+    return p;
 }
 
 } // namespace overt

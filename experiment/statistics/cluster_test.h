@@ -21,6 +21,10 @@ struct ClusterTestSettings {
     std::uint64_t most_exact = 4096;
     std::uint64_t seed = 1;
     int most_threads = 0; ///< 0: all processors; the result is the same
+    /// Of several tests whose flips are to be the same: by difference the observer's number, and how many
+    /// observers there are in all tests. Empty: those of this test.
+    std::vector<std::size_t> observers;
+    std::size_t all_observers = 0;
 };
 
 struct Cluster {
@@ -37,14 +41,22 @@ struct ClusterTest {
     std::vector<Cluster> clusters; ///< by falling size of their mass
     std::uint64_t permutations = 0;
     bool is_exact = false;
+    double least_p = 1.0; ///< that so many observers can give
+    std::vector<double>
+        largest; ///< by flip the size of the largest cluster's mass; the first is the observed one
 };
 
 /// `differences`: of each observer one number by vertex (a less b); at least two observers. t is the mean
 /// divided by its standard error; clusters are connected vertices beyond the threshold of the same sign. The
 /// null: each observer's map of differences may as well have the other sign. All sign flips are made where
-/// they are few enough; else random ones, of which the observed one is the first. Vertices without area are
-/// left out.
+/// they are few enough; else random ones, of which the observed one is the first. No p is below `least_p`.
+/// Vertices without area are left out.
 ClusterTest cluster_test(std::span<const std::vector<float>> differences, std::span<const double> areas,
                          const Adjacency& adjacency, const ClusterTestSettings& settings);
+
+/// Corrects over several tests that were made with the same flips: by test and cluster the p that chance
+/// alone makes a cluster of this size in any of them. So that large objects do not decide alone, masses are
+/// compared after division by the mean over all flips of the largest of their test.
+std::vector<std::vector<double>> p_over_tests(std::span<const ClusterTest> tests);
 
 } // namespace overt

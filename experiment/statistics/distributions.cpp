@@ -1,6 +1,7 @@
 #include "experiment/statistics/distributions.h"
 #include "experiment/base/log_gamma.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -127,6 +128,27 @@ double student_quantile(double p, double degrees) {
         (student_probability(-middle, degrees) > tail ? low : high) = middle;
     }
     return std::copysign(0.5 * (low + high), p - 0.5);
+}
+
+double noncentral_student_probability(double t, double degrees, double noncentrality) {
+    // Given u = root (chi-square / degrees), t is not exceeded where z is at most t u - noncentrality.
+    const double log_front =
+        std::log(2.0) + 0.5 * degrees * std::log(0.5 * degrees) - log_gamma(0.5 * degrees);
+    const auto density = [&](double u) {
+        return u > 0.0          ? std::exp(log_front + (degrees - 1.0) * std::log(u) - 0.5 * degrees * u * u)
+               : degrees == 1.0 ? std::exp(log_front)
+                                : 0.0;
+    };
+    const auto value = [&](double u) { return density(u) * normal_probability(t * u - noncentrality); };
+    // Beyond ten standard deviations, 1 / root (2 degrees) each, nothing is left.
+    const double deviation = 1.0 / std::sqrt(2.0 * degrees);
+    const double from = std::max(0.0, 1.0 - 10.0 * deviation), to = 1.0 + 10.0 * deviation;
+    constexpr int steps = 400;
+    const double step = (to - from) / steps;
+    double sum = value(from) + value(to);
+    for (int i = 1; i < steps; ++i)
+        sum += (i % 2 == 1 ? 4.0 : 2.0) * value(from + i * step);
+    return std::clamp(sum * step / 3.0, 0.0, 1.0);
 }
 
 } // namespace overt

@@ -16,4 +16,8 @@ double student_probability(double t, double degrees);
 /// The t up to which such a number lies with probability p, 0 < p < 1.
 double student_quantile(double p, double degrees);
 
+/// Probability of a number of the noncentral distribution of Student's t up to t: of (z + noncentrality) /
+/// root (chi-square / degrees). To about 1e-9; `degrees` >= 1.
+double noncentral_student_probability(double t, double degrees, double noncentrality);
+
 } // namespace overt

@@ -1,10 +1,9 @@
 #include "experiment/statistics/pairwise_mean.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "experiment/base/error.h"
-#include "experiment/statistics/distributions.h"
+#include "experiment/statistics/bootstrap.h"
 
 namespace overt {
 
@@ -44,18 +43,7 @@ Estimate PairwiseMean::estimate(double confidence, const std::string& reason) co
         if (pairs_with[k] > 0 && pairs_with[k] < pairs)
             without.push_back((sum - sum_with[k]) / (pairs - pairs_with[k]));
     }
-    constexpr std::size_t least_for_interval = 4;
-    if (without.size() < least_for_interval)
-        return Estimate::of(mean);
-    const auto n = static_cast<double>(without.size());
-    double squares = 0.0, mean_without = 0.0;
-    for (const double value : without)
-        mean_without += value / n;
-    for (const double value : without)
-        squares += (value - mean_without) * (value - mean_without);
-    const double half =
-        student_quantile(0.5 + 0.5 * confidence, n - 1.0) * std::sqrt((n - 1.0) / n * squares);
-    return Estimate::of(mean, Interval{mean - half, mean + half});
+    return Estimate::of(mean, jackknife_interval(mean, without, confidence));
 }
 
 } // namespace overt

@@ -8,6 +8,13 @@ std::optional<PointSpread> point_spread(std::span<const glm::dvec3> points) {
     return point_spread(points, std::vector<double>(points.size(), 1.0));
 }
 
+std::optional<double> unbiased_wss(std::span<const glm::dvec3> points) {
+    if (points.size() < 2)
+        return std::nullopt;
+    const auto count = static_cast<double>(points.size());
+    return point_spread(points)->wss() * count / (count - 1.0);
+}
+
 std::optional<PointSpread> point_spread(std::span<const glm::dvec3> points, std::span<const double> weights) {
     PointSpread spread;
     double all = 0.0;

@@ -20,6 +20,10 @@ struct PointSpread {
 /// Nothing without points.
 std::optional<PointSpread> point_spread(std::span<const glm::dvec3> points);
 
+/// The sum of the variances along the axes, each divided by N - 1: what does not grow with the number of
+/// points, so that of unequal numbers can be compared. Nothing with fewer than two.
+std::optional<double> unbiased_wss(std::span<const glm::dvec3> points);
+
 /// The same with weights (not negative), such as durations: variances divide by the sum of the weights.
 /// Nothing if that is 0.
 std::optional<PointSpread> point_spread(std::span<const glm::dvec3> points, std::span<const double> weights);

@@ -132,6 +132,8 @@ std::optional<SwapTest> swap_test(std::span<const PairedMaps> surfaces, std::siz
         if (is_there[i])
             numbers.push_back(i);
     }
+    if (numbers.size() < 2)
+        return std::nullopt;
     std::vector<double> signs(observers, 1.0);
     const std::optional<double> observed = mean_correlation(swapped, signs);
     if (!observed)

@@ -48,7 +48,8 @@ struct SwapTest {
 /// counting the observed one (Phipson and Smyth 2010). The fixations of a map may depend on each other, as
 /// they do under one error of calibration: only whole maps are swapped.
 ///
-/// Takes part who is below `observers`. Nothing if that is nobody, or if a sum is constant on all surfaces.
+/// Takes part who is below `observers`. Nothing if these are fewer than two, of whom both ways of swapping
+/// are as likely, or if a sum is constant on all surfaces.
 std::optional<SwapTest> swap_test(std::span<const PairedMaps> surfaces, std::size_t observers,
                                   const PermutationSettings& settings = {});
 

@@ -99,6 +99,13 @@ void glance_at(StudyResults& results, const ExclusionRules& rules) {
             "{} of {} counted fixations ({:.1f} %) count only because samples that miss the object by no "
             "more than the reach are placed at its outline.",
             glance.only_by_reach, glance.counted, 100.0 * glance.only_by_reach / glance.counted));
+    if (const std::optional<double> rate = rate_too_low_for_counts(results); rate && glance.counted > 0)
+        remarks.push_back(fmt::format(
+            "Gaze was sampled at {:.3g} Hz, too seldom to tell short saccades: fixations near each other run "
+            "together, so that counts of fixations and shares by count are unsafe, most of all of small "
+            "areas such "
+            "as a head. Take shares by duration.",
+            *rate));
     if (glance.any_simulated)
         remarks.push_back(
             fmt::format("The gaze of {} sessions is that of simulated observers.",

@@ -242,6 +242,7 @@ std::vector<AnswerDifferenceRow> answer_differences(const AnswersBy& answers, co
                         row.difference = estimated_mean(row.of_observers, options.bootstrap(), "");
                         if (const auto test = sign_flip_test(row.of_observers, options.permutation()))
                             row.p = test->p;
+                        row.evidence = options.evidence(row.of_observers);
                         rows.push_back(std::move(row));
                     }
             }

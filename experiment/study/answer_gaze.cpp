@@ -211,6 +211,7 @@ class GazeChoiceMaker {
         row.of_observers = values;
         if (const auto test = sign_flip_test(differences, options_.permutation()))
             row.p = test->p;
+        row.evidence = options_.evidence(differences);
         rows_.push_back(std::move(row));
         std::ranges::move(single, std::back_inserter(single_));
     }
@@ -410,7 +411,7 @@ std::vector<DifferenceMap> answer_maps(const StudyResults& results, const Object
         Fixations& to = own.observers[one.answer->observer][value];
         to.insert(to.end(), one.fixations.begin(), one.fixations.end());
     }
-    std::vector<DifferenceMap> rows;
+    std::vector<ComparedLevels> all;
     for (const auto& [of, own] : answers) {
         const auto& [task, answer, item, object] = of;
         if (!maps[static_cast<std::size_t>(object)] || own.values.size() > most_compared_choices)
@@ -428,17 +429,13 @@ std::vector<DifferenceMap> answer_maps(const StudyResults& results, const Object
                     const auto in_a = by_value.find(*a), in_b = by_value.find(*b);
                     if (in_a != by_value.end() && in_b != by_value.end() && !in_a->second.empty() &&
                         !in_b->second.empty())
-                        compared.push_back({in_a->second, in_b->second});
+                        compared.push_back({observer, in_a->second, in_b->second});
                 }
-                if (!compared.empty()) {
-                    find_difference(row, compared, *maps[static_cast<std::size_t>(object)], options,
-                                    "one observer alone gave both answers");
-                    rows.push_back(std::move(row));
-                }
+                if (!compared.empty())
+                    all.push_back({std::move(row), std::move(compared)});
             }
     }
-    correct_over_maps(rows);
-    return rows;
+    return find_differences(std::move(all), maps, options, "one observer alone gave both answers");
 }
 
 } // namespace overt

@@ -31,6 +31,7 @@ AreaPairRow area_row_of(std::span<const LevelComparison> comparisons, const std:
                                                         : "no object that was compared has this area");
     if (const auto test = sign_flip_test(means, options.permutation()))
         row.p = test->p;
+    row.evidence = options.evidence(means);
     return row;
 }
 

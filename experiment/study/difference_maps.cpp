@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -42,7 +44,7 @@ struct LevelDifferences {
 LevelDifferences observer_differences(const std::vector<ComparedFixations>& observers,
                                       const FixationMaps& maps) {
     LevelDifferences found;
-    for (const auto& [a, b] : observers) {
+    for (const auto& [observer, a, b] : observers) {
         const std::vector<double> share_a = share_of_time(maps, a), share_b = share_of_time(maps, b);
         std::vector<float>& difference = found.of_observers.emplace_back();
         for (std::size_t v = 0; v < share_a.size(); ++v)
@@ -66,7 +68,8 @@ std::vector<ComparedFixations> compared_in(const StudyResults& results, const St
             else if (level == of.b)
                 in_b.push_back(trial);
         }
-        ComparedFixations own{fixations_on(results, in_a, of.object), fixations_on(results, in_b, of.object)};
+        ComparedFixations own{observer, fixations_on(results, in_a, of.object),
+                              fixations_on(results, in_b, of.object)};
         if (!own.a.empty() && !own.b.empty())
             compared.push_back(std::move(own));
     }
@@ -95,15 +98,12 @@ DifferenceMap::Cluster cluster_of(const Cluster& found, const FixationMaps& maps
     return cluster;
 }
 
-void test_differences(DifferenceMap& of, const LevelDifferences& differences, const FixationMaps& maps,
-                      const StudyOptions& options) {
-    ClusterTestSettings settings;
-    settings.permutations = options.permutations;
-    settings.seed = options.seed;
+ClusterTest test_differences(DifferenceMap& of, const LevelDifferences& differences, const FixationMaps& maps,
+                             const ClusterTestSettings& settings) {
     const ClusterTest test =
         cluster_test(differences.of_observers, maps.visible_areas(), maps.adjacency(), settings);
     of.threshold_t = test.threshold_t;
-    of.least_p = 1.0 / static_cast<double>(test.permutations);
+    of.least_p = test.least_p;
     const std::vector<std::vector<double>> sums = maps.at_vertices(differences.sums);
     for (std::size_t v = 0; v < sums[0].size(); ++v)
         of.difference.push_back(static_cast<float>((sums[0][v] - sums[1][v]) / of.observers));
@@ -118,30 +118,59 @@ void test_differences(DifferenceMap& of, const LevelDifferences& differences, co
         const std::uint32_t sample = maps.samples().nearest(maps.geometry().node_of(v));
         of.cluster.push_back(sample == SurfaceSamples::none ? std::uint16_t{0} : numbers[sample]);
     }
+    return test;
+}
+
+/// Numbers of all who take part in any map that is tested.
+std::map<std::string, std::size_t> numbers_of_observers(const std::vector<ComparedLevels>& compared) {
+    std::map<std::string, std::size_t> numbers;
+    for (const ComparedLevels& one : compared) {
+        for (const ComparedFixations& own : one.observers) {
+            if (one.observers.size() > 1)
+                numbers.try_emplace(own.observer, numbers.size());
+        }
+    }
+    return numbers;
 }
 
 } // namespace
 
-void find_difference(DifferenceMap& of, const std::vector<ComparedFixations>& observers,
-                     const FixationMaps& maps, const StudyOptions& options, const std::string& of_one) {
-    of.observers = static_cast<int>(observers.size());
-    if (of.observers == 1)
-        of.absent = of_one;
-    else
-        test_differences(of, observer_differences(observers, maps), maps, options);
-}
-
-void correct_over_maps(std::vector<DifferenceMap>& maps) {
-    const auto tested = static_cast<double>(
-        std::ranges::count_if(maps, [](const DifferenceMap& map) { return map.absent.empty(); }));
-    for (DifferenceMap& map : maps)
-        for (DifferenceMap::Cluster& cluster : map.clusters)
-            cluster.p_of_all = std::min(1.0, cluster.p * tested);
+std::vector<DifferenceMap> find_differences(std::vector<ComparedLevels> compared,
+                                            const ObjectFixationMaps& maps, const StudyOptions& options,
+                                            const std::string& of_one) {
+    const std::map<std::string, std::size_t> numbers = numbers_of_observers(compared);
+    std::vector<DifferenceMap> found;
+    std::vector<ClusterTest> tests;
+    for (ComparedLevels& one : compared) {
+        DifferenceMap& map = found.emplace_back(std::move(one.map));
+        map.observers = static_cast<int>(one.observers.size());
+        tests.emplace_back();
+        if (map.observers == 1) {
+            map.absent = of_one;
+            continue;
+        }
+        ClusterTestSettings settings;
+        settings.permutations = options.permutations;
+        settings.seed = options.seed;
+        settings.all_observers = numbers.size();
+        for (const ComparedFixations& own : one.observers)
+            settings.observers.push_back(numbers.at(own.observer));
+        const FixationMaps& on = *maps[static_cast<std::size_t>(map.object)];
+        tests.back() = test_differences(map, observer_differences(one.observers, on), on, settings);
+        for (Cluster& cluster : tests.back().clusters)
+            cluster.vertices.clear(); // no longer asked for
+    }
+    const std::vector<std::vector<double>> p = p_over_tests(tests);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        for (std::size_t j = 0; j < found[i].clusters.size(); ++j)
+            found[i].clusters[j].p_of_all = p[i][j];
+    }
+    return found;
 }
 
 std::vector<DifferenceMap> difference_maps(const StudyResults& results, const ObjectFixationMaps& maps,
                                            const LevelLists& levels, const StudyOptions& options) {
-    std::vector<DifferenceMap> rows;
+    std::vector<ComparedLevels> all;
     const std::vector<std::string> others = columns_beside_compared(options),
                                    compared = levels_of(results, options.compare, levels);
     std::vector<StudyGroup> groups = make_groups(results, {}, levels);
@@ -159,19 +188,14 @@ std::vector<DifferenceMap> difference_maps(const StudyResults& results, const Ob
                     row.column = options.compare;
                     row.a = compared[a];
                     row.b = compared[b];
-                    const std::vector<ComparedFixations> compared_fixations =
-                        compared_in(results, group, row);
-                    if (compared_fixations.empty())
-                        continue;
-                    find_difference(row, compared_fixations, *maps[object], options,
-                                    "one observer alone saw it in both levels");
-                    rows.push_back(std::move(row));
+                    std::vector<ComparedFixations> observers = compared_in(results, group, row);
+                    if (!observers.empty())
+                        all.push_back({std::move(row), std::move(observers)});
                 }
             }
         }
     }
-    correct_over_maps(rows);
-    return rows;
+    return find_differences(std::move(all), maps, options, "one observer alone saw it in both levels");
 }
 
 } // namespace overt

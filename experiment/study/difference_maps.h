@@ -1,6 +1,7 @@
 /// Where on the surface two levels of the compared column differ within observers.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "experiment/study/fixation_maps.h"
@@ -9,16 +10,22 @@ namespace overt {
 
 /// An observer's fixations on an object in two conditions; neither empty.
 struct ComparedFixations {
+    std::string observer;
     Fixations a, b;
 };
 
-/// Fills in what `of` says of the difference of these observers, one at least: each one's share of the time
-/// of fixation per mm^2 in a less that in b, and its clusters. With one observer it is absent for the reason.
-void find_difference(DifferenceMap& of, const std::vector<ComparedFixations>& observers,
-                     const FixationMaps& maps, const StudyOptions& options, const std::string& of_one);
+/// A map of differences that is still to be reckoned.
+struct ComparedLevels {
+    DifferenceMap map;                        ///< what is compared, and on which object
+    std::vector<ComparedFixations> observers; ///< one at least
+};
 
-/// Sets `p_of_all` of all clusters: corrected over the maps that have been tested.
-void correct_over_maps(std::vector<DifferenceMap>& maps);
+/// Reckons all maps of one table: each observer's share of the time of fixation per mm^2 in a less that in
+/// b, and clusters of differences. Signs of observers are flipped in all maps at once, and `p_of_all` is that
+/// of the largest cluster of all maps. With one observer a map is absent for the reason `of_one`.
+std::vector<DifferenceMap> find_differences(std::vector<ComparedLevels> compared,
+                                            const ObjectFixationMaps& maps, const StudyOptions& options,
+                                            const std::string& of_one);
 
 /// For each pair of levels, within each group of the other columns of `--by` and for all of these together,
 /// on each object that some observer saw in both levels. Each observer gives one map of differences: the

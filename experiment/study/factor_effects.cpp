@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <iterator>
 #include <map>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -34,38 +34,6 @@ Cell cell_of(const TrialValue& one, const std::vector<std::string>& columns) {
     return cell;
 }
 
-/// Takes off the mean over all trials that are alike in these columns; gives the largest of these means.
-double centre(Values& values, const std::vector<std::string>& columns) {
-    std::map<Cell, std::pair<double, int>> sums;
-    std::vector<std::pair<double, int>*> own;
-    for (const TrialValue& one : values) {
-        own.push_back(&sums[cell_of(one, columns)]);
-        own.back()->first += one.value;
-        ++own.back()->second;
-    }
-    double largest = 0.0;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        const double mean = own[i]->first / own[i]->second;
-        values[i].value -= mean;
-        largest = std::max(largest, std::abs(mean));
-    }
-    return largest;
-}
-
-/// Without what the sum of two functions, of the one columns and of the others, tells.
-void take_off_additive_part(Values& values, const std::vector<std::string>& one,
-                            const std::vector<std::string>& other) {
-    double size = 0.0;
-    for (const TrialValue& value : values)
-        size = std::max(size, std::abs(value.value));
-    // Designs that are nearly balanced need a few rounds.
-    for (int round = 0; round < 200; ++round) {
-        const double left = std::max(centre(values, one), centre(values, other));
-        if (left <= 1e-12 * size)
-            return;
-    }
-}
-
 /// Trials of whom there are others that are alike in these columns and have another level of `column`.
 Values with_other_levels(const Values& values, const std::vector<std::string>& columns,
                          const std::string& column) {
@@ -78,24 +46,24 @@ Values with_other_levels(const Values& values, const std::vector<std::string>& c
     return found;
 }
 
-std::vector<LevelMeans> observer_level_means(const Values& values, std::size_t levels,
-                                             const std::function<std::size_t(const StudyTrial&)>& level_of) {
-    std::map<std::string, std::vector<std::pair<double, int>>> sums;
+/// By trial the number of the group of all that are alike in these columns.
+std::vector<std::size_t> groups_of(const Values& values, const std::vector<std::string>& columns) {
+    std::map<Cell, std::size_t> numbers;
+    std::vector<std::size_t> groups;
+    for (const TrialValue& one : values)
+        groups.push_back(numbers.try_emplace(cell_of(one, columns), numbers.size()).first->second);
+    return groups;
+}
+
+/// Values and observers; cells and what is beside are left to the test.
+FactorTrials trials_of(const Values& values) {
+    FactorTrials trials;
+    std::map<std::string, std::size_t> observers;
     for (const TrialValue& one : values) {
-        auto& own = sums.try_emplace(one.observer, levels).first->second;
-        auto& [sum, count] = own[level_of(*one.trial)];
-        sum += one.value;
-        ++count;
+        trials.values.push_back(one.value);
+        trials.observers.push_back(observers.try_emplace(one.observer, observers.size()).first->second);
     }
-    std::vector<LevelMeans> means;
-    for (const auto& [observer, own] : sums) {
-        LevelMeans& mean = means.emplace_back(levels);
-        for (std::size_t i = 0; i < levels; ++i) {
-            if (own[i].second > 0)
-                mean[i] = own[i].first / own[i].second;
-        }
-    }
-    return means;
+    return trials;
 }
 
 std::size_t place_in(const std::vector<std::string>& levels, const std::string& level) {
@@ -171,26 +139,27 @@ class EffectTests {
         Values compared = with_other_levels(values, beside(column), column);
         if (compared.empty())
             return row_of(column, std::nullopt, "no two levels were measured with all else alike");
-        centre(compared, beside(column));
-        const auto means = observer_level_means(
-            compared, own.size(), [&](const StudyTrial& trial) { return place_in(own, trial.key(column)); });
-        return row_of(column, level_exchange_test(means, options_.permutation()),
+        FactorTrials trials = trials_of(compared);
+        for (const TrialValue& one : compared)
+            trials.cells.push_back(place_in(own, one.trial->key(column)));
+        trials.beside = {groups_of(compared, beside(column))};
+        return row_of(column, main_effect_test(std::move(trials), own.size(), options_.permutation()),
                       "fewer than two observers have numbers in two levels");
     }
 
-    FactorEffectRow interaction(const std::string& a, const std::string& b, Values values) const {
+    FactorEffectRow interaction(const std::string& a, const std::string& b, const Values& values) const {
         const std::string effect = fmt::format("{}:{}", a, b);
         const std::vector<std::string> in_a = levels(a), in_b = levels(b);
         if (in_a.size() < 2 || in_b.size() < 2)
             return row_of(effect, std::nullopt, "one of both has one level alone");
         const std::vector<std::string> others = without(beside(a), b);
-        take_off_additive_part(values, with(others, a), with(others, b));
-        const auto means =
-            observer_level_means(values, in_a.size() * in_b.size(), [&](const StudyTrial& trial) {
-                return place_in(in_a, trial.key(a)) * in_b.size() + place_in(in_b, trial.key(b));
-            });
-        return row_of(effect, interaction_flip_test(means, in_b.size(), options_.permutation()),
-                      "fewer than two observers have numbers in all combinations of both");
+        FactorTrials trials = trials_of(values);
+        for (const TrialValue& one : values)
+            trials.cells.push_back(place_in(in_a, one.trial->key(a)) * in_b.size() +
+                                   place_in(in_b, one.trial->key(b)));
+        trials.beside = {groups_of(values, with(others, a)), groups_of(values, with(others, b))};
+        return row_of(effect, interaction_test(trials, in_a.size(), in_b.size(), options_.permutation()),
+                      "fewer than two observers have numbers that tell it from both by themselves");
     }
 
     const StudyResults& results_;

@@ -9,11 +9,11 @@ namespace overt {
 
 namespace {
 
-double wss_of(std::span<const StudyFixation* const> fixations) {
+std::optional<double> wss_of(std::span<const StudyFixation* const> fixations) {
     std::vector<glm::dvec3> points;
     for (const StudyFixation* fixation : fixations)
         points.push_back(fixation->position);
-    return point_spread(points)->wss();
+    return unbiased_wss(points);
 }
 
 } // namespace
@@ -52,12 +52,16 @@ std::vector<LevelComparison> level_comparisons(const StudyResults& results, cons
     return comparisons;
 }
 
-double wss_difference_mm2(const LevelComparison& comparison, const ObjectScale& scale) {
-    return (wss_of(comparison.a) - wss_of(comparison.b)) * scale.mm_per_unit * scale.mm_per_unit;
+std::optional<double> wss_difference_mm2(const LevelComparison& comparison, const ObjectScale& scale) {
+    const std::optional<double> a = wss_of(comparison.a), b = wss_of(comparison.b);
+    if (!a || !b)
+        return std::nullopt;
+    return (*a - *b) * scale.mm_per_unit * scale.mm_per_unit;
 }
 
-double wss_difference_deg2(const LevelComparison& comparison, const ObjectScale& scale) {
-    return wss_difference_mm2(comparison, scale) / (scale.mm_per_deg * scale.mm_per_deg);
+std::optional<double> wss_difference_deg2(const LevelComparison& comparison, const ObjectScale& scale) {
+    const std::optional<double> mm2 = wss_difference_mm2(comparison, scale);
+    return mm2 ? std::optional(*mm2 / (scale.mm_per_deg * scale.mm_per_deg)) : std::nullopt;
 }
 
 std::optional<double> area_difference(const LevelComparison& comparison, const StudyResults& results,

@@ -29,10 +29,11 @@ std::vector<LevelComparison> level_comparisons(const StudyResults& results, cons
                                                const std::string& column, const std::string& a,
                                                const std::string& b);
 
-/// WSS of a less that of b: on the object, and as it is seen in the depth of the object's axis. What is
-/// averaged over objects is tested as it is seen.
-double wss_difference_mm2(const LevelComparison& comparison, const ObjectScale& scale);
-double wss_difference_deg2(const LevelComparison& comparison, const ObjectScale& scale);
+/// WSS of a less that of b, both unbiased (unbiased_wss), since the levels may have unequal numbers of
+/// fixations: on the object, and as it is seen in the depth of the object's axis. What is averaged over
+/// objects is tested as it is seen. Nothing if either level has one fixation alone.
+std::optional<double> wss_difference_mm2(const LevelComparison& comparison, const ObjectScale& scale);
+std::optional<double> wss_difference_deg2(const LevelComparison& comparison, const ObjectScale& scale);
 
 /// Share of the fixations on an area, of a less that of b; nothing if the object does not have it.
 std::optional<double> area_difference(const LevelComparison& comparison, const StudyResults& results,

@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
+#include <tuple>
+#include <utility>
 
 #include "experiment/base/parallel.h"
 #include "experiment/statistics/area_under_curve.h"
+#include "experiment/statistics/bootstrap.h"
 #include "experiment/statistics/map_similarity.h"
 #include "experiment/study/study_maps.h"
 
@@ -63,10 +67,11 @@ bool differ_in_level_alone(const StudyResults& results, const GroupMaps& a, cons
     return true;
 }
 
-/// What one observer's fixations give.
+/// What one observer's fixations give. Those that need no sorting come first: KL, NSS, both gains; then AUC
+/// after Judd and after Borji.
 struct Scores {
-    static constexpr std::size_t count = 6;
-    std::array<std::optional<double>, count> values; ///< KL, NSS, AUC-Judd, AUC-Borji, both gains
+    static constexpr std::size_t count = 6, without_sorting = 4;
+    std::array<std::optional<double>, count> values;
 };
 
 /// A map that predicts: on the surface, and at the fixations that are to be told.
@@ -74,48 +79,71 @@ struct PredictingMap {
     std::vector<double> density, at_fixations;
 };
 
-Scores scores_of(const ObserverMap& of, const PredictingMap& by, const FixationMaps& maps, bool is_exposure,
-                 std::uint64_t seed) {
+Scores scores_of(const ObserverMap& of, const PredictingMap& by, const FixationMaps& maps, bool is_exposure) {
     const std::span<const double> areas = maps.visible_areas();
-    const std::vector<double> even(areas.size(), 1.0), even_there(of.fixations.size(), 1.0),
-        exposure_there = maps.exposure_at(of.fixations);
+    const std::vector<double> even(areas.size(), 1.0), even_there(of.fixations.size(), 1.0);
     const auto& [predicting, at_fixations] = by;
     Scores scores;
     scores.values = {kl_divergence(predicting, of.map, areas),
                      nss(predicting, areas, at_fixations),
-                     auc_judd(predicting, areas, at_fixations),
-                     auc_borji(predicting, areas, at_fixations, seed),
-                     is_exposure
-                         ? std::nullopt
-                         : information_gain(predicting, maps.exposure(), areas, at_fixations, exposure_there),
-                     information_gain(predicting, even, areas, at_fixations, even_there)};
+                     is_exposure ? std::nullopt
+                                 : information_gain(predicting, maps.exposure(), areas, at_fixations,
+                                                    maps.exposure_at(of.fixations)),
+                     information_gain(predicting, even, areas, at_fixations, even_there),
+                     std::nullopt,
+                     std::nullopt};
     return scores;
 }
 
-/// The fixations of all observers but the one that is told, and the exposure as one more; empty if nobody
-/// else has any.
-PredictingMap predicting_map(const GroupMaps& from, const ObserverMap& told, const FixationMaps& maps) {
-    PredictingMap map{from.sum, {}};
-    Fixations predicting;
-    for (const ObserverMap& one : from.observers) {
-        if (one.observer != told.observer) {
-            predicting.insert(predicting.end(), one.fixations.begin(), one.fixations.end());
-            continue;
-        }
-        for (std::size_t v = 0; v < map.density.size(); ++v)
-            map.density[v] = std::max(map.density[v] - one.map[v], 0.0);
-    }
-    if (predicting.empty())
-        return {};
-    map.at_fixations = maps.sum_at(predicting, told.fixations);
-    const std::vector<double> exposure_there = maps.exposure_at(told.fixations);
-    const double count = static_cast<double>(predicting.size() + 1);
-    for (std::size_t v = 0; v < map.density.size(); ++v)
-        map.density[v] = (map.density[v] + maps.exposure()[v]) / count;
-    for (std::size_t i = 0; i < map.at_fixations.size(); ++i)
-        map.at_fixations[i] = (map.at_fixations[i] + exposure_there[i]) / count;
-    return map;
+void add_areas_under_curves(Scores& scores, const PredictingMap& by, const FixationMaps& maps,
+                            std::uint64_t seed) {
+    scores.values[4] = auc_judd(by.density, maps.visible_areas(), by.at_fixations);
+    scores.values[5] = auc_borji(by.density, maps.visible_areas(), by.at_fixations, seed);
 }
+
+/// Maps that tell one observer's fixations, of some of the observers of a group and the exposure as one
+/// fixation more.
+class Predictors {
+  public:
+    Predictors(const GroupMaps& from, const ObserverMap& told, const FixationMaps& maps)
+        : from_(from), told_(told), maps_(maps), exposure_there_(maps.exposure_at(told.fixations)) {
+        for (const ObserverMap& one : from.observers)
+            there_.push_back(one.observer == told.observer ? std::vector<double>()
+                                                           : maps.sum_at(one.fixations, told.fixations));
+    }
+
+    /// Of all but the one who is told, and the one with this label; empty if nobody else has any fixations.
+    PredictingMap without(const std::string& left_out) const {
+        PredictingMap map{from_.sum, exposure_there_};
+        std::size_t fixations = 0;
+        for (std::size_t i = 0; i < from_.observers.size(); ++i) {
+            const ObserverMap& one = from_.observers[i];
+            if (one.observer == told_.observer || one.observer == left_out) {
+                for (std::size_t v = 0; v < map.density.size(); ++v)
+                    map.density[v] = std::max(map.density[v] - one.map[v], 0.0);
+                continue;
+            }
+            fixations += one.fixations.size();
+            for (std::size_t f = 0; f < map.at_fixations.size(); ++f)
+                map.at_fixations[f] += there_[i][f];
+        }
+        if (fixations == 0)
+            return {};
+        const double count = static_cast<double>(fixations + 1);
+        for (std::size_t v = 0; v < map.density.size(); ++v)
+            map.density[v] = (map.density[v] + maps_.exposure()[v]) / count;
+        for (double& value : map.at_fixations)
+            value /= count;
+        return map;
+    }
+
+  private:
+    const GroupMaps& from_;
+    const ObserverMap& told_;
+    const FixationMaps& maps_;
+    std::vector<double> exposure_there_;
+    std::vector<std::vector<double>> there_; ///< what each observer's map has at the fixations
+};
 
 /// A row to be made, and the group whose fixations predict; null: the exposure.
 struct Prediction {
@@ -123,20 +151,70 @@ struct Prediction {
     const GroupMaps* told;
     const GroupMaps* by;
     std::vector<Scores> scores;
+    /// By observer who is left out, of those who tell or are told: means of the scores that need no sorting.
+    std::vector<Scores> without;
 };
 
-void reckon_prediction(Prediction& of, const FixationMaps& maps, std::uint64_t seed) {
-    for (const ObserverMap& observer : of.told->observers) {
-        if (!of.by) {
-            const PredictingMap exposure{{maps.exposure().begin(), maps.exposure().end()},
-                                         maps.exposure_at(observer.fixations)};
-            of.scores.push_back(scores_of(observer, exposure, maps, true, seed));
-            continue;
-        }
-        const PredictingMap predicting = predicting_map(*of.by, observer, maps);
-        if (!predicting.density.empty())
-            of.scores.push_back(scores_of(observer, predicting, maps, false, seed));
+/// Scores again with each observer left out, of whom nothing is told and who tells nothing.
+void leave_each_out(Prediction& of, const FixationMaps& maps, const std::vector<Predictors>& predictors) {
+    std::set<std::string> observers;
+    for (const GroupMaps* group : {of.told, of.by}) {
+        for (const ObserverMap& one : group->observers)
+            observers.insert(one.observer);
     }
+    for (const std::string& left_out : observers) {
+        std::array<std::pair<double, int>, Scores::without_sorting> sums{};
+        for (std::size_t i = 0; i < predictors.size(); ++i) {
+            const ObserverMap& told = of.told->observers[i];
+            if (told.observer == left_out)
+                continue;
+            const PredictingMap predicting = predictors[i].without(left_out);
+            if (predicting.density.empty())
+                continue;
+            const Scores scores = scores_of(told, predicting, maps, false);
+            for (std::size_t which = 0; which < sums.size(); ++which) {
+                if (scores.values[which]) {
+                    sums[which].first += *scores.values[which];
+                    ++sums[which].second;
+                }
+            }
+        }
+        Scores& means = of.without.emplace_back();
+        for (std::size_t which = 0; which < sums.size(); ++which) {
+            if (sums[which].second > 0)
+                means.values[which] = sums[which].first / sums[which].second;
+        }
+    }
+}
+
+void reckon_prediction(Prediction& of, const FixationMaps& maps, std::uint64_t seed) {
+    std::vector<Predictors> predictors;
+    for (const ObserverMap& observer : of.told->observers) {
+        PredictingMap predicting{{maps.exposure().begin(), maps.exposure().end()}, {}};
+        if (of.by)
+            predicting = predictors.emplace_back(*of.by, observer, maps).without(observer.observer);
+        else
+            predicting.at_fixations = maps.exposure_at(observer.fixations);
+        if (predicting.density.empty())
+            continue;
+        of.scores.push_back(scores_of(observer, predicting, maps, !of.by));
+        add_areas_under_curves(of.scores.back(), predicting, maps, seed);
+    }
+    if (of.by)
+        leave_each_out(of, maps, predictors);
+}
+
+/// The interval of a mean whose predicting maps vary with the observers, too.
+std::optional<Interval> interval_of(const Prediction& of, std::size_t which, double mean, double confidence) {
+    std::vector<double> without;
+    for (const Scores& scores : of.without) {
+        if (scores.values[which])
+            without.push_back(*scores.values[which]);
+    }
+    std::optional<Interval> interval = jackknife_interval(mean, without, confidence);
+    if (interval && which == 0) // KL is a distance
+        interval->low = std::max(interval->low, 0.0);
+    return interval;
 }
 
 void finish_row(Prediction& of, const StudyOptions& options) {
@@ -148,7 +226,7 @@ void finish_row(Prediction& of, const StudyOptions& options) {
     if (!of.told->observers.empty())
         absent = "no other observer has fixations there";
     const std::array<Estimate*, Scores::count> estimates{
-        &row.kl, &row.nss, &row.auc_judd, &row.auc_borji, &row.gain_over_exposure, &row.gain_over_area};
+        &row.kl, &row.nss, &row.gain_over_exposure, &row.gain_over_area, &row.auc_judd, &row.auc_borji};
     for (std::size_t i = 0; i < estimates.size(); ++i) {
         std::vector<double> values;
         for (const Scores& scores : of.scores) {
@@ -158,6 +236,8 @@ void finish_row(Prediction& of, const StudyOptions& options) {
         const bool is_of_itself = !of.by && estimates[i] == &row.gain_over_exposure;
         *estimates[i] = estimated_mean(values, options.bootstrap(),
                                        is_of_itself ? "the exposure is the baseline itself" : absent);
+        if (of.by && i < Scores::without_sorting && estimates[i]->value)
+            estimates[i]->interval = interval_of(of, i, *estimates[i]->value, options.confidence);
     }
 }
 
@@ -184,7 +264,7 @@ std::vector<MapPredictionRow> map_predictions(const StudyResults& results, const
             row.object = object;
             row.by = by;
             row.level = from ? from->level : "";
-            predictions.push_back({std::move(row), &told, from, {}});
+            predictions.push_back({std::move(row), &told, from, {}, {}});
         };
         for (const GroupMaps& told : groups) {
             add(told, MapPredictor::same_level, &told);

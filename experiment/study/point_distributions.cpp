@@ -33,9 +33,10 @@ DistributionRow distribution_of(const StudyResults& results, int group, int obje
     row.observers = static_cast<int>(of_observer.size());
     row.fixations = static_cast<int>(all.size());
     const std::optional<PointSpread> spread = point_spread(all);
-    const std::string absent =
-        all.empty() ? "no fixation was counted" : "the camera or the screen is not known";
-    if (!spread || !scale) {
+    const std::string absent = all.empty()       ? "no fixation was counted"
+                               : all.size() == 1 ? "one fixation alone has no spread"
+                                                 : "the camera or the screen is not known";
+    if (all.size() < 2 || !scale) {
         row.wss_mm2 = row.wss_deg2 = Estimate::none(absent);
         return row;
     }

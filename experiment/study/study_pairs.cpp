@@ -147,12 +147,15 @@ PairRow row_of(std::span<const Comparison> comparisons, int permutations, const 
     const auto means = [&](const auto& value) { return observer_means(comparisons, value); };
     const std::vector<double> deg2 = means([](const Comparison& of) { return of.wss_difference_deg2; });
     row.observers = static_cast<int>(deg2.size());
+    const std::string absent =
+        comparisons.empty() ? row.absent : "no observer has two fixations on an object in both levels";
     row.wss_difference_mm2 = estimated_mean(means([](const Comparison& of) { return of.wss_difference_mm2; }),
-                                            options.bootstrap(), row.absent);
-    row.wss_difference_deg2 = estimated_mean(deg2, options.bootstrap(), row.absent);
+                                            options.bootstrap(), absent);
+    row.wss_difference_deg2 = estimated_mean(deg2, options.bootstrap(), absent);
     // As they are seen: a large object would weigh more than a small one that looks as large.
     if (const auto test = sign_flip_test(deg2, options.permutation()))
         row.wss_p = test->p;
+    row.wss_evidence = options.evidence(deg2);
     for (std::size_t which = 0; which < Similarities::count; ++which)
         row.*similarity_members[which] = similarity_of(comparisons, which, permutations, options);
     return row;

@@ -29,8 +29,9 @@ TrialSummaryRow trial_summary(const StudyResults& results, const StudyTrial& tri
         }
         points.push_back(fixation.position);
     }
-    if (points.size() >= 2 && object.mm_per_unit)
-        row.wss_mm2 = point_spread(points)->wss() * *object.mm_per_unit * *object.mm_per_unit;
+    const std::optional<double> wss = unbiased_wss(points);
+    if (wss && object.mm_per_unit)
+        row.wss_mm2 = *wss * *object.mm_per_unit * *object.mm_per_unit;
     return row;
 }
 

@@ -18,7 +18,7 @@ struct TrialSummaryRow {
     int counted = 0;
     double counted_s = 0.0;
     std::vector<std::optional<OnArea>> areas; ///< by StudyResults::areas; nothing: its object has it not
-    std::optional<double> wss_mm2;            ///< of its counted fixations, two at least
+    std::optional<double> wss_mm2;            ///< of its counted fixations, two at least; divided by N - 1
 };
 
 TrialSummaryRow trial_summary(const StudyResults& results, const StudyTrial& trial);

@@ -254,13 +254,14 @@ LightPictures StimulusLibrary::light_of(const Stimulus& stimulus) const {
                 const auto square =
                     static_cast<std::size_t>(y / light.square_px * size.x + x / light.square_px);
                 const glm::vec4& pixel = picture.at(x, y);
-                luminance[square] += glm::dot(shares, glm::dvec3(pixel));
+                // As it is shown: no channel is brighter than white. Colours are multiplied by alpha.
+                luminance[square] += glm::dot(
+                    shares, glm::dvec3(glm::clamp(glm::vec3(pixel), glm::vec3(0.0f), glm::vec3(pixel.a))));
                 coverage[square] += static_cast<double>(pixel.a);
                 ++pixels[square];
             }
         }
         for (std::size_t i = 0; i < light.squares(); ++i) {
-            // Colours are multiplied by alpha.
             light.luminance[begin + i] =
                 coverage[i] > 0.0 ? static_cast<float>(luminance[i] / coverage[i]) : 0.0f;
             light.coverage[begin + i] = static_cast<float>(coverage[i] / std::max(pixels[i], 1));

@@ -94,7 +94,7 @@ std::vector<Key> light() {
              range(1e-6, 1e9, "cd/m2").left_out("1 with `dark`; else not known, and needed by sun and lamps"),
              "The luminance that the probe's 1 stands for. Then `exposure` = 1 / N shows N of these as the "
              "display's white."},
-            {"sun_lux", &L::sun_lux, range(0, 1e6, "lx").left_out("no sun but what the probe has"),
+            {"sun_lux", &L::sun_lux, range(0, 1e6, "lux").left_out("no sun but what the probe has"),
              "Illuminance by a sun that is added to the probe, on a surface that faces it; the real one "
              "gives "
              "100,000 lx from a clear sky."},
@@ -119,7 +119,7 @@ std::vector<Key> lamp() {
     return {
         {"id", &L::id, identifier().required(), "Short name, by which lights name it."},
         {"shape", &L::shape, "What shines. A rectangle and a disc do to the side that they face."},
-        {"cd_m2", &L::cd_m2, range(1e-6, 1e9, "cd/m2").required(), "Its luminance."},
+        {"luminance_cd_m2", &L::cd_m2, range(1e-6, 1e9, "cd/m2").required(), "Its luminance."},
         {"colour", &L::colour, range(0, 1),
          "Linear red, green and blue (Rec. 709) of its light; only their proportions count."},
         {"position", &L::position, required(),

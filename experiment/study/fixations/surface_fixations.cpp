@@ -127,55 +127,116 @@ std::optional<double> lut_error_mm(const PlacedSample& sample, const FixationCon
     return off_px * lines.pixel_width_at(seen.z) * context.scale->mm_per_unit;
 }
 
+/// Where a point of the surface is seen by each of some samples, less the mean, in degrees.
+std::vector<glm::dvec2> way_on_screen(const glm::dvec3& point, std::span<const PlacedSample* const> lit,
+                                      const CoordinateMaps& maps, double deg_per_px) {
+    std::vector<glm::dvec2> way;
+    PoseIndex pose{-1};
+    glm::dvec2 mean{0.0};
+    for (const PlacedSample* sample : lit) {
+        if (way.empty() || sample->pose != pose) {
+            pose = sample->pose;
+            way.push_back(glm::dvec2(maps.sight_lines(pose).project(point)) * deg_per_px);
+        } else {
+            way.push_back(way.back());
+        }
+        mean += way.back() / static_cast<double>(lit.size());
+    }
+    for (glm::dvec2& place : way)
+        place -= mean;
+    return way;
+}
+
+/// The mean of the products of two ways.
+double mean_product(std::span<const glm::dvec2> a, std::span<const glm::dvec2> b) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        sum += glm::dot(a[i], b[i]);
+    return sum / static_cast<double>(a.size());
+}
+
+/// The same for points as far from the fixation's as the tracker's error puts it from what was looked at.
+void find_displaced_motion(StudyFixation& fixation, std::span<const PlacedSample* const> lit,
+                           std::span<const glm::dvec2> gaze, const PlacedSample& middle,
+                           const FixationContext& context, const CoordinateMaps& maps, double deg_per_px) {
+    double weights = 0.0, products = 0.0, squares = 0.0;
+    for (const WeightedSurfacePoint& one :
+         context.cone->on_surface(*context.lookup, middle.pose, middle.gaze)) {
+        const std::vector<glm::dvec2> way = way_on_screen(one.point.position, lit, maps, deg_per_px);
+        weights += one.weight;
+        products += one.weight * mean_product(gaze, way);
+        squares += one.weight * mean_product(way, way);
+    }
+    if (weights > 0.0)
+        fixation.displaced_motion = StudyFixation::DisplacedMotion{products / weights, squares / weights};
+}
+
 /// How gaze and the fixation's point of the surface move on the screen: see StudyFixation.
 void find_motion(StudyFixation& fixation, std::span<const PlacedSample* const> lit,
-                 const FixationContext& context) {
+                 const PlacedSample& middle, const FixationContext& context) {
     const auto* maps = dynamic_cast<const CoordinateMaps*>(context.lookup);
     if (!maps || !context.screen || lit.size() < 2)
         return;
     const double deg_per_px = 1.0 / context.screen->px_per_deg_at_centre();
-    std::vector<glm::dvec2> points;
-    PoseIndex pose{-1};
-    glm::dvec2 gaze_mean{0.0}, point_mean{0.0};
-    double way_deg = 0.0;
+    const std::vector<glm::dvec2> points = way_on_screen(fixation.position, lit, *maps, deg_per_px);
+    std::vector<glm::dvec2> gaze;
+    glm::dvec2 mean{0.0};
     for (const PlacedSample* sample : lit) {
-        if (!points.empty() && sample->pose == pose) {
-            points.push_back(points.back());
-        } else {
-            pose = sample->pose;
-            const glm::dvec2 point(maps->sight_lines(pose).project(fixation.position));
-            way_deg += points.empty() ? 0.0 : glm::distance(point, points.back()) * deg_per_px;
-            points.push_back(point);
-        }
-        point_mean += points.back();
-        gaze_mean += glm::dvec2(sample->gaze.x_px, sample->gaze.y_px);
+        gaze.push_back(glm::dvec2(sample->gaze.x_px, sample->gaze.y_px) * deg_per_px);
+        mean += gaze.back() / static_cast<double>(lit.size());
     }
-    const auto count = static_cast<double>(lit.size());
-    point_mean /= count;
-    gaze_mean /= count;
-    for (std::size_t i = 0; i < lit.size(); ++i) {
-        const glm::dvec2 gaze = (glm::dvec2(lit[i]->gaze.x_px, lit[i]->gaze.y_px) - gaze_mean) * deg_per_px;
-        const glm::dvec2 point = (points[i] - point_mean) * deg_per_px;
-        fixation.gaze_with_surface_deg2 += glm::dot(gaze, point) / count;
-        fixation.surface_way_deg2 += glm::dot(point, point) / count;
-    }
+    for (glm::dvec2& place : gaze)
+        place -= mean;
+    fixation.gaze_with_surface_deg2 = mean_product(gaze, points);
+    fixation.surface_way_deg2 = mean_product(points, points);
+    double way_deg = 0.0;
+    for (std::size_t i = 1; i < points.size(); ++i)
+        way_deg += glm::distance(points[i], points[i - 1]);
     if (fixation.duration_s > 0.0)
         fixation.surface_deg_s = way_deg / fixation.duration_s;
+    if (context.cone && context.is_accuracy_known)
+        find_displaced_motion(fixation, lit, gaze, middle, context, *maps, deg_per_px);
 }
+
+/// A picture's score, and how much it counts beside the time that it is shown.
+struct WeightedScore {
+    double score = 0.0, weight = 1.0;
+};
 
 /// The mean over the motion of what a picture gives, each for as long as a presentation shows it.
 template <class ScoreOf>
 std::optional<double> mean_over_pictures(const ShownPictures& pictures, const ScoreOf& score_of) {
-    double sum = 0.0, seconds = 0.0;
+    double sum = 0.0, weights = 0.0;
     for (std::size_t picture = 0; picture < pictures.seconds.size(); ++picture) {
         if (!(pictures.seconds[picture] > 0.0))
             continue;
-        if (const std::optional<double> score = score_of(static_cast<int>(picture))) {
-            sum += pictures.seconds[picture] * *score;
-            seconds += pictures.seconds[picture];
+        if (const std::optional<WeightedScore> of = score_of(static_cast<int>(picture))) {
+            sum += pictures.seconds[picture] * of->weight * of->score;
+            weights += pictures.seconds[picture] * of->weight;
         }
     }
-    return seconds > 0.0 ? std::optional(sum / seconds) : std::nullopt;
+    return weights > 0.0 ? std::optional(sum / weights) : std::nullopt;
+}
+
+/// How much of a picture a piece of the surface about a point fills, of the same area in each pose: the
+/// cosine of the angle of view over the square of the distance.
+double size_in_picture(const SightLines& lines, const glm::dvec3& point, const glm::dvec3& normal) {
+    const glm::dvec3 way = lines.origin() - point;
+    const double distance = glm::length(way);
+    return std::abs(glm::dot(normal, way)) / (distance * distance * distance);
+}
+
+/// The normal of the triangle that a fixation's place is on.
+glm::dvec3 normal_at(const glm::dvec3& place, std::span<const PlacedSample* const> placed, const Mesh& mesh) {
+    const auto nearest = std::ranges::min_element(placed, {}, [&](const PlacedSample* sample) {
+        const glm::dvec3 off = sample->surface.position - place;
+        return glm::dot(off, off);
+    });
+    const glm::uvec3 corners = mesh.triangles[(*nearest)->surface.triangle];
+    const glm::dvec3 a(mesh.positions[corners.x]), b(mesh.positions[corners.y]), c(mesh.positions[corners.z]);
+    const glm::dvec3 normal = glm::cross(b - a, c - a);
+    const double length = glm::length(normal);
+    return length > 0.0 ? normal / length : glm::dvec3(0.0);
 }
 
 /// How bright what gaze met was, and how bright the same place of the screen and the same point of the
@@ -198,13 +259,20 @@ void find_light(StudyFixation& fixation, std::span<const PlacedSample* const> pl
         }
     }
     const glm::dvec2 place = context.screen->image_from_screen(fixation.place);
-    const auto at_place =
-        mean_over_pictures(pictures, [&](int picture) { return context.light->at(picture, place); });
-    const auto at_point = mean_over_pictures(pictures, [&](int picture) -> std::optional<double> {
+    const auto at_place = mean_over_pictures(pictures, [&](int picture) -> std::optional<WeightedScore> {
+        const auto score = context.light->at(picture, place);
+        return score ? std::optional(WeightedScore{*score}) : std::nullopt;
+    });
+    // Gaze that does not mind the light meets the point more often while it faces the observer, and what
+    // faces the observer is often lit otherwise than what is seen obliquely.
+    const glm::dvec3 normal = normal_at(fixation.position, placed, maps->mesh());
+    const auto at_point = mean_over_pictures(pictures, [&](int picture) -> std::optional<WeightedScore> {
         const PoseIndex pose = pictures.poses[static_cast<std::size_t>(picture)];
-        const glm::dvec2 seen(maps->sight_lines(pose).project(fixation.position));
-        const auto score = context.light->at(picture, seen);
-        return score && maps->is_visible(pose, fixation.position) ? score : std::nullopt;
+        const SightLines& lines = maps->sight_lines(pose);
+        const auto score = context.light->at(picture, glm::dvec2(lines.project(fixation.position)));
+        if (!score || !maps->is_visible(pose, fixation.position))
+            return std::nullopt;
+        return WeightedScore{*score, size_in_picture(lines, fixation.position, normal)};
     });
     if (met > 0 && at_place && at_point)
         fixation.light = {sum / met, *at_place, *at_point};
@@ -277,7 +345,7 @@ std::optional<StudyFixation> surface_fixation(const GazeEvent& event, const Fixa
             if (context.cone && context.lookup)
                 find_cone(fixation, middle, context);
             fixation.lut_mm = lut_error_mm(middle, context);
-            find_motion(fixation, lit, context);
+            find_motion(fixation, lit, middle, context);
             find_light(fixation, placed, context);
         }
     }

@@ -40,6 +40,7 @@ struct FixationContext {
     SurfaceWays* ways = nullptr;             ///< along the mesh; null without one, or without a scale
     const SurfaceLookup* lookup = nullptr;   ///< for the gaze cone; may be null
     const GazeCone* cone = nullptr;          ///< the same
+    bool is_accuracy_known = false;          ///< the cone is as wide as a validation says
     const ScreenGeometry* screen = nullptr;  ///< for the error of the look-up; null: it is not reckoned
     const LightScores* light = nullptr;      ///< of the stimulus; null: not known
     const ShownPictures* pictures = nullptr; ///< of the stimulus's motion; with `light`

@@ -190,12 +190,15 @@ std::string share_sentence(const StudyResults& results, const FirstAnswer& first
 }
 
 std::string area_sentence(const StudyResults& results, double confidence) {
+    const bool by_duration = rate_too_low_for_counts(results).has_value();
     for (const AreaRow& row : results.area_rows)
         if (row.area == results.area && row.keys.empty() && row.by_count.value)
-            return fmt::format("{} of the fixations lie on {}, {}",
-                               with_interval(row.by_count, confidence, 100.0, " %"),
-                               row.area == head_area ? "the head" : fmt::format("the area {}", row.area),
-                               over(row.observers));
+            return fmt::format(
+                "{} of the {} on {}, {}",
+                with_interval(by_duration ? row.by_duration : row.by_count, confidence, 100.0, " %"),
+                by_duration ? "time of fixation is" : "fixations lie",
+                row.area == head_area ? "the head" : fmt::format("the area {}", row.area),
+                over(row.observers));
     return {};
 }
 

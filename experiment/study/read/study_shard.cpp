@@ -76,15 +76,19 @@ template <class Archive> void fields(Archive& archive, FixationLight& light) {
     auto& [met, at_place, at_point] = light;
     archive(met, at_place, at_point);
 }
+template <class Archive> void fields(Archive& archive, StudyFixation::DisplacedMotion& motion) {
+    auto& [with_surface, way] = motion;
+    archive(with_surface, way);
+}
 template <class Archive> void fields(Archive& archive, StudyFixation& fixation) {
     auto& [trial, onset_s, duration_s, place, why, samples, on_surface, within_reach, only_by_reach,
            first_frame, last_frame, mid_angle, mid_pose, mid_gaze, evidence, triangle, barycentric, position,
-           part, spread_mm, spread_deg, sigma_mm, mm_per_deg, at_edge, cone_mm, with_surface, way, speed,
-           light, lut_mm] = fixation;
+           part, spread_mm, spread_deg, sigma_mm, mm_per_deg, at_edge, cone_mm, with_surface, way, displaced,
+           speed, light, lut_mm] = fixation;
     archive(trial, onset_s, duration_s, place, why, samples, on_surface, within_reach, only_by_reach,
             first_frame, last_frame, mid_angle, mid_pose, mid_gaze, evidence, triangle, barycentric, position,
-            part, spread_mm, spread_deg, sigma_mm, mm_per_deg, at_edge, cone_mm, with_surface, way, speed,
-            light, lut_mm);
+            part, spread_mm, spread_deg, sigma_mm, mm_per_deg, at_edge, cone_mm, with_surface, way, displaced,
+            speed, light, lut_mm);
 }
 template <class Archive> void fields(Archive& archive, ReadTrial& read) {
     auto& [trial, fixations, trace, samples, had_both_eyes] = read;

@@ -171,6 +171,7 @@ ReadTrial read_trial(const SessionRecord& record, const TrialRecord& trial, cons
                                   surface.ways,
                                   surface.lookup,
                                   cone ? &*cone : nullptr,
+                                  of.quality.accuracy_deg.has_value(),
                                   &screen,
                                   surface.light,
                                   &pictures,

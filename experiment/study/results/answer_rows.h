@@ -8,6 +8,7 @@
 
 #include "experiment/ports/given_answer.h"
 #include "experiment/statistics/estimate.h"
+#include "experiment/statistics/paired_evidence.h"
 
 namespace overt {
 
@@ -173,6 +174,7 @@ struct AnswerDifferenceRow {
     Estimate difference; ///< of a less b: mean over observers
     /// Flips of the signs of observers' differences; after Holm over the rows of the answer's measure.
     std::optional<double> p = {}, p_holm = {};
+    PairedEvidence evidence = {};
     int observers = 0;
     std::vector<double> of_observers = {};
     std::optional<double> planted = {}; ///< of simulated observers
@@ -203,6 +205,7 @@ struct GazeChoiceRow {
     Estimate value;      ///< of the chosen slot, or of a less b
     double chance = 0.0; ///< that it has if looking and answering have nothing to do with each other
     std::optional<double> p = {}, p_holm = {}; ///< flips of the signs of observers' differences from it
+    PairedEvidence evidence = {};              ///< of these differences
     int observers = 0, trials = 0;
     std::vector<double> of_observers = {};
     std::optional<double> planted = {}; ///< of simulated observers

@@ -104,6 +104,9 @@ std::vector<StudyParameter> parameters_of(const StudyOptions& options) {
          "File with areas of the screen, besides those that imported recordings tell by messages."},
         {"time-step", fmt::format("{}", options.time_step_s), "s", "Stretches of the time course."},
         {"confidence", fmt::format("{}", options.confidence), "", "Level of all intervals."},
+        {"smallest-effect", fmt::format("{}", options.smallest_effect), "",
+         "Smallest effect size of interest, in standard deviations of observers' differences: the bounds of "
+         "tests of equivalence."},
         {"resamples", fmt::format("{}", options.resamples), "",
          "Draws of the bootstrap over observers (BCa)."},
         {"permutations", fmt::format("{}", options.permutations), "",

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "experiment/events/event_thresholds.h"
 #include "experiment/screen_areas/screen_areas_file.h"
 #include "experiment/statistics/bootstrap.h"
+#include "experiment/statistics/paired_evidence.h"
 #include "experiment/statistics/permutation.h"
 #include "experiment/study/results/study_results.h"
 
@@ -65,10 +67,15 @@ struct StudyOptions {
     std::vector<std::pair<std::string, std::string>> same_observer;
     double time_step_s = 1.0; ///< of the time course
     double confidence = 0.95;
-    int resamples = 2000;    ///< of the bootstrap
-    int permutations = 1000; ///< where all are too many
-    std::uint64_t seed = 1;  ///< of everything that is drawn
+    double smallest_effect = 0.5; ///< d_z that would be of interest: bounds of tests of equivalence, > 0
+    int resamples = 2000;         ///< of the bootstrap
+    int permutations = 1000;      ///< where all are too many
+    std::uint64_t seed = 1;       ///< of everything that is drawn
     BootstrapSettings bootstrap() const { return {resamples, confidence, seed}; }
+    /// Of differences of observers.
+    PairedEvidence evidence(std::span<const double> differences) const {
+        return paired_evidence(differences, smallest_effect, confidence);
+    }
     PermutationSettings permutation() const { return {5 * permutations, 100000, seed}; }
 };
 

@@ -11,6 +11,20 @@ bool knows_stimuli(const StudyResults& results) {
     return results.sessions.empty() || !std::ranges::all_of(results.sessions, knows_none);
 }
 
+std::optional<double> rate_too_low_for_counts(const StudyResults& results) {
+    std::optional<double> least;
+    for (std::size_t i = 0; i < results.sessions.size(); ++i) {
+        std::optional<double> rate;
+        if (i < results.session_quality.size())
+            rate = results.session_quality[i].rate_hz;
+        if (!rate && results.sessions[i].setup.gaze.rate_hz > 0.0)
+            rate = results.sessions[i].setup.gaze.rate_hz;
+        if (rate && *rate < least_rate_for_counts_hz)
+            least = std::min(least.value_or(*rate), *rate);
+    }
+    return least;
+}
+
 std::string_view name_of(NotCounted why) {
     switch (why) {
     case NotCounted::counted:

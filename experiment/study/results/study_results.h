@@ -23,6 +23,7 @@
 #include "experiment/scene/viewing.h"
 #include "experiment/screen_geometry.h"
 #include "experiment/statistics/estimate.h"
+#include "experiment/statistics/paired_evidence.h"
 #include "experiment/study/results/answer_rows.h"
 #include "experiment/study/results/relief_rows.h"
 #include "experiment/study/results/screen_area_rows.h"
@@ -123,7 +124,7 @@ struct AreaEvidence {
 struct FixationLight {
     double met = 0.0;      ///< of what gaze met
     double at_place = 0.0; ///< at the fixation's mean place on the screen, over the whole animation
-    double at_point = 0.0; ///< of its point of the surface, over all the time that this is visible
+    double at_point = 0.0; ///< of its point of the surface while it is visible, by how large it is seen
 };
 
 /// A fixation, re-projected sample by sample through the frames lit meanwhile.
@@ -159,6 +160,12 @@ struct StudyFixation {
     /// Of its samples, in deg^2: means of the products of gaze's and its surface point's ways on the screen
     /// from their means, and of the squares of the point's; both 0 where it is not known.
     double gaze_with_surface_deg2 = 0.0, surface_way_deg2 = 0.0;
+    /// The same means of points about the fixation's, as far from it as the tracker's error puts it from what
+    /// was looked at: for gains without that error (gaze_motion.h). Nothing if the error is not known.
+    struct DisplacedMotion {
+        double gaze_with_surface_deg2 = 0.0, surface_way_deg2 = 0.0;
+    };
+    std::optional<DisplacedMotion> displaced_motion{};
     double surface_deg_s = 0.0;         ///< mean speed of the surface point on the screen
     std::optional<FixationLight> light; ///< nothing without pictures of the stimulus's light
     std::optional<double> lut_mm;       ///< distance of the point that the map gave from the line of sight
@@ -324,6 +331,7 @@ struct AreaPairRow {
     /// Sign flips over observers; after Holm over the rows of the area, those over all groups apart; and over
     /// the areas, too.
     std::optional<double> p, p_holm, p_holm_areas;
+    PairedEvidence evidence{};          ///< of the difference
     int observers = 0, comparisons = 0; ///< of an observer with one object
 };
 
@@ -354,6 +362,7 @@ struct PairRow {
     Estimate wss_difference_mm2, wss_difference_deg2;
     // Sign flips over observers. Holm's correction is over the rows of groups, or over those of all groups.
     std::optional<double> wss_p, wss_p_holm;
+    PairedEvidence wss_evidence{};             ///< of the difference in deg2
     std::optional<double> maps_cc;             ///< of the maps of all observers, mean over objects and groups
     std::optional<double> maps_p, maps_p_holm; ///< swaps of the levels within observers (swap_test)
     SimilarityEstimate cc, sim_mit, sim_pysaliency;
@@ -377,7 +386,7 @@ struct DifferenceMap {
         std::optional<PartIndex> part; ///< with most of it
         double difference = 0.0; ///< integral: share of the time of fixation that a has there more than b
         double p = 1.0;          ///< corrected over the surface
-        double p_of_all = 1.0;   ///< and over all maps of differences of the study (Bonferroni)
+        double p_of_all = 1.0;   ///< and over all maps of differences of the table
     };
     std::vector<Cluster> clusters; ///< largest first
     double threshold_t = 0.0;
@@ -430,6 +439,7 @@ struct FactorEffectRow {
 struct GazeMotionRow {
     std::vector<StudyKey> keys;   ///< a level of a column; empty: all
     Estimate surface_gain;        ///< 1: gaze goes with the surface; 0: it stays on the screen
+    Estimate corrected_gain;      ///< the same without what the tracker's error makes of it
     Estimate surface_speed_deg_s; ///< of the surface under these fixations, mean
     int observers = 0, fixations = 0;
 };
@@ -536,6 +546,15 @@ struct StudyResults {
 
 /// Whether any session knows what it showed, which recordings of other programs do not.
 bool knows_stimuli(const StudyResults& results);
+
+/// Samples a second below which short saccades between near places, such as two on a head, are often missed,
+/// so that the fixations beside them run together: of planted events 98 % are found from 120 Hz on, 78 % at
+/// 60 Hz (docs/events.md). Trackers give a little less than they say.
+inline constexpr double least_rate_for_counts_hz = 115.0;
+
+/// The least rate of sessions with gaze, if it is too low for fixations to be counted. Shares by duration
+/// suffer less.
+std::optional<double> rate_too_low_for_counts(const StudyResults& results);
 
 /// A few words for tables and sentences.
 std::string_view name_of(NotCounted why);

@@ -275,6 +275,7 @@ RowLayout<AnswerDifferenceRow> answer_differences_layout() {
     to.estimate("difference", "Of a less b: mean over observers", "", &Row::difference);
     to.number("p", "Flips of the signs of observers' differences", "", &Row::p);
     to.number("p_holm", "After Holm, over the rows of the answer's measure", "", &Row::p_holm);
+    to.evidence("", "differences", &Row::evidence);
     to.count("observers", "Observers who have a value in both levels", &Row::observers);
     to.number("planted", "Of simulated observers: what they were given", "", &Row::planted);
     return to;
@@ -335,6 +336,7 @@ RowLayout<GazeChoiceRow> gaze_choices_layout() {
               "", [](const Row& row) { return std::optional(row.chance); });
     to.number("p", "Flips of the signs of observers' differences from it", "", &Row::p);
     to.number("p_holm", "After Holm, over the rows of the answer", "", &Row::p_holm);
+    to.evidence("", "differences from chance", &Row::evidence);
     to.count("observers", "Observers", &Row::observers);
     to.count("trials", "Answers", &Row::trials);
     to.number("planted", "Of simulated observers: what they were given", "", &Row::planted);

@@ -22,6 +22,12 @@ void add_number(AnswersJson& to, const char* name, std::optional<double> number)
         to[name] = *number;
 }
 
+void add_evidence(AnswersJson& to, const PairedEvidence& evidence) {
+    add_number(to, "effect_size", evidence.effect_size.value);
+    add_number(to, "bayes_factor", evidence.bayes_factor);
+    add_number(to, "equivalence_p", evidence.equivalence_p);
+}
+
 void add_estimate(AnswersJson& to, const char* name, const Estimate& of) {
     add_number(to, name, of.value);
     if (of.interval)
@@ -134,6 +140,7 @@ nlohmann::ordered_json answers_json(const StudyResults& results) {
         add_estimate(one, "difference", row.difference);
         add_number(one, "p", row.p);
         add_number(one, "p_holm", row.p_holm);
+        add_evidence(one, row.evidence);
         add_number(one, "planted", row.planted);
         one["observers"] = row.observers;
         json["differences"].push_back(std::move(one));
@@ -153,6 +160,7 @@ nlohmann::ordered_json answers_json(const StudyResults& results) {
         one["chance"] = row.chance;
         add_number(one, "p", row.p);
         add_number(one, "p_holm", row.p_holm);
+        add_evidence(one, row.evidence);
         add_number(one, "planted", row.planted);
         json["gaze_and_choice"].push_back(std::move(one));
     }

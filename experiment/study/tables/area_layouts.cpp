@@ -111,6 +111,7 @@ RowLayout<AreaPairRow> area_pairs_layout(const StudyResults& results) {
               &Row::p_holm);
     to.number("p_holm_areas", "The same, corrected for the rows of all areas of the table", "",
               &Row::p_holm_areas);
+    to.evidence("", "differences", &Row::evidence);
     to.count("observers", "Observers", &Row::observers);
     to.count("comparisons", "Of an observer on one object", &Row::comparisons);
     return to;

@@ -159,6 +159,8 @@ RowLayout<GazeMotionRow> gaze_motion_layout(const StudyResults& results) {
         "Slope of gaze's way on that of the surface point looked at: 1, gaze goes with the surface; 0, it "
         "stays on the screen",
         "", &Row::surface_gain);
+    to.estimate("corrected_gain", "The same with the tracker's constant error taken out", "",
+                &Row::corrected_gain);
     to.estimate("surface_speed", "Mean speed of the surface points on the screen", "deg/s",
                 &Row::surface_speed_deg_s);
     to.count("observers", "Observers", &Row::observers);

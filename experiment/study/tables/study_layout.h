@@ -57,6 +57,21 @@ template <class Row> class StudyLayout : public RowLayout<Row> {
              [of](const Row& row) { return std::invoke(of, row).absent; });
     }
 
+    /// What speaks for an effect and for none; names begin with `prefix`, and `what` was tested.
+    template <class Of> void evidence(const std::string& prefix, const std::string& what, Of of) {
+        estimate(prefix + "effect_size",
+                 "Mean over standard deviation of observers' " + what + " (Hedges' g of d_z)", "",
+                 [of](const Row& row) { return std::invoke(of, row).effect_size; });
+        number(prefix + "bayes_factor",
+               "BF10 of the " + what +
+                   " (JZS, scale 0.707): above 3 it speaks for an effect, below 1/3 for none",
+               "", [of](const Row& row) { return std::invoke(of, row).bayes_factor; });
+        number(prefix + "equivalence_p",
+               "Of two one-sided tests that the effect is not smaller than smallest-effect: where it is "
+               "small, the effect is shown to be smaller",
+               "", [of](const Row& row) { return std::invoke(of, row).equivalence_p; });
+    }
+
     /// A column for each column of the groups; what a row leaves open is "all".
     template <class Keys> void keys(const std::vector<std::string>& by, Keys keys) {
         for (const std::string& name : by)

@@ -159,7 +159,8 @@ RowLayout<TrialSummaryRow> study_trials_layout(const StudyResults& results) {
         to.number(name + "_s", "Time of these", "s",
                   [area](const Row& row) { return of_maybe(row.areas[area], &Row::OnArea::seconds); });
     }
-    to.number("wss_mm2", "Mean within-cluster sum of squares of these, two at least", "mm^2", &Row::wss_mm2);
+    to.number("wss_mm2", "Mean within-cluster sum of squares of these, two at least, divided by N - 1",
+              "mm^2", &Row::wss_mm2);
     return to;
 }
 
@@ -200,10 +201,12 @@ RowLayout<PairRow> pairs_layout(const StudyResults& results) {
     to.text("compared", "The column whose levels are compared", &Row::column);
     to.text("a", "First level", &Row::a);
     to.text("b", "Second level", &Row::b);
-    to.estimate("wss_difference_mm2", "WSS of a less that of b", "mm^2", &Row::wss_difference_mm2);
+    to.estimate("wss_difference_mm2", "WSS of a less that of b, both divided by N - 1", "mm^2",
+                &Row::wss_difference_mm2);
     to.estimate("wss_difference_deg2", "The same", "deg^2", &Row::wss_difference_deg2);
     to.number("wss_p", "Of flipping the signs of observers' differences, two-sided", "", &Row::wss_p);
     to.number("wss_p_holm", holm_words, "", &Row::wss_p_holm);
+    to.evidence("wss_", "differences of WSS in deg^2", &Row::wss_evidence);
     to.number("maps_cc", "Pearson's correlation of the maps of all observers, mean over objects and groups",
               "", &Row::maps_cc);
     to.number("maps_p", "How often swapping the levels within observers gives as little", "", &Row::maps_p);
@@ -267,7 +270,7 @@ RowLayout<ClusterRow> cluster_columns(const StudyResults& results, StudyLayout<C
                 return row.cluster ? part_name(item(results.objects, row.map.object), row.cluster->part) : "";
             });
     to.number("p", "Corrected over the surface", "", of_cluster(&Cluster::p));
-    to.number("p_of_all", "Corrected over all maps of this table, too (Bonferroni)", "",
+    to.number("p_of_all", "Corrected over all maps of this table, too: of the largest cluster of any", "",
               of_cluster(&Cluster::p_of_all));
     to.number("least_p", "The smallest p that so many observers can give", "",
               of_tested(&DifferenceMap::least_p));

@@ -14,7 +14,7 @@ using LightLines = std::vector<std::string>;
 LightLines findings_of_lights(const std::string& text) { return ReadText(minimal_protocol, text).lines(); }
 
 const std::string a_lamp =
-    "[[lamp]]\nid = \"bulb\"\nshape = \"sphere\"\ncd_m2 = 10\nposition = [0, -9, 3]\nradius = 1\n";
+    "[[lamp]]\nid = \"bulb\"\nshape = \"sphere\"\nluminance_cd_m2 = 10\nposition = [0, -9, 3]\nradius = 1\n";
 
 } // namespace
 
@@ -44,15 +44,16 @@ TEST_CASE("lamps have what their shape needs, and lights that name them", "[unit
     CHECK(findings_of_lights("[light]\nprobe = \"dark\"\nlamps = [\"bulb\", \"bulb\"]\n" + a_lamp) ==
           LightLines{"14:9: the lamp \"bulb\" stands there twice"});
     CHECK(findings_of_lights(a_lamp) == LightLines{"12:1: no light has the lamp \"bulb\""});
-    CHECK(findings_of_lights(lit + "[[lamp]]\nid = \"bulb\"\ncd_m2 = 10\nposition = [0, 0, 3]\n") ==
+    CHECK(findings_of_lights(lit + "[[lamp]]\nid = \"bulb\"\nluminance_cd_m2 = 10\nposition = [0, 0, 3]\n") ==
           LightLines{"15:1: the disc \"bulb\" has no radius"});
-    CHECK(findings_of_lights(lit +
-                             "[[lamp]]\nid = \"bulb\"\nshape = \"rectangle\"\ncd_m2 = 10\nposition = [0, "
-                             "0, 3]\nwidth = 2\nradius = 3\n") ==
+    CHECK(findings_of_lights(
+              lit + "[[lamp]]\nid = \"bulb\"\nshape = \"rectangle\"\nluminance_cd_m2 = 10\nposition = [0, "
+                    "0, 3]\nwidth = 2\nradius = 3\n") ==
           LightLines{"15:1: the rectangle \"bulb\" has no height",
                      "21:10: \"radius\" has no effect on a rectangle"});
-    CHECK(findings_of_lights(lit + "[[lamp]]\nid = \"bulb\"\ncd_m2 = 10\nposition = [0, 0, 3]\nradius = 1\n"
-                                   "faces = [0, 0, 3]\n") ==
+    CHECK(findings_of_lights(
+              lit + "[[lamp]]\nid = \"bulb\"\nluminance_cd_m2 = 10\nposition = [0, 0, 3]\nradius = 1\n"
+                    "faces = [0, 0, 3]\n") ==
           LightLines{"20:9: the disc \"bulb\" faces the very place that it stands at"});
     CHECK(findings_of_lights(lit + a_lamp + a_lamp).front() == "22:6: id \"bulb\" is taken already");
 }

@@ -69,3 +69,11 @@ TEST_CASE("a place scores its lightness in standard deviations from the object's
     CHECK_FALSE(LightScores(edge).at({0}, {4.0, 2.0}));
     CHECK(LightScores(edge).at({0}, {0.0, 0.0}));
 }
+
+TEST_CASE("what is brighter than the display's white scores as white, as it was shown", "[unit]") {
+    LightPictures white = three_squares(), beyond = three_squares();
+    REQUIRE(white.luminance[2] == 1.0f);
+    beyond.luminance[2] = 80.0f;
+    for (const double x : {0.0, 4.0, 9.9})
+        CHECK(*LightScores(beyond).at({0}, {x, 0.0}) == *LightScores(white).at({0}, {x, 0.0}));
+}

@@ -64,6 +64,24 @@ TEST_CASE("variances divide by N, and WSS is their sum", "[unit]") {
 
 const Values scores{0.61, 0.42, 0.75, 0.55, 0.93, 0.31, 0.48, 0.66, 0.59, 0.70, 0.22, 0.81};
 
+TEST_CASE("WSS divided by N - 1 has the same mean whatever the number of points, and one has none",
+          "[unit]") {
+    double few = 0.0, many = 0.0;
+    constexpr int draws = 4000;
+    for (int draw = 0; draw < draws; ++draw) {
+        RandomStream random(4, "points", static_cast<std::uint64_t>(draw));
+        std::vector<glm::dvec3> points;
+        for (int i = 0; i < 20; ++i)
+            points.emplace_back(random.normal(), 2.0 * random.normal(), 3.0 * random.normal());
+        many += *unbiased_wss(points) / draws;
+        few += *unbiased_wss(std::span(points).first(3)) / draws;
+    }
+    // 1 + 4 + 9; of three points divided by N it is 9.3.
+    CHECK(many == Approx(14.0).margin(0.3));
+    CHECK(few == Approx(14.0).margin(0.8));
+    CHECK_FALSE(unbiased_wss(std::vector{glm::dvec3(1.0)}));
+}
+
 TEST_CASE("the ends of a BCa interval follow from its draws as in scipy.stats.bootstrap", "[unit]") {
     Values draws, jackknife;
     for (int k = 0; k < 999; ++k)

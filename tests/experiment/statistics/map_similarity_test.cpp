@@ -149,3 +149,17 @@ TEST_CASE("AUC is a half for fixations anywhere, and nearly one for those on the
 }
 
 } // namespace
+
+TEST_CASE("a constant map tells no fixation from others, however it is rounded between its places",
+          "[unit]") {
+    const std::vector<double> map(400, 0.1 + 0.2), areas(400, 1.0);
+    std::vector<double> there;
+    for (int i = 0; i < 25; ++i)
+        there.push_back((0.1 + 0.2) * (1.0 - 1e-16 * i));
+    CHECK(*auc_judd(map, areas, there) == 0.5);
+    std::vector<double> rounded = map;
+    for (std::size_t i = 0; i < 400; i += 3)
+        rounded[i] = 0.3;
+    CHECK(*auc_judd(rounded, areas, there) == 0.5);
+    CHECK_FALSE(auc_borji(rounded, areas, there, 1));
+}

@@ -147,4 +147,86 @@ TEST_CASE("clusters do not depend on the number of threads, nor on vertices with
     CHECK(one.t[50] == 0.0f);
 }
 
+TEST_CASE("over several maps p is that of the largest cluster of any, and can be as small as of one",
+          "[unit]") {
+    const Band band(60);
+    // Eight observers, twenty maps, of which one has a difference that all of them share, on a small object.
+    Band small(60);
+    for (double& area : small.areas)
+        area *= 0.01;
+    std::vector<ClusterTest> tests;
+    ClusterTestSettings settings;
+    settings.all_observers = 8;
+    for (std::uint64_t map = 0; map < 20; ++map) {
+        std::vector<std::vector<float>> maps = noise(8, 60, 500 + map);
+        for (std::vector<float>& one : maps) {
+            for (std::size_t v = 20; map == 7 && v < 40; ++v)
+                one[v] += 3.0f;
+        }
+        settings.observers = {0, 1, 2, 3, 4, 5, 6, 7};
+        if (map == 3) { // two did not take part
+            maps.resize(6);
+            settings.observers = {0, 2, 3, 5, 6, 7};
+        }
+        const Band& on = map == 7 ? small : band;
+        tests.push_back(cluster_test(maps, on.areas, on.adjacency(), settings));
+        CHECK(tests.back().permutations == 128);
+        CHECK(tests.back().least_p == (map == 3 ? 1.0 / 32.0 : 1.0 / 128.0));
+    }
+    const auto p = p_over_tests(tests);
+    REQUIRE(p.size() == 20);
+    CHECK(p[7].front() == 1.0 / 128.0); // after Bonferroni 20 / 128
+    for (std::size_t map = 0; map < 20; ++map) {
+        REQUIRE(p[map].size() == tests[map].clusters.size());
+        for (std::size_t i = 0; i < p[map].size(); ++i) {
+            CHECK(p[map][i] >= tests[map].clusters[i].p);
+            CHECK(tests[map].clusters[i].p >= tests[map].least_p);
+            if (map != 7)
+                CHECK(p[map][i] > 0.05);
+        }
+    }
+}
+
+TEST_CASE("flips that are shared with others give a map the p of its own flips", "[unit]") {
+    const Band band(60);
+    const auto maps = noise(5, 60, 9);
+    ClusterTestSettings shared;
+    shared.observers = {1, 3, 4, 6, 8};
+    shared.all_observers = 10;
+    const ClusterTest own = cluster_test(maps, band.areas, band.adjacency(), {}),
+                      others = cluster_test(maps, band.areas, band.adjacency(), shared);
+    REQUIRE(!own.clusters.empty());
+    REQUIRE(others.clusters.size() == own.clusters.size());
+    for (std::size_t i = 0; i < own.clusters.size(); ++i)
+        CHECK(others.clusters[i].p == own.clusters[i].p);
+    // Random flips of many may by chance be fewer of these five; no p is below what five can give.
+    shared.all_observers = 40;
+    shared.permutations = 200;
+    for (shared.seed = 1; shared.seed < 20; ++shared.seed) {
+        for (const Cluster& cluster : cluster_test(maps, band.areas, band.adjacency(), shared).clusters)
+            CHECK(cluster.p >= 1.0 / 16.0);
+    }
+}
+
+TEST_CASE("over ten maps without a difference few studies find a cluster in any", "[unit]") {
+    const Band band(40);
+    int found = 0;
+    constexpr int studies = 100;
+    for (std::uint64_t study = 0; study < studies; ++study) {
+        std::vector<ClusterTest> tests;
+        for (std::uint64_t map = 0; map < 10; ++map)
+            tests.push_back(
+                cluster_test(noise(7, 40, 1000 + 10 * study + map), band.areas, band.adjacency(), {}));
+        bool any = false;
+        for (const std::vector<double>& of_map : p_over_tests(tests)) {
+            for (const double p : of_map)
+                any = any || p <= 0.05;
+        }
+        found += any;
+    }
+    // p in steps of 1 / 64: 3 of 64, of 100 studies 4.7; no more than 13 with probability 0.999.
+    CHECK(found <= 13);
+    CHECK(found >= 1);
+}
+
 } // namespace

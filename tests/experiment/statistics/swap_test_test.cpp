@@ -115,3 +115,12 @@ TEST_CASE("many observers are swapped at random, and maps that are constant have
     CHECK_FALSE(swap_test(std::span(&flat, 1), 1));
     CHECK_FALSE(swap_test({}, 3));
 }
+
+TEST_CASE("one observer's levels are as likely the other way round, which is no test", "[unit]") {
+    const std::vector<double> areas(6, 1.0);
+    PairedMaps alone(areas);
+    alone.add(2, std::vector<double>{1, 2, 3, 4, 5, 6}, std::vector<double>{6, 5, 1, 2, 2, 9});
+    CHECK_FALSE(swap_test(std::vector{alone}, 3));
+    alone.add(3, std::vector<double>{1, 2, 3, 4, 5, 7}, std::vector<double>{6, 5, 1, 2, 3, 9});
+    CHECK(swap_test(std::vector{alone}, 4));
+}

@@ -68,6 +68,58 @@ struct TurningBall {
                                          .screen = &screen});
     }
 
+    /// Gaze that goes this share of the way of a point somewhere on the ball, seen by a tracker that errs by
+    /// the same amount all the time; nothing if it is then beside the ball.
+    std::optional<StudyFixation> erring_fixation(double gain, double sigma_px, std::uint64_t seed) const {
+        const std::array clocks{ClockPair{SessionTime(0s), TrackerTime(0s), SessionTime(0s)},
+                                ClockPair{SessionTime(100s), TrackerTime(100s), SessionTime(100s)}};
+        const std::optional<ClockMap> clock_map{ClockMap(clocks)};
+        RandomStream random(seed, "erring gaze");
+        const glm::dvec2 place = glm::dvec2(80.0) + 22.0 * glm::dvec2(random.normal(), random.normal());
+        const auto aimed_at = maps.surface_at(PoseIndex{6}, place);
+        const glm::dvec2 error = sigma_px * glm::dvec2(random.normal(), random.normal());
+        if (!aimed_at)
+            return std::nullopt;
+        std::vector<PlacedSample> samples;
+        for (int i = 0; i < 390; i += 5) {
+            PlacedSample sample;
+            sample.sampled_at = TrackerTime(1s + std::chrono::milliseconds(i));
+            sample.frame = i / 30;
+            sample.pose = PoseIndex{i / 30};
+            const glm::dvec2 seen(maps.sight_lines(sample.pose).project(aimed_at->position));
+            const glm::dvec2 gaze = place + gain * (seen - place) + error;
+            sample.gaze = screen.screen_from_image(gaze);
+            sample.has_gaze = sample.has_time = true;
+            if (const auto surface = maps.surface_at(sample.pose, gaze)) {
+                sample.is_on_surface = true;
+                sample.surface = *surface;
+            }
+            samples.push_back(sample);
+        }
+        GazeEvent event;
+        event.kind = GazeEvent::Kind::fixation;
+        event.start = samples.front().sampled_at;
+        event.end = samples.back().sampled_at;
+        event.duration = event.end - event.start;
+        const StudyOptions options;
+        const std::optional<ObjectScale> scale = ObjectScale{1.0, 1000.0, 30.0};
+        const double accuracy = sigma_px / screen.px_per_deg_at_centre() / 0.798;
+        const GazeCone cone(screen, Degrees{accuracy}, 64);
+        const auto fixation = surface_fixation(event, {.options = options,
+                                                       .samples = samples,
+                                                       .clock_map = clock_map,
+                                                       .onset = SessionTime(1s),
+                                                       .presentation_s = 8.0,
+                                                       .angles = scene.angles,
+                                                       .scale = scale,
+                                                       .has_surface = true,
+                                                       .lookup = &maps,
+                                                       .cone = &cone,
+                                                       .is_accuracy_known = sigma_px > 0.0,
+                                                       .screen = &screen});
+        return fixation->counted() ? fixation : std::nullopt;
+    }
+
     CastScene scene;
     CoordinateMaps maps;
     SurfacePoint point;
@@ -131,4 +183,36 @@ TEST_CASE("an observer's gain is the slope over all fixations, and the study's t
     const auto still = gaze_motions(study.results, {}, study.options);
     CHECK_FALSE(still[0].surface_gain.value);
     CHECK(still[0].surface_gain.absent == "no counted fixation saw the surface move");
+}
+
+TEST_CASE("the tracker's constant error changes the gain, and the corrected gain comes back", "[unit]") {
+    const TurningBall ball;
+    // A ball of 140 px; of an object seen 11 degrees large these are errors of 0.6 and 1 degree.
+    for (const double sigma_px : {0.0, 6.0, 10.0}) {
+        for (const double gain : {0.0, 0.4, 1.0}) {
+            PaintedStudy study(1, 1, 500, [](int, int, RandomStream&) { return front; });
+            std::uint64_t seed = 0;
+            for (StudyFixation& fixation : study.results.fixations) {
+                std::optional<StudyFixation> made;
+                while (!made)
+                    made = ball.erring_fixation(gain, sigma_px, ++seed);
+                fixation.duration_s = made->duration_s;
+                fixation.gaze_with_surface_deg2 = made->gaze_with_surface_deg2;
+                fixation.surface_way_deg2 = made->surface_way_deg2;
+                fixation.displaced_motion = made->displaced_motion;
+            }
+            const GazeMotionRow row = gaze_motions(study.results, {}, study.options).front();
+            CAPTURE(sigma_px, gain, *row.surface_gain.value, row.corrected_gain.value.value_or(-1.0));
+            if (sigma_px == 0.0) {
+                CHECK(*row.surface_gain.value == Approx(gain).margin(0.002));
+                CHECK_FALSE(row.corrected_gain.value);
+                continue;
+            }
+            REQUIRE(row.corrected_gain.value);
+            CHECK(*row.corrected_gain.value == Approx(gain).margin(0.02));
+            // On a ball points beside the one that was looked at move less, and the gain is too large.
+            if (gain == 1.0)
+                CHECK(*row.surface_gain.value - gain > 2.0 * std::abs(*row.corrected_gain.value - gain));
+        }
+    }
 }

@@ -105,3 +105,35 @@ TEST_CASE("halves of like-minded observers agree, those of others do not", "[uni
               return test::near({std::cos(turn), std::sin(turn), 0.0}, 0.1, random);
           }) < 0.3);
 }
+
+TEST_CASE("intervals of predictions hold the truth, for the observers who predict vary, too", "[unit]") {
+    // Observers look at places of their own about the front: who predicts matters as much as who is told.
+    constexpr int studies = 150;
+    std::vector<MapPredictionRow> rows;
+    for (int seed = 1; seed <= studies; ++seed) {
+        test::PaintedStudy study(
+            6, 1, 12,
+            [seed](int observer, int, RandomStream& random) {
+                RandomStream own(static_cast<std::uint64_t>(seed), "own place",
+                                 static_cast<std::uint64_t>(observer));
+                return test::near(test::near(test::front, 0.4, own), 0.2, random);
+            },
+            static_cast<std::uint64_t>(seed));
+        study.options.resamples = 50;
+        const auto maps = fixation_maps(study.results, study.surfaces);
+        rows.push_back(
+            row_of(map_predictions(study.results, maps, study.options), 0, MapPredictor::same_level));
+    }
+    for (const auto member :
+         {&MapPredictionRow::gain_over_exposure, &MapPredictionRow::nss, &MapPredictionRow::kl}) {
+        double truth = 0.0;
+        int holding = 0;
+        for (const MapPredictionRow& row : rows)
+            truth += *(row.*member).value / studies;
+        for (const MapPredictionRow& row : rows)
+            holding += (row.*member).interval->contains(truth);
+        CAPTURE(truth, holding);
+        // Binomial with 95 % of 150: no fewer than 133 with probability 0.998.
+        CHECK(holding >= 133);
+    }
+}

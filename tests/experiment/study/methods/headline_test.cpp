@@ -98,3 +98,20 @@ TEST_CASE("the result of a gauge is how far settings lie from the surface", "[un
     CHECK_THAT(study_headline(results, {}).result,
                Contains("Settings of \"which\" lie 10 deg") && Contains("over 3 observers."));
 }
+
+TEST_CASE("where samples are too few to count fixations, the share is that of their time", "[unit]") {
+    StudyResults results;
+    results.area = "head";
+    results.sessions.emplace_back().setup.gaze.rate_hz = 60.0;
+    AreaRow& row = results.area_rows.emplace_back();
+    row.area = "head";
+    row.by_count = Estimate::of(0.31);
+    row.by_duration = Estimate::of(0.47);
+    row.observers = 4;
+    CHECK(rate_too_low_for_counts(results) == 60.0);
+    CHECK_THAT(study_headline(results, {}).result, Contains("47 % of the time of fixation is on the head"));
+    // What was measured counts, and not what the tracker was set to.
+    results.session_quality.emplace_back().rate_hz = 119.6;
+    CHECK_FALSE(rate_too_low_for_counts(results));
+    CHECK_THAT(study_headline(results, {}).result, Contains("31 % of the fixations lie on the head"));
+}

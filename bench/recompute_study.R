@@ -1,0 +1,228 @@
+# Recomputes tables of one analysis from its fixations and trials alone, with R's own functions, and says how far
+# the program's numbers are off:
+#
+#   Rscript bench/recompute_study.R ANALYSIS
+#
+# ANALYSIS is a folder that `overt analyze` wrote. It needs the package jsonlite. Recomputed are the shares of
+# areas, differences between levels with their p, Holm's corrections, effect sizes, Bayes factors and tests of
+# equivalence, WSS, and the effects of factors. Intervals that are drawn (bootstraps) and metrics of maps are not.
+# Ends with status 1 if a number is farther off than its table's rounding, or a p than chance allows.
+
+folder <- commandArgs(trailingOnly = TRUE)[1]
+read_table <- function(name) read.csv(file.path(folder, paste0(name, ".csv")), na.strings = "n/a", check.names = FALSE,
+                                      colClasses = c(observer = "character"))
+study <- jsonlite::fromJSON(file.path(folder, "study.json"), simplifyVector = FALSE)
+parameter <- function(name) Filter(function(one) one$name == name, study$parameters)[[1]]$value
+by <- unlist(study$by)
+compare <- parameter("compare")
+smallest_effect <- as.numeric(parameter("smallest-effect"))
+trials <- suppressWarnings(read_table("trials"))
+fixations <- suppressWarnings(read_table("fixations"))
+fixations <- fixations[fixations$counted == 1, ]
+trials <- trials[trials$excluded == 0, ]
+mm_per_deg <- sapply(study$objects, function(one) one$mm_per_deg)
+names(mm_per_deg) <- sapply(study$objects, function(one) one$id)
+
+worst <- data.frame()
+hold <- function(what, ours, theirs, tolerance) {
+  both_missing <- is.na(ours) & is.na(theirs)
+  off <- ifelse(both_missing, 0, ifelse(is.na(ours) | is.na(theirs), Inf, abs(ours - theirs)))
+  if (length(off) == 0) return(invisible())
+  worst <<- rbind(worst, data.frame(what = what, numbers = length(off), worst = max(off), allowed = tolerance,
+                                    holds = max(off) <= tolerance))
+}
+rounding <- 1.1e-6
+holm <- function(p) p.adjust(p, "holm")
+
+# Exact flips of the signs of observers' differences.
+flip_p <- function(differences) {
+  n <- length(differences)
+  if (n < 2) return(NA)
+  if (n > 16) return(NA)
+  signs <- as.matrix(expand.grid(rep(list(c(1, -1)), n)))
+  mean(abs(signs %*% differences) >= abs(sum(differences)) - 1e-12 * sum(abs(differences)))
+}
+bayes_factor <- function(t, n, r = sqrt(2) / 2) {
+  v <- n - 1
+  with <- integrate(function(x) {
+    g <- exp(x)
+    w <- 1 + n * g * r^2
+    exp(-0.5 * log(w) - (v + 1) / 2 * (log1p(t^2 / (w * v)) - log1p(t^2 / v)) - 0.5 * log(2 * pi) - 1.5 * x - 0.5 / g + x)
+  }, -10, 60, rel.tol = 1e-10, subdivisions = 2000)$value
+  with
+}
+evidence_of <- function(d) {
+  n <- length(d)
+  nothing <- c(NA, NA, NA, NA, NA)
+  if (n < 2 || !(sd(d) > 1e-12 * max(abs(d)))) return(nothing)
+  t <- mean(d) / sd(d) * sqrt(n)
+  bound <- smallest_effect * sqrt(n)
+  equivalence <- suppressWarnings(max(1 - pt(t, n - 1, -bound), pt(t, n - 1, bound)))
+  if (n < 3) return(c(mean(d) / sd(d), NA, NA, bayes_factor(t, n), equivalence))
+  end <- function(p) suppressWarnings(uniroot(function(x) pt(t, n - 1, x) - p, t + c(-40, 40), tol = 1e-10)$root) / sqrt(n)
+  c(exp(lgamma((n - 1) / 2) - lgamma((n - 2) / 2)) / sqrt((n - 1) / 2) * mean(d) / sd(d), end(0.975), end(0.025),
+    bayes_factor(t, n), equivalence)
+}
+wss <- function(f) if (nrow(f) < 2) NA else sum(apply(f[, c("x_mm", "y_mm", "z_mm")], 2, var))
+on_area <- function(f, area) vapply(strsplit(ifelse(is.na(f$part), "", f$part), " "), function(parts) area %in% parts, logical(1))
+
+# Rows of a table stand for the trials with their keys; "all" takes any.
+of_keys <- function(data, row, columns) {
+  for (column in columns) if (row[[column]] != "all") data <- data[data[[column]] == row[[column]], ]
+  data
+}
+means_of_observers <- function(f, value) vapply(split(f, f$observer), value, numeric(1))
+
+if (file.exists(file.path(folder, "areas.csv"))) {
+  areas <- suppressWarnings(read_table("areas"))
+  columns <- intersect(by, names(areas))
+  ours <- t(vapply(seq_len(nrow(areas)), function(i) {
+    f <- of_keys(fixations, areas[i, ], columns)
+    if (nrow(f) == 0) return(rep(NA_real_, 3))
+    inside <- on_area(f, areas$area[i])
+    observers <- split(seq_len(nrow(f)), f$observer)
+    c(mean(vapply(observers, function(o) mean(inside[o]), 1)),
+      mean(vapply(observers, function(o) sum(f$duration_s[o][inside[o]]) / sum(f$duration_s[o]), 1)), mean(inside))
+  }, numeric(3)))
+  # Objects that lack an area have no share of it: where studies have such, rows differ and say so.
+  hold("areas: by_count", ours[, 1], areas$by_count, rounding)
+  hold("areas: by_duration", ours[, 2], areas$by_duration, rounding)
+  hold("areas: pooled", ours[, 3], areas$pooled, rounding)
+}
+
+# Differences within observers: of each object and group, then means over these.
+differences_of <- function(row, others, value) {
+  f <- of_keys(fixations, row, others)
+  cells <- split(f, f[, unique(c("observer", "object", others)), drop = FALSE], drop = TRUE)
+  found <- lapply(cells, function(cell) {
+    a <- cell[cell[[compare]] == row$a, ]
+    b <- cell[cell[[compare]] == row$b, ]
+    if (nrow(a) == 0 || nrow(b) == 0) return(NULL)
+    data.frame(observer = cell$observer[1], value = value(a) - value(b))
+  })
+  found <- do.call(rbind, found)
+  if (is.null(found)) return(numeric(0))
+  found <- found[!is.na(found$value), ]
+  vapply(split(found$value, found$observer), mean, numeric(1))
+}
+compare_rows <- function(table, name, prefix, value_of, difference, p, others) {
+  values <- lapply(seq_len(nrow(table)), function(i) differences_of(table[i, ], others, value_of(table[i, ])))
+  scale <- max(1, max(abs(table[[difference]]), na.rm = TRUE))
+  hold(paste0(name, ": ", difference), vapply(values, function(d) if (length(d)) mean(d) else NA_real_, 1),
+       table[[difference]], scale * 1e-6 + rounding)
+  exact <- lengths(values) <= 16
+  hold(paste0(name, ": ", p), vapply(values[exact], flip_p, 1), table[[p]][exact], rounding)
+  evidence <- t(vapply(values, evidence_of, numeric(5)))
+  for (i in 1:5) {
+    column <- paste0(prefix, c("effect_size", "effect_size_low", "effect_size_high", "bayes_factor", "equivalence_p")[i])
+    theirs <- table[[column]]
+    hold(paste0(name, ": ", column), evidence[, i] / pmax(1, abs(theirs)), theirs / pmax(1, abs(theirs)), 2e-5)
+  }
+}
+others_of <- function(table) setdiff(intersect(by, names(table)), compare)
+if (file.exists(file.path(folder, "area_pairs.csv"))) {
+  pairs <- suppressWarnings(read_table("area_pairs"))
+  others <- others_of(pairs)
+  compare_rows(pairs, "area_pairs", "", function(row) function(f) mean(on_area(f, row$area)), "difference", "p", others)
+  is_all <- if (length(others)) Reduce(`&`, lapply(others, function(one) pairs[[one]] == "all")) else rep(TRUE, nrow(pairs))
+  corrected <- ave(pairs$p, pairs$area, is_all, FUN = holm)
+  hold("area_pairs: p_holm", corrected, pairs$p_holm, 20 * rounding)
+  hold("area_pairs: p_holm_areas", ave(pairs$p, is_all, FUN = holm), pairs$p_holm_areas, 60 * rounding)
+}
+if (file.exists(file.path(folder, "table1_pairs.csv"))) {
+  pairs <- suppressWarnings(read_table("table1_pairs"))
+  others <- others_of(pairs)
+  if (length(unique(fixations$object)) == 1 && length(mm_per_deg) > 0 && !is.null(mm_per_deg[[1]])) {
+    per_deg <- mm_per_deg[[unique(fixations$object)]]
+    compare_rows(pairs, "table1_pairs", "wss_", function(row) function(f) wss(f) / per_deg^2, "wss_difference_deg2", "wss_p", others)
+  }
+  values <- vapply(seq_len(nrow(pairs)), function(i) {
+    d <- differences_of(pairs[i, ], others, wss)
+    if (length(d)) mean(d) else NA_real_
+  }, 1)
+  hold("table1_pairs: wss_difference_mm2", values / pmax(1, abs(pairs$wss_difference_mm2)),
+       pairs$wss_difference_mm2 / pmax(1, abs(pairs$wss_difference_mm2)), 1e-5)
+}
+if (file.exists(file.path(folder, "figure5_distribution.csv"))) {
+  spread <- suppressWarnings(read_table("figure5_distribution"))
+  ours <- vapply(seq_len(nrow(spread)), function(i) {
+    f <- of_keys(fixations, spread[i, ], intersect(by, names(spread)))
+    f <- f[f$object == spread$on_object[i], ]
+    if (nrow(f) < 2) NA_real_ else wss(f) * (nrow(f) - 1) / nrow(f)
+  }, 1)
+  hold("figure5_distribution: wss_mm2", ours / spread$wss_mm2, spread$wss_mm2 / spread$wss_mm2, 1e-6)
+}
+
+# Effects of factors: contrasts beside what trials have in common, flips of observers' signs.
+flip_contrasts <- function(y, observer, contrasts, beside) {
+  centre <- function(m) apply(as.matrix(m), 2, function(v) v - ave(v, observer))
+  y <- centre(y)
+  contrasts <- centre(contrasts)
+  base <- qr(centre(beside))
+  q <- qr.Q(base)[, seq_len(base$rank), drop = FALSE]
+  off <- function(m) m - q %*% crossprod(q, m)
+  rest <- off(y)
+  weights <- off(contrasts)
+  keep <- colSums(weights^2) > 1e-9
+  weights <- weights[, keep, drop = FALSE]
+  if (ncol(weights) == 0) return(c(NA, NA))
+  gifts <- rowsum(weights * as.vector(rest), observer)
+  along <- lapply(seq_len(ncol(weights)), function(k) rowsum(q * weights[, k], observer))
+  given <- rowSums(rowsum(weights^2, observer)) > 1e-9
+  n <- sum(given)
+  if (n < 2 || n > 14) return(c(NA, NA))
+  signs <- as.matrix(expand.grid(rep(list(c(1, -1)), n)))
+  all_signs <- matrix(1, nrow(signs), nrow(gifts))
+  all_signs[, given] <- signs
+  size <- rep(0, nrow(signs))
+  for (k in seq_len(ncol(weights))) {
+    squares <- sum(gifts[, k]^2)
+    if (!(squares > 0)) next
+    left <- 1 - rowSums((all_signs %*% along[[k]])^2) / sum(weights[, k]^2)
+    size <- pmax(size, ifelse(left > 1e-9, (all_signs %*% gifts[, k])^2 / squares / left, 0))
+  }
+  c(sqrt(size[1]), mean(size >= size[1] * (1 - 1e-9)))
+}
+indicator <- function(x) outer(x, unique(x), `==`) * 1
+pairs_of <- function(levels) if (length(levels) < 2) NULL else combn(levels, 2, simplify = FALSE)
+effect_of <- function(measure, effect) {
+  data <- trials
+  if (measure == "log WSS") {
+    data$value <- ifelse(!is.na(data$wss_mm2) & data$wss_mm2 > 0, log(data$wss_mm2), NA)
+  } else {
+    data$value <- data[[paste0("on_", sub("share on ", "", measure))]] / data$fixations
+  }
+  data <- data[is.finite(data$value), ]
+  columns <- setdiff(by, c("object", "observer"))
+  key <- function(of) do.call(paste, c(list(data$object), data[of], sep = "\r"))
+  tested <- strsplit(effect, ":")[[1]]
+  if (length(tested) == 1) {
+    cell <- key(setdiff(columns, tested))
+    data <- data[ave(as.integer(factor(data[[tested]])), cell, FUN = function(v) length(unique(v))) > 1, ]
+    data <- data[ave(as.integer(factor(data[[tested]])), data$observer, FUN = function(v) length(unique(v))) > 1, ]
+    if (nrow(data) == 0) return(c(NA, NA))
+    contrasts <- sapply(pairs_of(unique(data[[tested]])), function(two) (data[[tested]] == two[1]) - (data[[tested]] == two[2]))
+    return(flip_contrasts(data$value, data$observer, contrasts, indicator(key(setdiff(columns, tested)))))
+  }
+  others <- setdiff(columns, tested)
+  a <- data[[tested[1]]]
+  b <- data[[tested[2]]]
+  contrasts <- NULL
+  for (i in pairs_of(unique(a))) for (j in pairs_of(unique(b)))
+    contrasts <- cbind(contrasts, ((a == i[1]) - (a == i[2])) * ((b == j[1]) - (b == j[2])))
+  if (is.null(contrasts)) return(c(NA, NA))
+  if (ncol(contrasts) > 60) contrasts <- indicator(paste(a, b, sep = "\r"))
+  flip_contrasts(data$value, data$observer, contrasts,
+                 cbind(indicator(key(c(others, tested[1]))), indicator(key(c(others, tested[2])))))
+}
+if (file.exists(file.path(folder, "factor_effects.csv"))) {
+  effects <- read.csv(file.path(folder, "factor_effects.csv"), na.strings = "n/a")
+  ours <- t(mapply(effect_of, effects$measure, effects$effect))
+  known <- !is.na(ours[, 1])
+  hold("factor_effects: statistic", ours[known, 1], effects$statistic[known], 1e-4)
+  hold("factor_effects: p", ours[known, 2], effects$p[known], 1e-4)
+  hold("factor_effects: p_holm", ave(effects$p, effects$measure, FUN = holm), effects$p_holm, 20 * rounding)
+}
+
+print(worst, row.names = FALSE, digits = 3)
+quit(status = if (all(worst$holds)) 0 else 1)
