@@ -316,15 +316,17 @@ inline StudyResults made_up_study() {
                                 0.02,
                                 0.04,
                                 0.04,
+                                {},
                                 3,
                                 6});
     study.effects.push_back({"share on head", "task", 0.4, 0.002, 0.004, 0.0002, 12, {}});
     study.effects.push_back({"log WSS", "task:material", {}, {}, {}, {}, 0, "there is one level alone"});
-    study.motions.push_back({{}, Estimate::of(0.9, Interval{0.7, 1.1}), Estimate::of(1.6), 3, 70});
     study.motions.push_back(
-        {{{"material", "smooth"}}, Estimate::of(-0.1, Interval{-0.3, 0.1}), Estimate::of(1.5), 3, 30});
+        {{}, Estimate::of(0.9, Interval{0.7, 1.1}), Estimate::of(0.95), Estimate::of(1.6), 3, 70});
     study.motions.push_back(
-        {{{"material", "rough"}}, Estimate::none("no counted fixation saw the surface move"), {}, 0, 0});
+        {{{"material", "smooth"}}, Estimate::of(-0.1, Interval{-0.3, 0.1}), {}, Estimate::of(1.5), 3, 30});
+    study.motions.push_back(
+        {{{"material", "rough"}}, Estimate::none("no counted fixation saw the surface move"), {}, {}, 0, 0});
     study.reporting.push_back({"1 eye tracker", "eyes measured", "right <i>", true});
     study.reporting.push_back({"4 recording environment", "room", "not recorded: describe both", false});
     study.methods.push_back({"Stimuli", "What was <i>shown</i> & asked is {{DATA}}. It was so."});

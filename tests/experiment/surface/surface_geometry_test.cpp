@@ -2,12 +2,10 @@
 
 #include "experiment/surface/surface_geometry.h"
 #include "tests/experiment/surface/flat_and_round.h"
+#include "tests/support/figures.h"
 
 using namespace overt;
-using overt::test::flat_square;
-using overt::test::icosphere;
-using overt::test::Pieces;
-using overt::test::pieces_of;
+using namespace overt::test;
 
 TEST_CASE("the areas of vertices sum to the area of the surface, in millimetres", "[unit]") {
     const Mesh mesh = flat_square(0.5, 10);
