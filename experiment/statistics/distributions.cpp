@@ -143,7 +143,8 @@ double noncentral_student_probability(double t, double degrees, double noncentra
     // Beyond ten standard deviations, 1 / root (2 degrees) each, nothing is left.
     const double deviation = 1.0 / std::sqrt(2.0 * degrees);
     const double from = std::max(0.0, 1.0 - 10.0 * deviation), to = 1.0 + 10.0 * deviation;
-    constexpr int steps = 400;
+    // Fine enough for where t u passes the noncentrality, within 1 / |t|.
+    const int steps = 2 * std::clamp(static_cast<int>(4.0 * std::abs(t) * (to - from)), 200, 20000);
     const double step = (to - from) / steps;
     double sum = value(from) + value(to);
     for (int i = 1; i < steps; ++i)

@@ -43,6 +43,8 @@ TEST_CASE("Bayes factors and the noncentral t distribution are those of R", "[un
     CHECK(noncentral_student_probability(2.2, 11, -1.2) == Approx(0.9989059726).epsilon(1e-8));
     CHECK(noncentral_student_probability(6.0, 49, 3.0) == Approx(0.9946807111).epsilon(1e-8));
     CHECK(noncentral_student_probability(1.0, 1, 0.5) == Approx(0.5927477364).epsilon(1e-8));
+    CHECK(noncentral_student_probability(13.83, 1, 0.7071) == Approx(0.951194442).epsilon(1e-7));
+    CHECK(noncentral_student_probability(80.0, 1, 0.7071) == Approx(0.991540428).epsilon(1e-7));
     CHECK(noncentral_student_probability(3.0, 200, 2.5) == Approx(0.6881976838).epsilon(1e-8));
     CHECK(noncentral_student_probability(-1.3, 7, 0.0) == Approx(student_probability(-1.3, 7)).epsilon(1e-8));
 }
