@@ -214,7 +214,6 @@ Json report_answers(const StudyResults& results) {
                                {"p", number(row.p)},
                                {"holm", number(row.p_holm)},
                                {"evidence", json_of(row.evidence)},
-                               {"evidence", json_of(row.evidence)},
                                {"observers", row.observers},
                                {"planted", number(row.planted)}});
     for (const GazeChoiceRow& row : answers.gaze_choices)
@@ -227,6 +226,7 @@ Json report_answers(const StudyResults& results) {
                         {"chance", number(row.chance)},
                         {"p", number(row.p)},
                         {"holm", number(row.p_holm)},
+                        {"evidence", json_of(row.evidence)},
                         {"observers", row.observers},
                         {"trials", row.trials},
                         {"planted", number(row.planted)},
