@@ -3,6 +3,8 @@
 #include <numeric>
 #include <set>
 
+#include <algorithm>
+
 #include <catch2/catch.hpp>
 
 #include "experiment/animation.h"
@@ -32,7 +34,7 @@ TEST_CASE("a session keeps the light of its stimuli, as their frames have it", "
     REQUIRE(light.square_px == 1);
     const PoseTable table = distinct_poses(motion_of(7, 6.0, 8.0));
     REQUIRE(table.angles.size() == static_cast<std::size_t>(poses));
-    int bright = 0;
+    int bright = 0, clipped = 0;
     for (int pose = 0; pose < poses; ++pose) {
         const fs::path file =
             out / fmt::format("bust_smooth/frame_{:04}.exr", first_frame_of(table, {pose}).value);
@@ -43,9 +45,12 @@ TEST_CASE("a session keeps the light of its stimuli, as their frames have it", "
             const float* const pixel = &values[4 * i];
             const std::size_t square = static_cast<std::size_t>(pose) * light.squares() + i;
             // The shares of a display with the primaries of sRGB, which the protocol leaves as they are.
-            const double luminance = 0.2126 * static_cast<double>(pixel[at("R")]) +
-                                     0.7152 * static_cast<double>(pixel[at("G")]) +
-                                     0.0722 * static_cast<double>(pixel[at("B")]);
+            // No channel is shown darker than nothing or brighter than the display's white.
+            const auto shown = [&](const char* name) {
+                return std::clamp(static_cast<double>(pixel[at(name)]), 0.0, 1.0);
+            };
+            const double luminance = 0.2126 * shown("R") + 0.7152 * shown("G") + 0.0722 * shown("B");
+            clipped += shown("R") == 1.0;
             const auto covered = static_cast<double>(light.coverage[square]);
             CHECK(covered == Approx(static_cast<double>(pixel[at("A")])).margin(0.001));
             CHECK(covered * static_cast<double>(light.luminance[square]) ==
@@ -54,6 +59,7 @@ TEST_CASE("a session keeps the light of its stimuli, as their frames have it", "
         }
     }
     CHECK(bright > 300);
+    CHECK(clipped > 0);
 }
 
 TEST_CASE(

@@ -44,8 +44,9 @@ TEST_CASE("a sum of lights is baked with its parts, and is their sum to the last
     for (const Pose& pose : cache.pictures_of(soft)) {
         LinearImage sum, key, fill;
         cache.read_frame(soft, draft, pose, sum);
-        cache.read_frame(parts[0], draft, pose, key);
-        cache.read_frame(parts[1], draft, pose, fill);
+        // In the order of their names.
+        for (const Stimulus& part : parts)
+            cache.read_frame(part, draft, pose, part.light == 0 ? key : fill);
         double light = 0.0;
         for (std::size_t i = 0; i < sum.pixels.size(); ++i) {
             const glm::vec4 expected(0.25f * glm::vec3(key.pixels[i]) + 2.0f * glm::vec3(fill.pixels[i]),
