@@ -115,7 +115,7 @@ void add_bench(CLI::App& app, ChosenCommand& chosen) {
         ->capture_default_str();
     command.add_flag(
         "--quick", options.is_quick,
-        "growth: over 2 to 6 trials and 2 to 4 sessions; statistics: 10 studies of each kind; to see "
+        "growth: over 2 to 6 trials and 2 to 4 sessions; statistics: 3 studies of each kind; to see "
         "that it goes, without targets");
     add_threshold_options(command, options.thresholds);
     add_context_option(command, options.context);

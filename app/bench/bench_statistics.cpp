@@ -9,7 +9,7 @@ namespace overt {
 
 namespace {
 
-constexpr int all_studies = 500, quick_studies = 10;
+constexpr int all_studies = 500, quick_studies = 3;
 
 BenchFigure figure_of(const StatisticsCount& count, const StatisticsSetting& setting, bool has_target) {
     const std::string of =

@@ -55,7 +55,8 @@ inline void take_gltf(std::string_view bytes) {
         const Mesh mesh = import_mesh(file, {}, report, &appearance);
         hash_of_appearance(appearance);
         mean_looks(appearance, mesh);
-        for (std::uint32_t triangle = 0; triangle < std::min<std::size_t>(mesh.triangles.size(), 64); ++triangle)
+        for (std::uint32_t triangle = 0; triangle < std::min<std::size_t>(mesh.triangles.size(), 64);
+             ++triangle)
             bump_at(appearance, triangle, {0.3f, 0.2f});
     });
 }
