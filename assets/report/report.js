@@ -292,7 +292,7 @@ if (data.areas.length) {
   if (durations.length) {
     const width_ms = 25, most_ms = 1000, bins = new Array(most_ms / width_ms).fill(0);
     for (const d of durations) bins[Math.min(bins.length - 1, Math.floor(d / width_ms))]++;
-    const chart = element('div');
+    const chart = element('div', {class: 'chart'});
     responsive(chart, width => {
       const frame = plot({width, height: 300, x: [0, most_ms], y: [0, Math.max(...bins)], x_label: 'fixation duration / ms (the last bar: all longer ones)', y_label: 'fixations', label: 'Fixation durations'});
       bins.forEach((n, i) => frame.svg.append(shape('rect', {x: frame.px(i * width_ms) + 0.5, width: Math.max(1, frame.px(width_ms) - frame.px(0) - 1), y: frame.py(n), height: frame.floor - frame.py(n), fill: colour_of(0)})));
@@ -306,7 +306,7 @@ if (data.areas.length) {
   const points = saccades.filter(e => e[3] > 0 && e[4] > 0).map(e => [e[3], e[4]]);
   if (points.length) {
     const range = i => points.reduce(([low, high], p) => [Math.min(low, p[i] / 1.2), Math.max(high, p[i] * 1.2)], [Infinity, -Infinity]);
-    const chart = element('div');
+    const chart = element('div', {class: 'chart'});
     responsive(chart, width => {
       const frame = plot({width, height: 300, x: range(0), y: range(1), x_label: 'saccade amplitude / deg', y_label: 'peak velocity / (deg/s)', log: true, label: 'Main sequence'});
       point_cloud(frame, points, colour_of(5));

@@ -120,13 +120,23 @@ function fitting_ticks(range, length, wanted, log) {
   return [range[0]];
 }
 
-// Draws a chart as wide as its box, and anew when that changes or the page is printed.
+// What draws in each box, and how wide it is there.
+const drawings = new WeakMap();
+
+// Draws a chart as wide as its box, and anew when that changes or the page is printed. A box has one chart: the last.
 function responsive(box, draw) {
-  let width = 0;
+  const known = drawings.get(box);
+  if (known) {
+    known.draw = draw;
+    if (known.width) draw(Math.max(240, known.width));
+    return;
+  }
+  const drawing = {draw, width: 0};
+  drawings.set(box, drawing);
   const renew = wanted => {
-    if (!wanted || Math.abs(wanted - width) < 1) return;
-    width = wanted;
-    draw(Math.max(240, width));
+    if (!wanted || Math.abs(wanted - drawing.width) < 1) return;
+    drawing.width = wanted;
+    drawing.draw(Math.max(240, wanted));
   };
   new ResizeObserver(() => renew(box.clientWidth)).observe(box);
   // Before the page is laid out on paper: half of it where charts stand side by side.

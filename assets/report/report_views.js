@@ -144,6 +144,20 @@ class MapView {
     this.renderer.render(this.scene, this.camera);
   }
 
+  // The view as it is turned, so many dots wide, on white.
+  picture(width) {
+    const ratio = this.renderer.getPixelRatio(), source = this.renderer.domElement;
+    this.renderer.setPixelRatio(width / this.stage.clientWidth);
+    this.draw();
+    const canvas = element('canvas', {width: source.width, height: source.height}), paint = canvas.getContext('2d');
+    paint.fillStyle = '#ffffff';
+    paint.fillRect(0, 0, canvas.width, canvas.height);
+    paint.drawImage(source, 0, 0);
+    this.renderer.setPixelRatio(ratio);
+    this.draw();
+    return canvas;
+  }
+
   tell(event) {
     if (!this.mesh || !this.values) return;
     const box = this.stage.getBoundingClientRect(), caster = new THREE.Raycaster();

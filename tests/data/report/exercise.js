@@ -135,6 +135,38 @@ window.addEventListener('load', () => setTimeout(() => {
     });
   }
   seen.texts_of_charts = texts_of_charts;
+
+  // Each figure is saved in both widths, as its buttons do, and read again without the page's style sheet.
+  const files = [], told = [];
+  URL.createObjectURL = blob => { files.push(blob); return '#'; };
+  HTMLAnchorElement.prototype.click = function() { told.push(this.download); };
+  const wanted = [];
+  for (const tools of document.querySelectorAll('.save')) {
+    const svg_button = [...tools.querySelectorAll('button')].find(b => b.textContent === 'SVG');
+    if (!svg_button || tools.hidden || tools.closest('[hidden]')) continue;
+    for (const mm of ['85', '170']) {
+      tools.querySelector('select').value = mm;
+      svg_button.click();
+      wanted.push(mm);
+    }
+  }
+  URL.createObjectURL = kept.make;
+  HTMLAnchorElement.prototype.click = kept.click;
+  seen.figures = [];
+  files.forEach((blob, i) => blob.text().then(text => {
+    const read = new DOMParser().parseFromString(text, 'image/svg+xml').documentElement, room = element('div', {style: 'position:absolute;left:0;top:0;visibility:hidden'});
+    // Apart from the page's rules for drawings.
+    room.attachShadow({mode: 'open'}).append(document.importNode(read, true));
+    document.body.append(room);
+    const drawing = room.shadowRoot.firstChild, page = drawing.getBoundingClientRect(), texts = [...drawing.querySelectorAll('text')].map(t => t.getBoundingClientRect());
+    seen.figures.push({name: told[i], wanted: wanted[i], width: read.getAttribute('width'), pixels_wide: Number(read.getAttribute('viewBox').split(' ')[2]), texts: texts.length,
+      of_the_page: [...text.matchAll(/var\(|class=|NaN|undefined/g)].map(m => m[0]),
+      unpainted: [...drawing.querySelectorAll('text')].filter(t => !/^#[0-9a-f]{6}$/.test(t.getAttribute('fill')) || t.getAttribute('font-size') !== '12px').length,
+      apart: texts.filter(r => r.left < page.left - 1 || r.right > page.right + 1 || r.top < page.top - 1 || r.bottom > page.bottom + 1).length});
+    room.remove();
+  }));
+  const dot = element('canvas', {width: 2, height: 1});
+  dot.toBlob(async blob => { seen.png = [...new Uint8Array(await with_size(new Uint8Array(await blob.arrayBuffer())).arrayBuffer())]; }, 'image/png');
   seen.stuck = getComputedStyle(heads[0]).position;
   step('play', () => by('play').click(), () => by('play').textContent);
   setTimeout(() => {

@@ -1,10 +1,12 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 
 #include <nlohmann/json.hpp>
+#include <zlib.h>
 
 #include "experiment/base/json_text.h"
 #include "experiment/base/whole_file.h"
@@ -192,6 +194,43 @@ TEST_CASE("the page's tables have a column for each factor, sort, filter, and sa
     CHECK(csv.starts_with("task,material,object,mean WSS / "));
     CHECK(csv.find(" low,mean WSS / ") != std::string::npos);
     CHECK(csv.find("free,rough,The ball,") != std::string::npos);
+}
+
+TEST_CASE("each figure of the page is saved by itself, in the widths of journals, as it is by day", "[gl]") {
+    if (!has_program("chromium"))
+        OVERT_SKIP("no chromium here to open the report");
+    const nlohmann::ordered_json seen =
+        seen_of(test::made_up_study(), 1000, "--blink-settings=preferredColorScheme=0");
+    CHECK(seen["errors"].dump() == "[]");
+    REQUIRE(seen["figures"].size() >= 16);
+    for (const auto& figure : seen["figures"]) {
+        INFO(figure.dump());
+        CHECK(figure["name"].get<std::string>().ends_with(".svg"));
+        CHECK(figure["width"] == figure["wanted"].get<std::string>() + "mm");
+        // Letters of 8 points: twelve units of the drawing.
+        CHECK(figure["pixels_wide"].get<double>() / std::stod(figure["wanted"].get<std::string>()) ==
+              Approx(12 / (8 * 25.4 / 72)).epsilon(0.002));
+        CHECK(figure["texts"] > 2);
+        CHECK(figure["of_the_page"].dump() == "[]");
+        CHECK(figure["unpainted"] == 0);
+        CHECK(figure["apart"] == 0);
+    }
+    // The chunk after the header says 600 dots an inch, and its checksum is right.
+    std::vector<std::uint8_t> png;
+    for (const auto& byte : seen["png"])
+        png.push_back(byte.get<std::uint8_t>());
+    REQUIRE(png.size() > 54);
+    const auto number_at = [&png](std::size_t at) {
+        return std::uint32_t{png[at]} << 24 | std::uint32_t{png[at + 1]} << 16 |
+               std::uint32_t{png[at + 2]} << 8 | std::uint32_t{png[at + 3]};
+    };
+    CHECK(std::string(png.begin() + 37, png.begin() + 41) == "pHYs");
+    CHECK(number_at(33) == 9);
+    CHECK(number_at(41) == 23622);
+    CHECK(number_at(45) == 23622);
+    CHECK(png[49] == 1);
+    CHECK(number_at(50) == crc32(0, png.data() + 37, 13));
+    CHECK(std::string(png.begin() + 58, png.begin() + 62) == "IDAT");
 }
 
 TEST_CASE("nothing of the page is cut or lies on something else, in windows of all widths, by day and night",
