@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """What simulated observers of each protocol that comes with overt were given, beside what the analysis finds.
 
-    bench/gallery_truth.py [--overt PROGRAM] [--observers N] [--trials N] [--out FILE.md] [PROTOCOL…]
+    bench/gallery_truth.py [--overt PROGRAM] [--observers N] [--trials N] [--studies FOLDER] [--out FILE.md] [PROTOCOL…]
 
 Each protocol is begun with `overt new --from`, played by simulated observers with live frames, and analysed, by
-`overt replicate`. The table has a row for each number that has a planted value: of answers, areas and spreads. Exit code
+`overt replicate`; in FOLDER the studies stay, and those that are there are not played again. The table has a row for each number that has a planted value: of answers, areas and spreads. Exit code
 1 if a command fails.
 """
 import argparse
@@ -37,10 +37,13 @@ def rows_of(said):
 
 
 def replicate(program, name, folder, options):
-    protocol = folder / f"{name}.toml"
+    protocol, said = folder / f"{name}.toml", folder / f"{name}.txt"
+    if said.exists():
+        return rows_of(said.read_text())
     subprocess.run([program, "new", str(protocol), "--from", name], check=True, stdout=subprocess.DEVNULL)
-    with open(protocol, "a", encoding="utf-8") as text:
-        text.write('\n[bake]\nquality = "live"\n')
+    if "\n[bake]" not in protocol.read_text():
+        with open(protocol, "a", encoding="utf-8") as text:
+            text.write('\n[bake]\nquality = "live"\n')
     command = [program, "replicate", str(protocol), "--observers", str(options.observers), "--context", "osmesa", "--out",
                str(folder / name)]
     if options.trials:
@@ -48,6 +51,7 @@ def replicate(program, name, folder, options):
     ran = subprocess.run(command, capture_output=True, text=True)
     if ran.returncode != 0:
         sys.exit(f"{' '.join(command)}: {ran.stderr}")
+    said.write_text(ran.stdout)
     return rows_of(ran.stdout)
 
 
@@ -57,14 +61,17 @@ def main():
     parser.add_argument("--overt", default=str(HERE / "build/release/app/overt"))
     parser.add_argument("--observers", type=int, default=6)
     parser.add_argument("--trials", type=int)
+    parser.add_argument("--studies", type=pathlib.Path)
     parser.add_argument("--out", type=pathlib.Path)
     options = parser.parse_args()
     names = options.protocols or sorted(path.stem for path in (HERE / "protocols").glob("*.toml"))
     lines = ["| protocol | what | planted | found | interval | holds |", "| --- | --- | --- | --- | --- | --- |"]
     intervals = holding = 0
-    with tempfile.TemporaryDirectory() as folder:
+    with tempfile.TemporaryDirectory() as scratch:
+        folder = options.studies or pathlib.Path(scratch)
+        folder.mkdir(parents=True, exist_ok=True)
         for name in names:
-            rows = replicate(options.overt, name, pathlib.Path(folder), options)
+            rows = replicate(options.overt, name, folder, options)
             if not rows:
                 lines.append(f"| {name} | nothing is planted | | | | |")
             for what, planted, found, low, high in rows:

@@ -6,6 +6,13 @@ foreach(input IN LISTS INPUTS)
     string(REPLACE "." "_" name ${name})
     string(REPLACE "-" "_" name ${name})
     string(TOLOWER ${name} name)
+    if(input MATCHES "\\.png$")
+        file(READ ${input} content HEX)
+        string(REGEX REPLACE "(..)" "\\\\x\\1" content "${content}")
+        string(APPEND text "inline constexpr char ${name}_bytes[] = \"${content}\";\n"
+                           "inline constexpr std::string_view ${name}{${name}_bytes, sizeof(${name}_bytes) - 1};\n")
+        continue()
+    endif()
     file(READ ${input} content)
     # Through an array: compilers refuse to count the characters of a long text.
     string(APPEND text "inline constexpr char ${name}_text[] = R\"overt_text(${content})overt_text\";\n"

@@ -60,6 +60,8 @@ Degrees Animation::largest_turn() const {
 }
 
 bool Animation::turns_light() const {
+    if (kind == MotionKind::movie)
+        return false;
     for (int frame = 0; frame < frame_count; ++frame) {
         if (pose_of({frame}).light.value != 0.0)
             return true;
@@ -79,6 +81,9 @@ int Animation::shown_frame_count() const { return static_cast<int>(std::lround(d
 
 int Animation::steps_per_period() const {
     if (!has_plan())
+        return frame_count;
+    // Of a movie that begins again no picture is another once more.
+    if (kind == MotionKind::movie && playback == Playback::cycle)
         return frame_count;
     const int intervals = std::max(frame_count - 1, 1);
     return playback == Playback::cycle ? intervals : 2 * intervals;

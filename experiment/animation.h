@@ -120,7 +120,7 @@ struct Animation {
     /// The largest turn of the object about the vertical from its front to either side, 0 … 180 degrees.
     Degrees largest_turn() const;
 
-    /// Whether the light is turned in any frame.
+    /// Whether the light is turned in any frame. What tells the pictures of a movie apart is no light.
     bool turns_light() const;
 
     /// Whether the object is turned about the vertical in some frames, and nothing else in all of them.

@@ -25,6 +25,7 @@ enum class MotionKind : std::uint8_t {
     approach,
     keyframes,
     recorded,
+    movie,
 };
 
 /// A row is all that the rest of the program knows of a kind.
@@ -58,6 +59,7 @@ inline constexpr auto kinds_of<MotionKind> = std::to_array<MotionKindRow>({
     {"recorded",
      "it turns as observers of earlier sessions turned it, refresh by refresh",
      {"recorded", "matched_by"}},
+    {"movie", "nothing moves but what a picture shows: each frame is a picture of its own", {}},
 });
 
 static_assert(kind_called<MotionKind>("turn") == MotionKind::turn &&
@@ -65,7 +67,8 @@ static_assert(kind_called<MotionKind>("turn") == MotionKind::turn &&
               kind_called<MotionKind>("observer") == MotionKind::observer &&
               kind_called<MotionKind>("orbit") == MotionKind::orbit &&
               kind_called<MotionKind>("keyframes") == MotionKind::keyframes &&
-              kind_called<MotionKind>("recorded") == MotionKind::recorded);
+              kind_called<MotionKind>("recorded") == MotionKind::recorded &&
+              kind_called<MotionKind>("movie") == MotionKind::movie);
 
 struct Animation;
 struct AnimationFrameIndex;

@@ -47,6 +47,8 @@ std::string way_of(const Animation& motion) {
         return "from place to place by a table";
     case MotionKind::recorded:
         return "as observers of earlier sessions turned it";
+    case MotionKind::movie:
+        return fmt::format("a movie of {} pictures", motion.frame_count);
     }
     return {};
 }

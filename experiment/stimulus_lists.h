@@ -21,7 +21,7 @@ struct StimulusList {
     std::string_view shown; ///< what the column of a table tells
     /// Keys by which an entry is called that has no id: the first that it has, a word or a file's name. An
     /// entry that has none of them is called by the list.
-    std::array<std::string_view, 2> named_by = {};
+    std::array<std::string_view, 3> named_by = {};
 };
 
 /// Orders, checks, the record, tables and commands go by these rows, in their order. Where a protocol has the
@@ -34,7 +34,7 @@ inline constexpr std::array stimulus_lists{
                  true,
                  true,
                  "Which object was shown",
-                 {"shipped", "mesh"}},
+                 {"shipped", "mesh", "picture"}},
     StimulusList{"material",
                  "materials",
                  &Stimulus::material,

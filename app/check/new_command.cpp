@@ -28,6 +28,16 @@ std::string name_from(const std::filesystem::path& file) {
     return name;
 }
 
+/// Writes a file that is not there. Throws InputError or RecordError naming it.
+void write_new(const std::filesystem::path& file, std::string_view bytes) {
+    std::FILE* const stream = std::fopen(file.c_str(), "wbx"); // x: not over one that came meanwhile
+    if (!stream)
+        throw InputError(fmt::format("{}: cannot be written", file.string()));
+    const bool is_written = std::fwrite(bytes.data(), 1, bytes.size(), stream) == bytes.size();
+    if (std::fclose(stream) != 0 || !is_written)
+        throw RecordError(fmt::format("{}: cannot be written", file.string()));
+}
+
 const ShippedProtocol& shipped(const std::string& name) {
     const std::span<const ShippedProtocol> all = shipped_protocols();
     const auto found = std::ranges::find(all, name, &ShippedProtocol::name);
@@ -50,15 +60,25 @@ int run_new(const NewOptions& options) {
     if (std::filesystem::exists(std::filesystem::symlink_status(file, ignored)))
         throw InputError(fmt::format("{}: exists already, and is not overwritten", file.string()));
     const std::string name = name_from(file);
-    const std::string text = options.from.empty()
-                                 ? options.is_short ? short_protocol_starter(name) : protocol_starter(name)
-                                 : begun_from(shipped(options.from), name, file.string());
-    std::FILE* const stream = std::fopen(file.c_str(), "wbx"); // x: not over one that came meanwhile
-    if (!stream)
-        throw InputError(fmt::format("{}: cannot be written", file.string()));
-    const bool is_written = std::fwrite(text.data(), 1, text.size(), stream) == text.size();
-    if (std::fclose(stream) != 0 || !is_written)
-        throw RecordError(fmt::format("{}: cannot be written", file.string()));
+    if (options.from.empty()) {
+        write_new(file, options.is_short ? short_protocol_starter(name) : protocol_starter(name));
+    } else {
+        const ShippedProtocol& from = shipped(options.from);
+        const std::filesystem::path folder = file.parent_path();
+        for (const ShippedProtocol::Picture& picture : from.pictures)
+            if (std::filesystem::exists(std::filesystem::symlink_status(folder / picture.file, ignored)))
+                throw InputError(fmt::format("{}: exists already, and is not overwritten",
+                                             (folder / picture.file).string()));
+        write_new(file, begun_from(from, name, file.string()));
+        for (const ShippedProtocol::Picture& picture : from.pictures) {
+            const std::filesystem::path place = folder / picture.file;
+            std::filesystem::create_directories(place.parent_path(), ignored);
+            write_new(place, picture.bytes);
+        }
+        if (!from.pictures.empty())
+            fmt::print("written: {} pictures in {}\n", from.pictures.size(),
+                       (folder / from.pictures.front().file).parent_path().string());
+    }
     fmt::print("written: {}\nnext: overt check {}\n", file.string(), file.string());
     return 0;
 }

@@ -20,6 +20,23 @@ void replace_each(std::string& text, const std::string& words, const std::string
 
 std::span<const ShippedProtocol> shipped_protocols() {
     using namespace embedded;
+    static constexpr auto rooms = std::to_array<ShippedProtocol::Picture>({
+        {"pictures/room_1.png", room_1_png},
+        {"pictures/room_2.png", room_2_png},
+        {"pictures/room_3.png", room_3_png},
+        {"pictures/swing_00.png", swing_00_png},
+        {"pictures/swing_01.png", swing_01_png},
+        {"pictures/swing_02.png", swing_02_png},
+        {"pictures/swing_03.png", swing_03_png},
+        {"pictures/swing_04.png", swing_04_png},
+        {"pictures/swing_05.png", swing_05_png},
+        {"pictures/swing_06.png", swing_06_png},
+        {"pictures/swing_07.png", swing_07_png},
+        {"pictures/swing_08.png", swing_08_png},
+        {"pictures/swing_09.png", swing_09_png},
+        {"pictures/swing_10.png", swing_10_png},
+        {"pictures/swing_11.png", swing_11_png},
+    });
     static constexpr auto all = std::to_array<ShippedProtocol>({
         {"quick_look", "the smallest experiment that has everything in it", quick_look_toml},
         {"overt_2019", "the paper's: six tasks on turning sculptures in three metals", overt_2019_toml},
@@ -38,6 +55,7 @@ std::span<const ShippedProtocol> shipped_protocols() {
         {"material_search", "a material among others, present or not", material_search_toml},
         {"delayed_match", "the same material under another light, after a delay", delayed_match_toml},
         {"gaze_contingent", "a shape that comes and goes by where the eyes are", gaze_contingent_toml},
+        {"pictures", "pictures and a movie with areas, without a shape", pictures_toml, rooms},
     });
     return all;
 }

@@ -11,6 +11,11 @@ struct ShippedProtocol {
     std::string_view name; ///< of its file, without .toml
     std::string_view what; ///< what it is an experiment on, a line
     std::string_view text; ///< the file
+    struct Picture {
+        std::string_view file;  ///< from the protocol's folder, as the text has it
+        std::string_view bytes; ///< PNG
+    };
+    std::span<const Picture> pictures = {}; ///< that it shows
 };
 
 /// In the order in which they are listed.

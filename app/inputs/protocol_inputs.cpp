@@ -85,8 +85,9 @@ std::vector<Object> examine_objects(const Protocol& protocol, const std::filesys
     std::vector<Object> objects;
     for (std::size_t i = 0; i < protocol.objects.size(); ++i) {
         const ObjectSettings& settings = protocol.objects[i];
-        const Place place = protocol.places.first_written(
-            {fmt::format("object[{}].mesh", i), fmt::format("object[{}].shipped", i)});
+        const Place place = protocol.places.first_written({fmt::format("object[{}].mesh", i),
+                                                           fmt::format("object[{}].shipped", i),
+                                                           fmt::format("object[{}].picture", i)});
         examine(protocol, place, diagnostics, [&] {
             std::optional<Object> loaded;
             examine_areas(protocol, i, diagnostics, [&] { loaded = load_object(settings, protocol, cache); });
@@ -245,7 +246,8 @@ void examine_frames(const Protocol& protocol, Diagnostics& diagnostics) {
     for (int i = 0; i < count; ++i) {
         const FrameSequenceSettings& sequence = protocol.frames[static_cast<std::size_t>(i)];
         bar.update("reading ready-made frames", i, count);
-        examine(protocol, protocol.places.of(fmt::format("frames[{}].files", i)), diagnostics, [&] {
+        const Place place = protocol.places.of(place_of_frames(protocol, static_cast<std::size_t>(i)));
+        examine(protocol, place, diagnostics, [&] {
             const Stimulus stimulus = stimulus_of(protocol, sequence);
             const ViewSettings& view = protocol.view_of(stimulus);
             check_frame_pixels(sequence, protocol.motion_of(stimulus).frame_count,
@@ -253,7 +255,7 @@ void examine_frames(const Protocol& protocol, Diagnostics& diagnostics) {
             if (sequence.colour_space == FrameColours::display &&
                 has_other_primaries(frame_file(sequence, {0})))
                 diagnostics.warning(
-                    protocol.file.string(), protocol.places.of(fmt::format("frames[{}].files", i)),
+                    protocol.file.string(), place,
                     "the frames say that their colours are of another space, but their numbers are "
                     "shown as the display's own light",
                     "colour_space = \"rec709\" converts what they say to the display");

@@ -76,7 +76,7 @@ void check_files(ProtocolExamination& examination) {
         }
     }
     for (std::size_t i = 0; i < protocol.frames.size(); ++i) {
-        const std::string path = fmt::format("frames[{}].files", i);
+        const std::string path = place_of_frames(protocol, i);
         // An unknown motion has been found already.
         const auto motion =
             std::ranges::find(protocol.motions, protocol.frames[i].motion, &MotionSettings::id);

@@ -202,6 +202,12 @@ void check_areas(ProtocolExamination& examination, std::size_t index) {
                 examination.error({head, path}, fmt::format("\"{}\" is described twice", area.name),
                                   "write it either as \"head\" or in \"areas\"");
         }
+        if (!area.rectangles.empty() || !area.discs.empty()) {
+            examination.error({path},
+                              "\"rectangles\" and \"discs\" lie on a flat picture, and this is a shape",
+                              "give spheres, boxes, groups or planes");
+            continue;
+        }
         const bool is_anywhere = !area.spheres.empty() || !area.boxes.empty() || !area.groups.empty();
         const bool is_said =
             std::ranges::any_of(std::array{"spheres", "boxes", "groups", "planes"}, [&](const char* key) {
@@ -220,6 +226,67 @@ void check_areas(ProtocolExamination& examination, std::size_t index) {
                           fmt::format("{} areas are described, and maps take {} at most", object.areas.size(),
                                       most_map_areas),
                           "take some out, or give the object's mesh in place of \"lut\"");
+}
+
+/// A flat picture: nothing else says what the object is, nothing turns it, and its areas lie on it.
+void check_picture(ProtocolExamination& examination, std::size_t index) {
+    const Protocol& protocol = examination.protocol;
+    const ObjectSettings& object = protocol.objects[index];
+    const auto path = [&](std::string_view key) { return entry_path("object", index, key); };
+    for (const std::string_view key : {"shipped", "mesh", "lut"})
+        if (examination.is_written(path(key)))
+            examination.error({path("picture"), path(key)},
+                              fmt::format("an object is either a \"picture\" or a \"{}\", not both", key),
+                              "take one of the two lines out");
+    check_idle_keys(examination, index,
+                    {"up", "scale", "unit", "labels", "weld_tolerance", "lut_first_number", "lut_scale",
+                     "lut_min", "lut_max"},
+                    "\"mesh\"", "it describes a shape, and this is a picture");
+    const bool is_numbered = object.picture.string().find('#') != std::string::npos;
+    if (is_numbered)
+        check_numbered_path(examination, path("picture"), object.picture.string(),
+                            "such as \"film/frame_####.png\"");
+    else
+        check_idle_keys(examination, index, {"picture_first_number"}, "a \"picture\" with #",
+                        "it is the number of a movie's first picture");
+    for (std::size_t i = 0; i < protocol.motions.size(); ++i) {
+        const MotionSettings& motion = protocol.motions[i];
+        const std::string kind = entry_path("motion", i, "kind");
+        if (motion.kind != MotionKind::still && motion.kind != MotionKind::movie)
+            examination.error({kind, entry_path("motion", i), path("picture")},
+                              fmt::format("a flat picture does not move, and the motion \"{}\" would move "
+                                          "\"{}\"",
+                                          motion.id, object.id),
+                              "kind = \"still\", or \"movie\" for pictures one after the other");
+    }
+    const glm::dvec2 size_px(protocol.views.front().width_px, protocol.views.front().height_px);
+    for (std::size_t i = 1; i < protocol.views.size(); ++i)
+        if (glm::dvec2(protocol.views[i].width_px, protocol.views[i].height_px) != size_px)
+            examination.error({entry_path("view", i), path("picture")},
+                              fmt::format("the views \"{}\" and \"{}\" are of two sizes, and a picture is of "
+                                          "one",
+                                          protocol.views.front().id, protocol.views[i].id));
+    for (const AreaSettings& area : object.areas) {
+        const std::string place = area_path(examination, index, area.name);
+        for (const std::string_view key : {"spheres", "boxes", "groups", "planes"})
+            if (examination.is_written(fmt::format("{}.{}", place, key)))
+                examination.error(
+                    {fmt::format("{}.{}", place, key)},
+                    fmt::format("\"{}\" describes places of a shape, and this is a picture", key),
+                    "\"rectangles\" and \"discs\" are in pixels of the picture");
+        for (const auto& [left, top, right, bottom] : area.rectangles)
+            if (!(left < right && top < bottom && right > 0.0 && bottom > 0.0 && left < size_px.x &&
+                  top < size_px.y))
+                examination.error(
+                    {fmt::format("{}.rectangles", place), place},
+                    fmt::format(
+                        "the rectangle [{}, {}, {}, {}] has nothing of the picture, which is {} x {} px",
+                        left, top, right, bottom, size_px.x, size_px.y),
+                    "left, top, right and bottom, from the top left corner");
+        if (area.rectangles.empty() && area.discs.empty())
+            examination.error({place}, fmt::format("nothing says where \"{}\" is", area.name),
+                              "give it \"rectangles\" or \"discs\"");
+    }
 }
 
 } // namespace
@@ -246,6 +313,10 @@ void check_objects(ProtocolExamination& examination, std::span<const std::string
                           mesh = entry_path("object", i, "mesh"), lut = entry_path("object", i, "lut");
         const bool has_shipped = examination.is_written(shipped), has_mesh = examination.is_written(mesh),
                    has_lut = examination.is_written(lut);
+        if (object.is_flat()) {
+            check_picture(examination, i);
+            continue;
+        }
         if (has_shipped && has_mesh) {
             examination.error({mesh, shipped}, "an object is either \"shipped\" or a \"mesh\", not both",
                               "take one of the two lines out");
@@ -363,6 +434,8 @@ void check_frames(ProtocolExamination& examination) {
     std::map<std::array<std::string, 5>, std::size_t> seen;
     for (std::size_t i = 0; i < protocol.frames.size(); ++i) {
         const FrameSequenceSettings& sequence = protocol.frames[i];
+        if (sequence.picture_of >= 0)
+            continue; // made of what was checked with its object
         is_known(examination, entry_path("frames", i, "object"), "[[object]]", sequence.object, objects);
         is_known(examination, entry_path("frames", i, "material"), "[[material]]", sequence.material,
                  materials);

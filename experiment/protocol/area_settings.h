@@ -17,6 +17,10 @@ struct AreaSettings {
     std::vector<std::array<glm::dvec3, 2>> boxes; ///< corners with the smallest and largest coordinates
     std::vector<std::string> groups;              ///< parts that the mesh file, or `labels`, names
     std::vector<std::array<double, 6>> planes;    ///< point and normal
+    /// Of a flat picture, in its pixels from its top left corner: left, top, right, bottom; and the x, y and
+    /// radius of discs. Boxes and spheres are made of them when the protocol is complete.
+    std::vector<std::array<double, 4>> rectangles;
+    std::vector<std::array<double, 3>> discs;
 
     bool operator==(const AreaSettings&) const = default;
 };

@@ -136,6 +136,11 @@ std::filesystem::path frame_file(const FrameSequenceSettings& sequence, Animatio
     return numbered(sequence.files, sequence.first_number + frame.value);
 }
 
+std::string place_of_frames(const Protocol& protocol, std::size_t index) {
+    const int object = protocol.frames.at(index).picture_of;
+    return object < 0 ? fmt::format("frames[{}].files", index) : fmt::format("object[{}].picture", object);
+}
+
 std::filesystem::path lut_file(const ObjectSettings& object, AnimationFrameIndex frame) {
     return numbered(object.lut, object.lut_first_number + frame.value);
 }

@@ -320,6 +320,15 @@ struct ObjectSettings : ListEntry {
     std::optional<int> lut_scale;               ///< of 16-bit codes; left out: a file beside each map says it
     std::optional<glm::dvec3> lut_min, lut_max; ///< the box that they are coded by, likewise
     std::vector<AreaSettings> areas;            ///< beside those that the mesh file and `labels` name
+    /// A flat picture in place of a shape, or the pictures of a movie with # for the digits of their number;
+    /// or empty; resolved likewise.
+    std::filesystem::path picture;
+    int picture_first_number = 0; ///< number of animation frame 0
+    /// Of such a picture on the screen, where it is shown pixel for pixel; known when the protocol is
+    /// complete.
+    glm::dvec2 picture_mm{0.0};
+
+    bool is_flat() const { return !picture.empty(); }
 };
 
 /// What the reflectance of a plastic is of: `light`, of the light that leaves its body, as a colour measured
@@ -461,6 +470,8 @@ struct FrameSequenceSettings {
     /// Of files without alpha: the colour, as it stands in them, that is not the object.
     std::optional<glm::dvec3> background_colour;
     double background_tolerance = 0.004; ///< largest difference from it, in each channel
+    /// The object whose `picture` it is, as an index; -1: the protocol has it as [[frames]].
+    int picture_of = -1;
 };
 
 struct Protocol {
@@ -577,8 +588,12 @@ ScreenGeometry screen_geometry_of(const Protocol& protocol);
 /// The protocol as the further tracker of this index has it: that is its [tracker], and there is no other.
 Protocol protocol_of_further(const Protocol& protocol, std::size_t index);
 
-/// File of one frame of a ready-made animation: the #s of `files` replaced by the number, zeros in front.
+/// File of one frame of a ready-made animation: the #s of `files` replaced by the number, zeros in front; the
+/// same for all, if there are none.
 std::filesystem::path frame_file(const FrameSequenceSettings& sequence, AnimationFrameIndex frame);
+
+/// The key that says where a ready-made animation is, as findings name it: of [[frames]], or of a picture.
+std::string place_of_frames(const Protocol& protocol, std::size_t index);
 
 /// The same for the map of one frame, of an object with ready-made maps.
 std::filesystem::path lut_file(const ObjectSettings& object, AnimationFrameIndex frame);

@@ -4,6 +4,7 @@
 #include "experiment/report/packed_array.h"
 #include "experiment/report/report_answers.h"
 #include "experiment/report/report_areas.h"
+#include "experiment/report/report_explorations.h"
 #include "experiment/report/report_json.h"
 #include "experiment/report/report_maps.h"
 #include "experiment/report/report_page.h"
@@ -197,6 +198,7 @@ nlohmann::ordered_json report_data(const StudyResults& results) {
               {"sample", results.headline.sample},
               {"result", results.headline.result}}},
             {"answers", report_answers(results)},
+            {"explorations", report_explorations(results.explorations)},
             {"answer_maps", std::move(maps.answer_maps)},
             {"knows_stimuli", knows_stimuli(results)},
             {"parameters", parameters},

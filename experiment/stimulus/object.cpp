@@ -13,6 +13,7 @@
 #include "experiment/scene/areas.h"
 #include "experiment/scene/files/mesh_reader.h"
 #include "experiment/scene/files/ply_writer.h"
+#include "experiment/scene/making/flat_mesh.h"
 #include "experiment/scene/ray_caster.h"
 #include "experiment/scene/sculptures/novel_shapes.h"
 #include "experiment/scene/sculptures/sculptures.h"
@@ -91,6 +92,14 @@ Camera moved_back(Camera camera, const Mesh& mesh, glm::ivec2 image_px, double m
         }
     camera.position.y = centre.y - distance;
     return camera;
+}
+
+/// A camera before which a flat picture fills the image, as the observer sees it.
+Camera camera_before_picture(const ObjectSettings& object, const Protocol& protocol) {
+    const double distance_mm = protocol.display.viewing_distance_mm;
+    const glm::dvec3 middle(0.5 * object.picture_mm.x, 0.0, 0.5 * object.picture_mm.y);
+    return {middle - glm::dvec3(0.0, distance_mm, 0.0), middle,
+            to_degrees({2.0 * std::atan(0.5 * object.picture_mm.y / distance_mm)})};
 }
 
 Camera camera_of(const ViewSettings& settings, const Protocol& protocol, const Mesh& mesh,
@@ -217,7 +226,7 @@ std::vector<std::string> look_remarks(const SurfaceAppearance& appearance, const
 bool are_of_one_mesh(const ObjectSettings& a, const ObjectSettings& b) {
     const auto made_from = [](const ObjectSettings& of) {
         return std::tie(of.shipped, of.mesh, of.up, of.scale, of.unit, of.weld_tolerance, of.labels, of.areas,
-                        of.parts_by);
+                        of.parts_by, of.picture_mm.x, of.picture_mm.y);
     };
     return made_from(a) == made_from(b);
 }
@@ -240,6 +249,10 @@ MadeMesh make_mesh(const ObjectSettings& settings, const std::filesystem::path& 
     Mesh mesh;
     if (!settings.shipped.empty()) {
         mesh = shipped_sculpture(settings.shipped, cache);
+    } else if (settings.is_flat()) {
+        mesh = make_flat_mesh(settings.picture_mm, area_regions(settings));
+        made.remarks = overlap_remarks(mesh, settings);
+        order_for_drawing(mesh);
     } else {
         MeshCleaningReport report;
         SurfaceAppearance appearance;
@@ -287,7 +300,8 @@ Object place_object(const ObjectSettings& settings, const Protocol& protocol, co
         SceneView& scene = object.scenes[i];
         scene.view.image_px = {view.width_px, view.height_px};
         scene.bounds = object.mesh->bounds();
-        scene.view.camera = camera_of(view, protocol, object.mesh, object.origin);
+        scene.view.camera = settings.is_flat() ? camera_before_picture(settings, protocol)
+                                               : camera_of(view, protocol, object.mesh, object.origin);
         try {
             depth_range(scene.bounds, scene.view);
         } catch (const InputError& error) {
@@ -300,7 +314,7 @@ Object place_object(const ObjectSettings& settings, const Protocol& protocol, co
 }
 
 bool has_mesh_of_its_own(const ObjectSettings& settings) {
-    return !settings.shipped.empty() || !settings.mesh.empty();
+    return !settings.shipped.empty() || !settings.mesh.empty() || settings.is_flat();
 }
 
 } // namespace

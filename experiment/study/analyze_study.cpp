@@ -18,6 +18,7 @@
 #include "experiment/study/area_shares.h"
 #include "experiment/study/difference_maps.h"
 #include "experiment/study/error_budget.h"
+#include "experiment/study/explorations.h"
 #include "experiment/study/factor_effects.h"
 #include "experiment/study/fixation_maps.h"
 #include "experiment/study/gauge_reliefs.h"
@@ -247,6 +248,7 @@ StudyResults analyze_study(ReadStudy study, const StudyOptions& options, const S
     add_screen_area_looks(results, study.levels, options);
     reckon_answers(results.answers, options);
     reckon_reliefs(results.reliefs, options.bootstrap());
+    reckon_explorations(results.explorations, options.bootstrap());
     if (knows_stimuli(results))
         reckon_on_surfaces(study, options, progress);
     results.headline = study_headline(results, options);

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "experiment/keys/key_walk.h"
+#include "experiment/protocol/files/flat_pictures.h"
 #include "experiment/protocol/files/keyframes.h"
 #include "experiment/protocol/files/old_words.h"
 #include "experiment/protocol/files/recorded_courses.h"
@@ -66,6 +67,7 @@ void complete(Protocol& protocol) {
     for (std::size_t i = 0; i < protocol.observer_fields.size(); ++i)
         complete_field(protocol.observer_fields[i],
                        protocol.places.is_written(fmt::format("observer_field[{}].kind", i)));
+    add_material_of_pictures(protocol);
     for (std::size_t list = 0; list < stimulus_lists.size(); ++list) {
         for (ListEntry* entry : entries_of(protocol, list)) {
             if (entry->id.empty() && protocol_keys().section(stimulus_lists[list].name).is_never_empty())
@@ -83,6 +85,8 @@ void complete(Protocol& protocol) {
             object.labels = folder / object.labels;
         if (!object.lut.empty())
             object.lut = (folder / object.lut).string();
+        if (!object.picture.empty())
+            object.picture = folder / object.picture;
     }
     for (std::size_t i = 0; i < protocol.materials.size(); ++i) {
         MaterialSettings& material = protocol.materials[i];
@@ -131,6 +135,7 @@ void complete(Protocol& protocol) {
                 found != protocol.lamps.end())
                 light.shining.push_back(*found);
     }
+    complete_pictures(protocol);
     const std::vector<LightSettings> lights = protocol.lights;
     for (LightSettings& light : protocol.lights)
         for (const auto& [id, share] : light.sum)

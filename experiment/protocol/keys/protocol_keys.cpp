@@ -173,7 +173,7 @@ const KeyTable& protocol_keys() {
              &Protocol::objects,
              object(),
              "A thing to look at: one of the objects that overt makes itself (`shipped`), or one of yours "
-             "(`mesh`, or ready-made maps, `lut`). At least one.",
+             "(`mesh`, a flat `picture`, or ready-made maps, `lut`). At least one.",
              {{"areas", SectionHome::by_name(&ObjectSettings::areas, &AreaSettings::name), area(),
                "Named areas of the object, any number of them: the measures of gaze are given for each. An "
                "area "
@@ -185,7 +185,7 @@ const KeyTable& protocol_keys() {
               {"head", SectionHome::one_by_name(&ObjectSettings::areas, &AreaSettings::name), area(),
                "The same as `areas = { head = { … } }`."}}},
             {"material", &Protocol::materials, material(),
-             "What every object is made of in turn. At least one."},
+             "What every object is made of in turn. At least one, but for a protocol of pictures."},
             {"points", &Protocol::point_lists, points(),
              "A list of places on the surface of objects, for probes: spread evenly, or given one by one. "
              "They "

@@ -45,6 +45,11 @@ std::vector<Key> area() {
          "names."},
         {"planes", &A::planes, left_out("nothing is cut off"),
          "A point of each plane, and the direction in which the area lies."},
+        {"rectangles", &A::rectangles, left_out("none"),
+         "Of a `picture`: left, top, right and bottom of each rectangle, in pixels of the picture from its "
+         "top left corner."},
+        {"discs", &A::discs, left_out("none"),
+         "Of a `picture`: x and y of the middle, and the radius, of each disc, likewise."},
     };
 }
 
@@ -298,6 +303,16 @@ std::vector<Key> object() {
         {"weld_tolerance", &S::weld_tolerance, range(0, 0.01),
          "Vertices of the mesh that are no farther apart than this share of the diagonal of its box are one: "
          "what some programs write for a corner differs by rounding. 0: only those at the very same place."},
+        {"picture", &S::picture, left_out("see `mesh`"),
+         "Instead of a shape, a flat picture, by its path from the protocol's folder, of the size of the "
+         "stimulus "
+         "(`[view]`), which it fills, shown as it is, without light: PNG, JPEG or TIFF, sRGB of Rec. 709 "
+         "colours, or EXR or HDR, linear, 1 being the display's white. With # for the digits of a number, "
+         "the pictures of a movie, for a motion of the kind \"movie\"; without, one picture all the time. Its surface is that of the screen, in "
+         "millimetres from the lower left corner, so that maps, areas and measures of gaze are as for other "
+         "objects. A protocol that has nothing but pictures needs no `[[material]]`."},
+        {"picture_first_number", &S::picture_first_number, range(0, 1000000),
+         "Number of the first picture of a movie."},
         {"lut", &S::lut, left_out("maps are made from the mesh"),
          "Instead of a mesh, for an object whose `[[frames]]` another program rendered: the "
          "coordinate-encoded maps that it made of them, with # for the digits of the number: "

@@ -18,6 +18,7 @@
 #include "experiment/study/read/answer_reader.h"
 #include "experiment/study/read/area_evidence.h"
 #include "experiment/study/read/exposure.h"
+#include "experiment/study/read/exploration_reader.h"
 #include "experiment/study/read/gauge_reader.h"
 #include "experiment/study/read/gaze_quality.h"
 #include "experiment/study/read/open_sessions.h"
@@ -88,6 +89,7 @@ class StudyReader {
             sessions.push_back(one.path);
         results().answers.given = read_answers(sessions, options_.same_observer);
         results().reliefs.settings = read_gauge_settings(sessions, options_.same_observer);
+        results().explorations.shows = read_explorations(sessions, options_.same_observer);
     }
 
     void begin_reading() {

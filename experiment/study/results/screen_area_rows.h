@@ -20,8 +20,8 @@ struct ScreenAreaTrialRow {
     int trial = 0; ///< index into StudyResults::trials
     std::string area;
     double there_s = 0.0; ///< how long of the presentation it was there
-    /// Share of fixation time that gaze spread evenly over the screen and the presentation would have in it; nothing
-    /// of recordings whose screen or duration is not known.
+    /// Share of fixation time that gaze spread evenly over the screen and the presentation would have in it;
+    /// nothing of recordings whose screen or duration is not known.
     std::optional<double> share_by_chance;
     std::optional<double> dwell_share; ///< of the trial's time of fixation; nothing: it has no fixations
     AreaVisits visits;

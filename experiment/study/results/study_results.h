@@ -25,6 +25,7 @@
 #include "experiment/statistics/estimate.h"
 #include "experiment/statistics/paired_evidence.h"
 #include "experiment/study/results/answer_rows.h"
+#include "experiment/study/results/exploration_rows.h"
 #include "experiment/study/results/relief_rows.h"
 #include "experiment/study/results/screen_area_rows.h"
 #include "experiment/study/results/session_setup.h"
@@ -538,6 +539,7 @@ struct StudyResults {
     std::vector<ScreenAreaRow> screen_area_groups;
     StudyAnswers answers;                      ///< of [[task.answer]]
     StudyReliefs reliefs;                      ///< of gauges
+    StudyExplorations explorations;            ///< of objects that observers turned
     std::vector<StudyQuality> session_quality; ///< by session
     std::vector<ReportingItem> reporting;
     std::vector<MethodsParagraph> methods;

@@ -1,4 +1,5 @@
 #include "experiment/study/tables/study_tables.h"
+#include "experiment/study/tables/exploration_layouts.h"
 
 #include <algorithm>
 
@@ -103,6 +104,8 @@ template <class Visit> void for_each_table(const StudyResults& results, const Vi
     all(gauge_settings_layout(results), results.reliefs.settings, false);
     all(relief_points_layout(), results.reliefs.points, false);
     all(reliefs_layout(), results.reliefs.reliefs, false);
+    all(exploration_shows_layout(results), results.explorations.shows, false);
+    all(explorations_layout(), results.explorations.summaries, false);
     all(reporting_layout(), results.reporting, true);
 }
 

@@ -12,6 +12,14 @@
 using namespace overt;
 using namespace overt::test;
 
+namespace {
+
+constexpr std::string_view shipped_objects[] = {"muse",     "runner",   "scholar",  "shape-01",
+                                                "shape-02", "shape-03", "shape-04", "shape-05",
+                                                "shape-06", "shape-07", "shape-08"};
+
+} // namespace
+
 TEST_CASE("all protocols that are shipped can be begun from, each short enough to be read", "[unit]") {
     std::set<std::string> files;
     for (const auto& entry : std::filesystem::directory_iterator(source_path("protocols")))
@@ -29,18 +37,41 @@ TEST_CASE("all protocols that are shipped can be begun from, each short enough t
 
 TEST_CASE("what is begun from a shipped protocol is sound, and has its own name in all that it says",
           "[unit]") {
-    constexpr std::string_view shipped_objects[] = {"muse",     "runner",   "scholar",  "shape-01",
-                                                    "shape-02", "shape-03", "shape-04", "shape-05",
-                                                    "shape-06", "shape-07", "shape-08"};
     for (const ShippedProtocol& one : shipped_protocols()) {
         CAPTURE(one.name);
         const std::string text = begun_from(one, "my_study", "studies/my_study.toml");
-        CHECK(text.find(one.name) == std::string::npos);
+        // Of pictures it goes on speaking.
+        if (one.pictures.empty())
+            CHECK(text.find(one.name) == std::string::npos);
+        else
+            CHECK(text.find("protocols/") == std::string::npos);
         Diagnostics diagnostics;
         const auto protocol = read_protocol_text(text, "my_study.toml", shipped_objects, diagnostics);
         INFO(diagnostics.print());
         REQUIRE(protocol);
         CHECK(protocol->name == "my_study");
         CHECK_FALSE(diagnostics.has_errors());
+    }
+}
+
+TEST_CASE("the pictures of a shipped protocol are those that lie beside it, and those that it shows",
+          "[unit]") {
+    for (const ShippedProtocol& one : shipped_protocols()) {
+        CAPTURE(one.name);
+        Diagnostics diagnostics;
+        const auto protocol = read_protocol_text(one.text, source_path("protocols/p.toml").string(),
+                                                 shipped_objects, diagnostics);
+        REQUIRE(protocol);
+        std::set<std::string> shown;
+        for (const FrameSequenceSettings& frames : protocol->frames)
+            for (int frame = 0; frame < protocol->motions[0].frame_count; ++frame)
+                shown.insert(frame_file(frames, {frame}).string());
+        std::set<std::string> shipped;
+        for (const ShippedProtocol::Picture& picture : one.pictures) {
+            const std::filesystem::path file = source_path("protocols") / picture.file;
+            CHECK(picture.bytes == text_of_file(file));
+            shipped.insert(file.string());
+        }
+        CHECK(shipped == shown);
     }
 }

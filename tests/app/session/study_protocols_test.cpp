@@ -249,6 +249,7 @@ TEST_CASE("a shape is gone once the eyes were on its crest, and free viewing ask
     CHECK(by_gaze >= 2);
     const SmallExperiment viewing(shortened("mesh_saliency"));
     run_study(viewing, {"--trials", "2"});
-    for (const TrialRecord& trial : SessionRecord(viewing.session()).trials())
+    const SessionRecord viewed(viewing.session());
+    for (const TrialRecord& trial : viewed.trials())
         CHECK(trial.outcome.given.empty());
 }

@@ -59,7 +59,7 @@ Protocol random_design(RandomStream& random) {
     const LevelOrder squares[] = {LevelOrder::cyclic, LevelOrder::balanced, LevelOrder::random_square};
     const SquareKind kinds[] = {SquareKind::cyclic, SquareKind::balanced, SquareKind::random_square};
     for (int i = some(4); i > 0; --i)
-        protocol.materials.push_back({"m" + std::to_string(i), {}, {}});
+        protocol.materials.emplace_back().id = "m" + std::to_string(i);
     protocol.objects.resize(static_cast<std::size_t>(some(2)));
     for (std::size_t i = 0; i < protocol.objects.size(); ++i)
         protocol.objects[i].id = "s" + std::to_string(i);
