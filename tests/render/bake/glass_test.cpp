@@ -51,7 +51,7 @@ TEST_CASE("polished glass mirrors by Fresnel and bends by Snell, in and out", "[
         CHECK(through.direction.z < 0.0f);
         CHECK(back.direction.x == Approx(-sine).margin(1e-6));
         // Back the same way.
-        const GlassWay out = glass.meet(-through.direction, -straight_up, -straight_up, false, -1,
+        const GlassWay out = glass.meet(through.direction, -straight_up, -straight_up, false, -1,
                                         GlassTurn::mirrored, sequence);
         CHECK(out.carried.value[7] == Approx(reflected).margin(1e-5));
         // By chance as often as it has light.
