@@ -69,9 +69,9 @@ LayeredSurface mirrors_alone(const MaterialSettings& material) {
 LiveShares live_shares(const MaterialSettings& material) {
     // What is of a file's own colours has one for all here.
     const MaterialModel& model =
-        material.is_own() ? model_of(material.kind == MaterialKind::own ? MaterialKind::metallic_roughness
-                                                                        : material.kind)
-                          : model_of(material);
+        material.is_own()
+            ? model_of(material.kind == MaterialKind::own ? MaterialKind::metallic_roughness : material.kind)
+            : model_of(material);
     const glm::dvec3 of =
         row_of(material.kind).has_key("reflectance") ? material.given_reflectance() : glm::dvec3(0.0);
     const LayeredSurface surface =
@@ -95,6 +95,11 @@ LiveShares live_shares(const MaterialSettings& material) {
             mirrored *= (1.0 - coat) * (1.0 - coat);
             even *= (1.0 - coat) * (1.0 - static_cast<double>(surface.coat->albedo.mean()));
         }
+        if (material.kind ==
+            MaterialKind::glass) // the rest goes through, on its way across twice half the height
+            for (int channel = 0; channel < 3; ++channel)
+                even[channel] = (1.0 - mirrored[channel]) *
+                                std::exp(-2.0 * material.absorbance[static_cast<std::size_t>(channel)]);
         shares.mirrored.emplace_back(glm::vec3(mirrored), static_cast<float>(coat));
         shares.even.emplace_back(glm::vec3(even), 0.0f);
     }

@@ -14,14 +14,15 @@ namespace overt {
 /// sum": Karis 2013, "Real shading in Unreal Engine 4").
 struct LiveShares {
     static constexpr int rows = 64;
-    std::vector<glm::vec4>
-        mirrored;                ///< rgb in the material's own lobe; alpha in that of a clear coat over it
-    std::vector<glm::vec4> even; ///< rgb
+    /// rgb in the material's own lobe; alpha in that of a clear coat over it.
+    std::vector<glm::vec4> mirrored;
+    /// rgb; of glass what goes through.
+    std::vector<glm::vec4> even;
 };
 
 /// Of metals, polished or rough, with or without all their light, of plastics and mixtures: the shares that
-/// their paths have (LayeredSurface, LobeAlbedo). Of glass what its surface mirrors. Throws InputError for an
-/// unknown metal.
+/// their paths have (LayeredSurface, LobeAlbedo). Of glass what its surface mirrors, and what goes through
+/// its middle. Throws InputError for an unknown metal.
 LiveShares live_shares(const MaterialSettings& material);
 
 } // namespace overt

@@ -20,6 +20,7 @@ uniform int is_diffuse;
 uniform int is_coated;
 uniform sampler2D shares;        // of metals and plastics, by the root of the cosine: mirrored, with the clear coat's in alpha; below, even
 uniform float coat_ior;
+uniform float glass_ior;         // 1: no light goes through
 uniform vec3 coat_absorbance;    // for one pass of the nominal thickness, at normal incidence
 uniform float bump_slope;        // greatest slope of the coat's bumps
 uniform float bump_scale;        // bumps per unit of length
@@ -140,7 +141,15 @@ void main() {
         vec4 shown = share_of(0, cosine);
         vec3 even = share_of(1, cosine).rgb;
         vec3 tint = shown.rgb + even;
-        light = shown.rgb * incoming(mirrored, mirror, tint) + even * evenly_lit(normal, tint) + shown.a * incoming(sharp, mirror, tint);
+        if (glass_ior > 1.0) {
+            // As through a ball that has the same normal, in and out: what is behind, turned upside down.
+            vec3 inside = refract(-to_camera, normal, 1.0 / glass_ior);
+            vec3 far_normal = normal - 2.0 * dot(normal, inside) * inside;
+            vec3 out_of_it = refract(inside, -far_normal, glass_ior);
+            light = shown.rgb * probe(mirrored, mirror) + even * probe(mirrored, out_of_it == vec3(0.0) ? inside : out_of_it);
+        } else {
+            light = shown.rgb * incoming(mirrored, mirror, tint) + even * evenly_lit(normal, tint) + shown.a * incoming(sharp, mirror, tint);
+        }
     }
     linear_light = vec4(exposure * light, 1.0);
 }

@@ -76,6 +76,8 @@ LinearImage StimulusRenderer::draw(const MeshBuffers& mesh, const SceneView& sce
     program_.set("is_diffuse", live_->shading == Shading::matt ? 1 : 0);
     program_.set("shares", 3);
     program_.set("is_coated", live_->shading == Shading::coated_metal ? 1 : 0);
+    program_.set("glass_ior",
+                 material_.kind == MaterialKind::glass ? static_cast<float>(material_.ior) : 1.0f);
     program_.set("coat_ior", static_cast<float>(material_.coat_ior));
     program_.set("coat_absorbance",
                  glm::vec3(glm::dvec3(material_.coat_absorbance[0], material_.coat_absorbance[1],

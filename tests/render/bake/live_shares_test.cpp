@@ -1,6 +1,8 @@
 /// What live frames know of a material, and how far pictures are apart.
 #include "render/bake/live_shares.h"
 
+#include <cmath>
+
 #include <catch2/catch.hpp>
 
 #include "experiment/spectra/metal_table.h"
@@ -79,4 +81,13 @@ TEST_CASE("live frames share light as paths do: white keeps all of it, rough met
     gold.multiple_scattering = false;
     gold.anisotropy = 0.5;
     CHECK(live_shares(gold).mirrored.back().r < rough.mirrored.back().r);
+
+    MaterialSettings glass = test::material_of(MaterialKind::glass);
+    const LiveShares clear = live_shares(glass);
+    for (std::size_t row = 0; row < clear.even.size(); ++row)
+        CHECK(whole_of(clear, row) == Approx(1.0).margin(1e-4));
+    CHECK(clear.mirrored.back().g == Approx(0.04).margin(1e-4));
+    glass.absorbance = {0.5, 0.0, 0.0};
+    CHECK(live_shares(glass).even.back().r == Approx(0.96 * std::exp(-1.0)).margin(1e-3));
+    CHECK(live_shares(glass).even.back().g == Approx(0.96).margin(1e-3));
 }
