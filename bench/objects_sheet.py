@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 """Objects x materials x lights, to be looked at: contact sheets of what overt renders.
 
-    bench/objects_sheet.py [--overt PROGRAM] [--size PX] [--quality QUALITY] [--textured-only] FOLDER
+    bench/objects_sheet.py [--overt PROGRAM] [--size PX] [--quality QUALITY] [--textured-only | --docs] FOLDER
 
 Makes two textured objects (vase.glb, stone.glb: colours, metal and roughness, bumps; free of rights), two protocols of
 small pictures and, by `overt bake --sheet`, FOLDER/materials.png (six objects in six materials under three lights) and
-FOLDER/own.png (the textured ones as their files say, and with single properties given in place of that). Needs nothing
-but Python.
+FOLDER/own.png (the textured ones as their files say, and with single properties given in place of that). With --docs
+instead the pictures of docs/: objects.png, materials.png and lights.png, a few of these each (--size 96, below 300 kB
+together). Needs nothing but Python.
 """
 import argparse
 import json
@@ -166,24 +167,25 @@ id = "look"
 question = "Look."
 """
 
-LIGHTS = """[[light]]
-id = "hall"
-probe = "gallery"
+LIGHTS = {
+    "hall": """probe = "gallery"
 exposure = 0.5
-[[light]]
-id = "sun"
-probe = "overcast"
+""",
+    "sun": """probe = "overcast"
 unit_cd_m2 = 5000
 sun_lux = 30000
 sun_azimuth_deg = 50
 sun_elevation_deg = 35
 exposure = 0.45
-[[light]]
-id = "lamps"
-probe = "dark"
+""",
+    "lamps": """probe = "dark"
 lamps = ["window", "bulb"]
 exposure = 0.0015
-[[lamp]]
+""",
+}
+
+# Of the light of lamps; without effect where no light names them.
+LAMPS = """[[lamp]]
 id = "window"
 shape = "rectangle"
 luminance_cd_m2 = 2500
@@ -225,24 +227,37 @@ def main():
     parser.add_argument("--size", type=int, default=160)
     parser.add_argument("--quality", default="draft")
     parser.add_argument("--textured-only", action="store_true")
+    parser.add_argument("--docs", action="store_true")
     options = parser.parse_args()
     options.folder.mkdir(parents=True, exist_ok=True)
     vase(options.folder / "vase.glb")
     stone(options.folder / "stone.glb")
-    own_meshes = "".join(f'[[object]]\nid = "{name}"\nmesh = "{name}.glb"\n' for name in ("vase", "stone"))
-    shipped = "".join(f'[[object]]\nid = "{name}"\nshipped = "{name}"\n' for name in ("muse", "runner", "scholar", "shape-03"))
+    textured = {name: f'mesh = "{name}.glb"' for name in ("vase", "stone")}
+    shipped = {name: f'shipped = "{name}"' for name in ("muse", "runner", "scholar", "shape-03")}
 
-    def sheet(name, objects, materials):
-        text = HEAD.format(name=name, size=options.size) + LIGHTS + objects
-        text += "".join(f'[[material]]\nid = "{key}"\n{value}\n' for key, value in materials.items())
+    def entries(section, given):
+        return "".join(f'[[{section}]]\nid = "{key}"\n{value}\n' for key, value in given.items())
+
+    def only(given, *names):
+        return {name: given[name] for name in names}
+
+    def sheet(name, objects, materials, lights=LIGHTS):
+        text = HEAD.format(name=name, size=options.size)
+        text += "".join(f"[[light]]\nid = \"{key}\"\n{value}" for key, value in lights.items())
+        text += LAMPS + entries("object", objects) + entries("material", materials)
         protocol = options.folder / f"{name}.toml"
         protocol.write_text(text)
         subprocess.run([options.overt, "bake", str(protocol), "--quality", options.quality, "--sheet",
                         str(options.folder / f"{name}.png")], check=True)
 
-    sheet("own", own_meshes, OWN)
+    if options.docs:
+        sheet("objects", textured, OWN, only(LIGHTS, "sun"))
+        sheet("materials", textured | only(shipped, "shape-03"), MATERIALS, only(LIGHTS, "hall"))
+        sheet("lights", only(shipped, "muse"), only(MATERIALS, "plastic", "brushed", "glass"))
+        return
+    sheet("own", textured, OWN)
     if not options.textured_only:
-        sheet("materials", own_meshes + shipped, MATERIALS)
+        sheet("materials", textured | shipped, MATERIALS)
 
 
 if __name__ == "__main__":

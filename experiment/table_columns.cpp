@@ -21,7 +21,8 @@ bool is_column_of_tables(std::string_view name) {
         "samples_without_gaze screen_onset_s second_setting second_setting_reference "
         "second_setting_start seen setting setting_reference setting_start shown_refreshes shown_s "
         "shown_size silhouette_distance_deg slant_deg start start_deg start_elevation_deg started_s "
-        "stimulus_onset_s stopped_high stopped_low surface_x surface_y surface_z swaps_copied "
+        "stimulus_onset_s stopped_high stopped_low surface_x surface_y surface_z surface_files "
+        "surface_sha256 swaps_copied "
         "swaps_flipped swaps_skipped swaps_suboptimal_copied task_screen_onset_s tied tilt_deg time_s "
         "time_uncertainty_s tracker_onset tracker_time_us triangle true_slant_deg true_tilt_deg "
         "turning_s uncertainty_s window_end_s window_onset_s zero ";

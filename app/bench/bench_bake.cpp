@@ -8,6 +8,7 @@
 
 #include "app/bench/bench_clock.h"
 #include "app/bench/bench_command.h"
+#include "app/bench/path_costs.h"
 #include "app/bench/picture_error.h"
 #include "app/stimuli/bake_errors.h"
 #include "experiment/base/error.h"
@@ -255,6 +256,7 @@ BenchFigures bench_bake(const BenchOptions& options) {
     figures.push_back(at_most("nine stimuli in 31 poses, standard quality, with two processors",
                               bake_s / 2.0 / 3600.0, "h", 10.0));
     measure_furnace(figures, object, options);
+    measure_path_costs(figures, object, light, small);
     return figures;
 }
 

@@ -58,6 +58,8 @@ constexpr Benchmark benchmarks[] = {
      bench_growth},
     {"materials", "plastics, rough metals and mixtures against laws of light and known numbers",
      bench_materials},
+    {"live", "frames that OpenGL draws of each kind of material, held against baked ones in CIEDE2000",
+     bench_live},
     {"watch", "the operator's view, from a sample to its surface point and to its mark in the window",
      bench_watch}};
 

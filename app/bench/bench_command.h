@@ -54,6 +54,8 @@ BenchFigures bench_statistics(const BenchOptions& options);
 BenchFigures bench_growth(const BenchOptions& options);
 /// Layered surfaces against laws of light and numbers that others worked out.
 BenchFigures bench_materials(const BenchOptions& options);
+/// Live frames of each kind of material against baked ones, in CIEDE2000.
+BenchFigures bench_live(const BenchOptions& options);
 /// The operator's view: from a sample to its surface point, and to its mark in the window.
 BenchFigures bench_watch(const BenchOptions& options);
 

@@ -286,7 +286,8 @@ BenchFigures bench_reproject(const BenchOptions& options) {
         const auto begin = std::chrono::steady_clock::now();
         const CoordinateMaps maps(object.mesh, object.scene(), poses.angles, std::move(drawn));
         const double making_s = seconds_since(begin);
-        figures.push_back({object.id + ", triangles", static_cast<double>(object.mesh->triangles.size()), ""});
+        figures.push_back(
+            {object.id + ", triangles", static_cast<double>(object.mesh->triangles.size()), ""});
         figures.push_back(at_most(object.id + ", memory of all maps with the surface",
                                   resident_memory_mb() - before_mb, "MB", 256.0));
         figures.push_back({object.id + ", making the maps ready for questions", making_s, "s"});

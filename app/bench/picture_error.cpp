@@ -10,16 +10,16 @@ namespace overt {
 
 namespace {
 
+/// IEC 61966-2-1.
+double srgb_of(double v) { return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1.0 / 2.4) - 0.055; }
+
+} // namespace
+
 glm::dvec3 xyz_of_rec709(glm::dvec3 rgb) {
     static const glm::dmat3 matrix = glm::inverse(glm::dmat3(
         rec709_of_xyz({1.0, 0.0, 0.0}), rec709_of_xyz({0.0, 1.0, 0.0}), rec709_of_xyz({0.0, 0.0, 1.0})));
     return matrix * rgb;
 }
-
-/// IEC 61966-2-1.
-double srgb_of(double v) { return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1.0 / 2.4) - 0.055; }
-
-} // namespace
 
 PictureError picture_error(const SpectralFrame& frame, const SpectralFrame& reference, double exposure) {
     const LinearImage ours = to_xyz(frame), better = to_xyz(reference);

@@ -6,6 +6,7 @@
 #include "app/check/check_commands.h"
 #include "app/check/frame_cost.h"
 #include "app/check/frame_light.h"
+#include "app/check/lamp_check.h"
 #include "app/check/light_report.h"
 #include "app/check/rig_forecast.h"
 #include "app/check/screen_pictures.h"
@@ -101,8 +102,10 @@ int run_check(const CheckOptions& options) {
         read_experiment(options.protocol, cache_folder(), InputDepth::everything, diagnostics);
     const std::optional<StimulusFacts> stimuli =
         experiment ? std::optional(look_at_stimuli(*experiment, diagnostics)) : std::nullopt;
-    if (experiment)
+    if (experiment) {
         check_texts(experiment->protocol, diagnostics);
+        check_lamps(*experiment, diagnostics);
+    }
     const std::string sound = experiment ? check_sound(experiment->protocol, diagnostics) : std::string();
     std::string text;
     if (options.json) {

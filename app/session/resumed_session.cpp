@@ -263,6 +263,9 @@ void require_same_stimuli(const ResumedSession& session, const SessionHeader& no
     for (std::size_t i = 0; i < std::min(then.objects.size(), now.objects.size()); ++i)
         if (then.objects[i].mesh_sha256 != now.objects[i].mesh_sha256)
             changed.push_back("the mesh of " + then.objects[i].id);
+        else if (!then.objects[i].surface_sha256.empty() &&
+                 then.objects[i].surface_sha256 != now.objects[i].surface_sha256)
+            changed.push_back("the colours and pictures of " + then.objects[i].id);
     for (const RecordedStimulus& stimulus : then.stimuli) {
         const auto same =
             std::find_if(now.stimuli.begin(), now.stimuli.end(), [&](const RecordedStimulus& other) {

@@ -62,6 +62,8 @@ void describe_objects(SessionHeader& header, const Protocol& protocol, std::span
         recorded.id = object.id;
         recorded.title = protocol.objects[i].title;
         recorded.mesh_sha256 = object.mesh_hash;
+        recorded.surface_sha256 = object.appearance_hash;
+        recorded.surface_files = object.appearance_files;
         recorded.part_names = object.mesh->part_names;
         recorded.unit = unit_of_lengths(protocol.objects[i]);
         recorded.origin = object.origin;

@@ -9,6 +9,7 @@
 
 #include "app/stimuli/bake_errors.h"
 #include "app/stimuli/bake_plan.h"
+#include "app/stimuli/live_errors.h"
 #include "experiment/base/counted.h"
 #include "experiment/protocol/keys/protocol_keys.h"
 
@@ -137,7 +138,7 @@ std::string what_it_takes(const std::optional<FrameQuality>& there, BakeQuality 
 
 constexpr const char* what_live_lacks =
     "drawn by OpenGL without waiting: no light from one part of a surface to "
-    "another, no spectra, and an error that is not measured";
+    "another but a guess, and no spectra";
 
 const QualityEstimate* estimate_of(const BakeEstimate& estimate, BakeQuality quality) {
     const auto found = std::ranges::find_if(
@@ -171,7 +172,8 @@ std::string time_of(const QualityEstimate& one) {
 std::string needs_of_person(const BakeEstimate& estimate, const Protocol& protocol) {
     std::string text = "Before a session with a person\n\n";
     if (estimate.wanted == BakeQuality::live)
-        return text + fmt::format("  Nothing: the protocol asks for live frames, {}.\n\n", what_live_lacks);
+        return text + fmt::format("  Nothing: the protocol asks for live frames, {}.\n  {}\n\n",
+                                  what_live_lacks, live_differences_of(protocol));
     const QualityEstimate* const wanted = estimate_of(estimate, estimate.wanted);
     if (!wanted)
         return text + "  Nothing: all frames are given.\n\n";
@@ -194,7 +196,7 @@ std::string needs_of_person(const BakeEstimate& estimate, const Protocol& protoc
             errors_of(draft->quality, protocol), name_of(estimate.wanted),
             errors_of(wanted->quality, protocol));
     }
-    text += fmt::format("  Quality live: {}.\n", what_live_lacks);
+    text += fmt::format("  Quality live: {}.\n  {}\n", what_live_lacks, live_differences_of(protocol));
     if (std::ranges::any_of(protocol.materials, &MaterialSettings::is_of_file))
         text += "  It shows no pictures on surfaces: objects have the mean colour of their own.\n";
     return text +

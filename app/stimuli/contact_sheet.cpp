@@ -66,12 +66,19 @@ LinearImage contact_sheet(const Protocol& protocol, const StimulusLibrary& libra
         cells[static_cast<std::size_t>(i)] = reduced_to(library.page_on_screen(stimulus, page), cell_px);
     });
     const glm::ivec2 cell = cells.front().size_px;
-    const int line_px = std::clamp(cell.x / 12, 9, 28), label_px = 2 * line_px + gap_px;
+    const int line_px = std::clamp(cell.x / 12, 9, 28);
+    // Long names take several lines, and have them.
+    std::vector<LinearImage> labels;
+    for (const Stimulus& stimulus : stimuli)
+        labels.push_back(label(stimulus_title(protocol, stimulus), cell.x, line_px));
+    int label_px = 2 * line_px;
+    for (const LinearImage& text : labels)
+        label_px = std::max(label_px, text.size_px.y);
+    label_px += gap_px;
     LinearImage sheet({gap_px + columns * (cell.x + gap_px), rows * (cell.y + label_px) + gap_px});
     for (int i = 0; i < columns * rows; ++i) {
         const glm::ivec2 origin(gap_px + i % columns * (cell.x + gap_px), i / columns * (cell.y + label_px));
-        const std::string title = stimulus_title(protocol, stimuli[static_cast<std::size_t>(i)]);
-        const LinearImage text = label(title, cell.x, line_px);
+        const LinearImage& text = labels[static_cast<std::size_t>(i)];
         paste(sheet, text, origin + glm::ivec2((cell.x - text.size_px.x) / 2, gap_px / 2));
         paste(sheet, cells[static_cast<std::size_t>(i)], origin + glm::ivec2(0, label_px));
     }

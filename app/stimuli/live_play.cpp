@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "app/stimuli/live_errors.h"
 #include "app/stimuli/picture_window.h"
 #include "experiment/base/error.h"
 #include "render/gl/headless_context.h"
@@ -106,6 +107,7 @@ void play_until_closed(OpenDisplay& opened, LiveView& view, const Protocol& prot
 
 int play_live(const Protocol& protocol, std::span<const Object> objects, const Stimulus& stimulus,
               const PlayOptions& options) {
+    fmt::print(stderr, "{}\n", live_differences_of(protocol));
     if (options.picture.empty()) {
         if (!display_is_available())
             throw InputError("there is no display to play on: write a frame with --picture FILE instead");

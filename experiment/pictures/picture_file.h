@@ -29,8 +29,8 @@ class PictureFile {
     /// two limits.
     PictureFile(std::filesystem::path file, std::string_view kind,
                 StraightColours straight = StraightColours::multiplied);
-    /// The same of the bytes of a PNG or JPEG file in memory, which must outlive it; `format` is "png" or
-    /// "jpeg". Rows are as they are stored, whichever way a camera was held. `name`: for messages.
+    /// The same of the bytes of a PNG, JPEG or WebP file in memory, which must outlive it; `format` is "png",
+    /// "jpeg" or "webp". Rows are as they are stored, whichever way a camera was held. `name`: for messages.
     PictureFile(std::string_view bytes, const std::string& format, std::string name, std::string_view kind,
                 StraightColours straight);
     ~PictureFile();

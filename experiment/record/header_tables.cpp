@@ -180,6 +180,12 @@ constexpr RowColumn<RecordedObject> object_columns[] = {
         "0"),
     column<&Object::origin, 1>("origin_y", "likewise", "0"),
     column<&Object::origin, 2>("origin_z", "likewise", "0"),
+    column<&Object::surface_sha256>("surface_sha256",
+                                    "SHA-256 of how its surface looks by its file: colours, pictures, metal, "
+                                    "roughness and bumps; empty where no material asks for it",
+                                    "''"),
+    column<&Object::surface_files>(
+        "surface_files", "what says it: the mesh's file, then its pictures, with `; ` between them", "''"),
 };
 
 } // namespace

@@ -63,6 +63,9 @@ SessionManifest new_manifest(const fs::path& folder, const SessionHeader& header
     for (const RecordedObject& object : header.objects)
         if (!object.mesh_sha256.empty())
             manifest.inputs.push_back({"mesh " + object.id, object.mesh_sha256});
+    for (const RecordedObject& object : header.objects)
+        if (!object.surface_sha256.empty())
+            manifest.inputs.push_back({"surface " + object.id, object.surface_sha256});
     for (const RecordedStimulus& stimulus : header.stimuli)
         manifest.inputs.push_back(
             {fmt::format("frames {}", stimulus_name(header, stimulus.stimulus)),

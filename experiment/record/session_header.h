@@ -119,6 +119,10 @@ struct RecordedObject {
     /// Added to a place on the object, it gives the place in the coordinates of the mesh's file, turned and
     /// scaled as the protocol says. Not 0 for a mesh far from its file's origin only (import_mesh).
     glm::dvec3 origin{0.0};
+    /// Of how its surface looks by its file, and the files that say it, the mesh's first: where a material of
+    /// the protocol asks for that, else empty, as in sessions of earlier programs.
+    ContentHash surface_sha256 = {};
+    std::string surface_files = {};
 
     const Camera& camera(int view) const { return cameras.at(static_cast<std::size_t>(view)); }
 };

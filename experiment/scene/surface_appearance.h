@@ -20,6 +20,7 @@ namespace overt {
 /// A picture as its file holds it: rows from the top, red, green, blue and alpha in codes of eight bits.
 struct SurfacePicture {
     std::string name; ///< for messages
+    std::string file; ///< its name beside the mesh, or where it lies in the mesh's file: "images[0]"
     glm::ivec2 size_px{0};
     std::vector<glm::u8vec4> texels;
 };

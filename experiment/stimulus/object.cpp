@@ -276,6 +276,14 @@ MadeMesh make_mesh(const ObjectSettings& settings, const std::filesystem::path& 
     return made;
 }
 
+/// The mesh's file and the pictures of its surface, by their names.
+std::string files_of(const SurfaceAppearance& appearance, const std::filesystem::path& mesh) {
+    std::string files = mesh.filename().string();
+    for (const auto& picture : appearance.pictures)
+        files += "; " + picture->file;
+    return files;
+}
+
 /// `made`: its mesh, if it has one.
 Object place_object(const ObjectSettings& settings, const Protocol& protocol, const MadeMesh* made) {
     Object object;
@@ -295,6 +303,8 @@ Object place_object(const ObjectSettings& settings, const Protocol& protocol, co
     object.remarks = made->remarks;
     object.appearance = made->appearance;
     object.appearance_hash = made->appearance_hash;
+    if (made->appearance)
+        object.appearance_files = files_of(*made->appearance, settings.mesh);
     for (std::size_t i = 0; i < object.scenes.size(); ++i) {
         const ViewSettings& view = protocol.view_at(static_cast<int>(i));
         SceneView& scene = object.scenes[i];

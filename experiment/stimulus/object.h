@@ -34,7 +34,9 @@ struct Object {
     /// How the surface looks by its file, where a material of the protocol asks for that; else nothing.
     std::shared_ptr<const SurfaceAppearance> appearance;
     ContentHash appearance_hash; ///< see hash_of_appearance; empty without one
-    glm::dvec3 origin{0.0};      ///< of the mesh's coordinates in those of its file, turned and scaled alike
+    /// The mesh's file and the pictures that it has or names, with "; " between them; empty without one.
+    std::string appearance_files;
+    glm::dvec3 origin{0.0}; ///< of the mesh's coordinates in those of its file, turned and scaled alike
     std::vector<SceneView> scenes;    ///< by view
     std::vector<ObjectPoint> points;  ///< of the protocol's lists, list by list
     std::vector<std::string> remarks; ///< on the mesh, for the experimenter

@@ -6,7 +6,6 @@
 
 #include "experiment/base/error.h"
 #include "experiment/scene/mesh_topology.h"
-#include "experiment/spectra/metal_table.h"
 #include "render/bake/bumps.h"
 #include "render/bake/coat_surface.h"
 #include "render/bake/glass.h"
@@ -87,14 +86,8 @@ BakeScene::BakeScene(const Mesh& mesh, const MaterialSettings& material,
         scale(absorbance_, static_cast<float>(1.0 / half_height));
         glass_ = std::make_unique<Glass>(material_);
     }
-    if (row.has_key("metal")) {
-        const ComplexIndex metal = load_metal(material.metal);
-        metal_ = material.film_nm && row.has_key("film_nm")
-                     ? ConductorTable([&](double cosine) {
-                           return film_over_metal(metal, material.film_ior, *material.film_nm, cosine);
-                       })
-                     : ConductorTable(metal, has_coat() ? material.coat_ior : 1.0);
-    }
+    if (row.has_key("metal"))
+        metal_ = metal_table(material);
     if (has_coat()) {
         const CoatShape shape = coat_shape(material, half_height);
         absorbance_ = Bins::of(absorbance_of(material.coat_absorbance));

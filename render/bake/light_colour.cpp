@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+
+#include "experiment/units.h"
 
 namespace overt {
 
@@ -78,6 +81,47 @@ glm::dvec3 lab_of_xyz(glm::dvec3 xyz) {
     };
     const double x = f(xyz.x / white.x), y = f(xyz.y / white.y), z = f(xyz.z / white.z);
     return {116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)};
+}
+
+double ciede2000(glm::dvec3 lab, glm::dvec3 other) {
+    constexpr double turn = 360.0, seventh = 6103515625.0; // 25^7
+    const auto power7 = [](double x) { return std::pow(x, 7.0); };
+    const auto sine = [](double degrees) { return std::sin(to_radians({degrees}).value); };
+    const auto cosine = [](double degrees) { return std::cos(to_radians({degrees}).value); };
+    const double mean_chroma = 0.5 * (std::hypot(lab.y, lab.z) + std::hypot(other.y, other.z));
+    const double stretch = 1.5 - 0.5 * std::sqrt(power7(mean_chroma) / (power7(mean_chroma) + seventh));
+    const auto chroma = [&](glm::dvec3 of) { return std::hypot(stretch * of.y, of.z); };
+    const auto hue = [&](glm::dvec3 of) {
+        if (of.y == 0.0 && of.z == 0.0)
+            return 0.0;
+        const double degrees = std::atan2(of.z, stretch * of.y) * turn / (2.0 * std::numbers::pi);
+        return degrees < 0.0 ? degrees + turn : degrees;
+    };
+    const double c1 = chroma(lab), c2 = chroma(other), h1 = hue(lab), h2 = hue(other);
+    const bool has_hue = c1 * c2 > 0.0;
+    double apart = has_hue ? h2 - h1 : 0.0;
+    if (apart > 0.5 * turn)
+        apart -= turn;
+    else if (apart < -0.5 * turn)
+        apart += turn;
+    const double light = other.x - lab.x, colourful = c2 - c1,
+                 across = 2.0 * std::sqrt(c1 * c2) * sine(0.5 * apart);
+    double mean_hue = h1 + h2;
+    if (has_hue) {
+        mean_hue *= 0.5;
+        if (std::abs(h1 - h2) > 0.5 * turn)
+            mean_hue += h1 + h2 < turn ? 0.5 * turn : -0.5 * turn;
+    }
+    const double mean_light = 0.5 * (lab.x + other.x), mean_c = 0.5 * (c1 + c2);
+    const double t = 1.0 - 0.17 * cosine(mean_hue - 30.0) + 0.24 * cosine(2.0 * mean_hue) +
+                     0.32 * cosine(3.0 * mean_hue + 6.0) - 0.20 * cosine(4.0 * mean_hue - 63.0);
+    const double from_blue = (mean_hue - 275.0) / 25.0;
+    const double rotation = -sine(60.0 * std::exp(-from_blue * from_blue)) * 2.0 *
+                            std::sqrt(power7(mean_c) / (power7(mean_c) + seventh));
+    const double from_grey = (mean_light - 50.0) * (mean_light - 50.0);
+    const double l = light / (1.0 + 0.015 * from_grey / std::sqrt(20.0 + from_grey)),
+                 c = colourful / (1.0 + 0.045 * mean_c), h = across / (1.0 + 0.015 * mean_c * t);
+    return std::sqrt(std::max(0.0, l * l + c * c + h * h + rotation * c * h));
 }
 
 const std::array<Spectrum, 3>& absorbance_basis() {

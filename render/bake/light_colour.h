@@ -22,6 +22,10 @@ glm::dvec3 rec709_of_xyz(glm::dvec3 xyz);
 /// CIE 1976 L*a*b* of XYZ against the white (1, 1, 1) of Rec.709. Nothing is cut off: L* may exceed 100.
 glm::dvec3 lab_of_xyz(glm::dvec3 xyz);
 
+/// CIEDE2000 colour difference of two L*a*b* colours, with all factors 1 (CIE 142-2001; Sharma, Wu & Dalal
+/// 2005, "The CIEDE2000 color-difference formula", whose pairs tests demand).
+double ciede2000(glm::dvec3 lab, glm::dvec3 other);
+
 /// Light of the colours (1, 0, 0), (0, 1, 0) and (0, 0, 1): three bands that share the spectrum, with soft
 /// edges at 495 and 590 nm (logistic, 9 nm), times D65, mixed so that each sum of them has the colour that it
 /// was made from. White gives D65 itself. Since it is linear, a probe may be filtered before or after. A bin

@@ -237,40 +237,28 @@ void PathTracer::follow_glass(GlassPath& path, SurfaceHit hit, SampleSequence se
             absorb(path.carried, scene_->absorbance(), hit.distance);
         const float side = enters ? 1.0f : -1.0f;
         const glm::vec3 surface_normal = side * hit.triangle_normal, to_eye = -path.ray.direction;
-        const GlassMeeting met = glass.meet(to_eye, facing(side * hit.shading_normal, to_eye), surface_normal,
-                                            enters, path.band, sequence);
-        const auto go_back = [&](GlassPath& back, float chance) {
-            multiply(back.carried, met.mirrored);
-            scale(back.carried, met.mirrored_share / chance);
-            back.ray = {hit.position + scene_->step_off() * surface_normal, above(met.back, surface_normal)};
+        const auto take = [&](GlassPath& along, GlassTurn turn, SampleSequence& numbers) {
+            const GlassWay way = glass.meet(to_eye, facing(side * hit.shading_normal, to_eye), surface_normal,
+                                            enters, along.band, turn, numbers);
+            multiply(along.carried, way.carried);
+            const glm::vec3 outward = way.goes_through ? -surface_normal : surface_normal;
+            along.ray = {hit.position + scene_->step_off() * outward, above(way.direction, outward)};
+            if (way.band != along.band) // one colour stands for all from here on
+                along.set_out *= static_cast<float>(spectral_bins);
+            along.band = way.band;
         };
-        if (!met.goes_through) {
-            go_back(path, 1.0f);
+        if (!path.has_split) {
+            // Both ways once, at the first meeting, as for a coat.
+            path.has_split = true;
+            GlassPath mirrored = path;
+            SampleSequence numbers = sequence;
+            take(mirrored, GlassTurn::mirrored, numbers);
+            mirrored.set_out = mirrored.carried.largest();
+            if (mirrored.set_out > 0.0f)
+                follow_glass(mirrored, hit, numbers, sum);
+            take(path, GlassTurn::let_through, sequence);
         } else {
-            float chance_through = 1.0f;
-            bool is_back = false;
-            if (!path.has_split) {
-                // Both ways once, at the first meeting, as for a coat.
-                path.has_split = true;
-                GlassPath mirrored = path;
-                go_back(mirrored, 1.0f);
-                mirrored.set_out = mirrored.carried.largest();
-                if (mirrored.set_out > 0.0f)
-                    follow_glass(mirrored, hit, sequence, sum);
-            } else {
-                is_back = sequence.next() < met.chance_back;
-                chance_through = 1.0f - met.chance_back;
-            }
-            if (is_back) {
-                go_back(path, met.chance_back);
-            } else {
-                multiply(path.carried, met.passed);
-                scale(path.carried, met.passed_share / chance_through);
-                path.ray = {hit.position - scene_->step_off() * surface_normal, met.through};
-                if (met.band != path.band) // one colour stands for all from here on
-                    path.set_out *= static_cast<float>(spectral_bins);
-                path.band = met.band;
-            }
+            take(path, GlassTurn::by_chance, sequence);
         }
         if (!(path.carried.largest() > 0.0f) || !goes_on(path.carried, path.set_out, sequence))
             return;

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "experiment/spectra/metal_table.h"
+
 namespace overt {
 
 double film_reflectance(double wavelength_nm, double film, double film_nm, std::complex<double> body,
@@ -40,6 +42,15 @@ Bins film_over_metal(const ComplexIndex& metal, double film, double film_nm, dou
         bins.value[bin] = static_cast<float>(sum);
     }
     return bins;
+}
+
+ConductorTable metal_table(const MaterialSettings& material) {
+    const ComplexIndex metal = load_metal(material.metal);
+    if (material.film_nm && row_of(material.kind).has_key("film_nm"))
+        return ConductorTable([&](double cosine) {
+            return film_over_metal(metal, material.film_ior, *material.film_nm, cosine);
+        });
+    return {metal, material.kind == MaterialKind::coated_conductor ? material.coat_ior : 1.0};
 }
 
 } // namespace overt

@@ -3,8 +3,9 @@
 
 #include <complex>
 
+#include "experiment/protocol/protocol.h"
 #include "experiment/spectra/spectra.h"
-#include "render/bake/spectral_bins.h"
+#include "render/bake/conductor.h"
 
 namespace overt {
 
@@ -21,5 +22,9 @@ double film_reflectance(double wavelength_nm, double film, double film_nm, std::
 /// The same for all bins over a metal, each the mean of eight wavelengths within it: fringes narrower than a
 /// bin come out right to 0.01 Delta-E up to films of 4 um.
 Bins film_over_metal(const ComplexIndex& metal, double film, double film_nm, double cosine);
+
+/// What the metal of a material reflects, through its film if it has one; of a coated one below the coat.
+/// Throws InputError for an unknown metal.
+ConductorTable metal_table(const MaterialSettings& material);
 
 } // namespace overt

@@ -8,6 +8,7 @@
 #include "experiment/base/error.h"
 #include "experiment/colour/display_colour.h"
 #include "experiment/protocol/all_stimuli.h"
+#include "render/bake/own_surface.h"
 #include "render/image/text_layout.h"
 
 namespace overt {
@@ -43,8 +44,12 @@ void LiveView::choose(const Stimulus& stimulus) {
     const bool is_lit_otherwise = stimulus.light != stimulus_.light;
     if (is_lit_otherwise)
         renderer_.emplace(*context_, protocol_->light_of(stimulus), image_px_);
-    if (is_lit_otherwise || stimulus.material != stimulus_.material)
-        renderer_->set_material(protocol_->material_of(stimulus));
+    const MaterialSettings& material = protocol_->material_of(stimulus);
+    const bool is_of_object = material.is_own() && object.appearance;
+    if (is_lit_otherwise || stimulus.material != stimulus_.material ||
+        (is_of_object && stimulus.object != stimulus_.object))
+        renderer_->set_material(is_of_object ? on_average(material, *object.appearance, object.mesh)
+                                             : material);
     stimulus_ = stimulus;
     TextStyle style;
     style.line_height_px = std::max(12, image_px_.y / 36);

@@ -18,11 +18,9 @@ uniform float exposure;
 uniform float light_turn;        // of the probe about the vertical, in whole turns
 uniform int is_diffuse;
 uniform int is_coated;
-uniform int is_plastic;
-uniform float plastic_ior;
-uniform float metallic;          // of a plastic: share that is metal
-uniform float clear_coat;        // of a plastic: share under a clear coat of index 1.5
+uniform sampler2D shares;        // of metals and plastics, by the root of the cosine: mirrored, with the clear coat's in alpha; below, even
 uniform float coat_ior;
+uniform float glass_ior;         // 1: no light goes through
 uniform vec3 coat_absorbance;    // for one pass of the nominal thickness, at normal incidence
 uniform float bump_slope;        // greatest slope of the coat's bumps
 uniform float bump_scale;        // bumps per unit of length
@@ -61,6 +59,20 @@ vec3 incoming(sampler2D picture, vec3 direction, vec3 tint) {
     vec3 outward = normalize(world_openness.xyz + 0.4 * direction + 1e-4 * world_normal);
     vec3 folded = tint * mix(tint * tint, vec3(1.0), world_openness.w) * probe(soft, outward) * (0.15 + 0.85 * world_openness.w);
     return mix(folded, probe(picture, direction), open);
+}
+
+// Light that a matt surface gives back, of reflectance 1 in the open; in a fold its own light goes to and fro, as in a hollow that is
+// the same everywhere.
+vec3 evenly_lit(vec3 normal, vec3 tint) {
+    float open = world_openness.w;
+    vec3 outward = normalize(world_openness.xyz + 0.2 * normal);
+    return probe(soft, outward) * open / (vec3(1.0) - clamp(tint, 0.0, 0.98) * (1.0 - open));
+}
+
+vec4 share_of(int kind, float cosine) {
+    float place = sqrt(cosine) * float(textureSize(shares, 0).x - 1);
+    int row = min(int(place), textureSize(shares, 0).x - 2);
+    return mix(texelFetch(shares, ivec2(row, kind), 0), texelFetch(shares, ivec2(row + 1, kind), 0), place - float(row));
 }
 
 // Noise of Perlin's kind on a lattice, with its gradient; hashing after Jarzynski and Olano 2020 (pcg3d).
@@ -107,7 +119,7 @@ void main() {
     normal = normalize(normal + to_camera * max(0.0, 1e-3 - dot(normal, to_camera)));
     vec3 light;
     if (is_diffuse == 1) {
-        light = reflectance * incoming(mirrored, normal, reflectance) * mix(0.35, 1.0, world_openness.w);
+        light = reflectance * evenly_lit(normal, reflectance);
     } else if (is_coated == 1) {
         vec3 bumpy = bumpy_normal(normal);
         bumpy = normalize(bumpy + to_camera * max(0.0, 0.02 - dot(bumpy, to_camera)));
@@ -123,19 +135,21 @@ void main() {
         vec3 silver = metal_fresnel(reflectance, max(dot(-inside, normal), 0.0));
         light = shine * incoming(sharp, mirror, reflectance * through)
               + (1.0 - shine) * (1.0 - shine) * through * silver * incoming(mirrored, outward, reflectance * through);
-    } else if (is_plastic == 1) {
+    } else {
         float cosine = clamp(dot(normal, to_camera), 0.0, 1.0);
         vec3 mirror = reflect(-to_camera, normal);
-        float shine = dielectric_fresnel(cosine, plastic_ior);
-        vec3 body = (1.0 - metallic) * (1.0 - shine) * reflectance * incoming(soft, normal, reflectance) * mix(0.35, 1.0, world_openness.w);
-        vec3 shown = mix(vec3(shine), metal_fresnel(reflectance, cosine), metallic);
-        light = body + shown * incoming(mirrored, mirror, reflectance);
-        float coat = clear_coat * dielectric_fresnel(cosine, 1.5);
-        if (coat > 0.0)
-            light = (1.0 - coat) * light + coat * incoming(sharp, mirror, reflectance);
-    } else {
-        vec3 mirror = reflect(-to_camera, normal);
-        light = metal_fresnel(reflectance, clamp(dot(normal, to_camera), 0.0, 1.0)) * incoming(mirrored, mirror, reflectance);
+        vec4 shown = share_of(0, cosine);
+        vec3 even = share_of(1, cosine).rgb;
+        vec3 tint = shown.rgb + even;
+        if (glass_ior > 1.0) {
+            // As through a ball that has the same normal, in and out: what is behind, turned upside down.
+            vec3 inside = refract(-to_camera, normal, 1.0 / glass_ior);
+            vec3 far_normal = normal - 2.0 * dot(normal, inside) * inside;
+            vec3 out_of_it = refract(inside, -far_normal, glass_ior);
+            light = shown.rgb * probe(mirrored, mirror) + even * probe(mirrored, out_of_it == vec3(0.0) ? inside : out_of_it);
+        } else {
+            light = shown.rgb * incoming(mirrored, mirror, tint) + even * evenly_lit(normal, tint) + shown.a * incoming(sharp, mirror, tint);
+        }
     }
     linear_light = vec4(exposure * light, 1.0);
 }

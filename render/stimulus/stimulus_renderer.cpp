@@ -6,6 +6,7 @@
 #include "experiment/spectra/metal_table.h"
 #include "render/bake/layered_surface.h"
 #include "render/bake/light_sources.h"
+#include "render/bake/live_shares.h"
 #include "stimulus_shaders.h"
 
 namespace overt {
@@ -39,10 +40,13 @@ void StimulusRenderer::set_material(const MaterialSettings& material) {
                        ? material.given_reflectance()
                        : linear_rec709_of(normal_reflectance(load_metal(material.metal),
                                                              coated ? material.coat_ior : 1.0));
-    if (live_->shading == LiveApproximation::Shading::plastic && material.body == PlasticBody::pigment) {
-        const double inner = inner_reflectance(material.ior);
-        for (int channel = 0; channel < 3; ++channel)
-            reflectance_[channel] *= (1.0 - inner) / (1.0 - reflectance_[channel] * inner);
+    shares_.reset();
+    if (live_->shading == LiveApproximation::Shading::metal ||
+        live_->shading == LiveApproximation::Shading::plastic) {
+        LiveShares shares = live_shares(material);
+        shares.mirrored.insert(shares.mirrored.end(), shares.even.begin(), shares.even.end());
+        shares_.emplace(*context_, glm::ivec2(LiveShares::rows, 2), PixelFormat::rgba32f);
+        shares_->upload(std::as_bytes(std::span(shares.mirrored)));
     }
 }
 
@@ -70,12 +74,10 @@ LinearImage StimulusRenderer::draw(const MeshBuffers& mesh, const SceneView& sce
     program_.set("exposure", static_cast<float>(light_.exposure));
     program_.set("light_turn", static_cast<float>(pose.light.value / 360.0));
     program_.set("is_diffuse", live_->shading == Shading::matt ? 1 : 0);
-    program_.set("is_plastic", live_->shading == Shading::plastic ? 1 : 0);
-    program_.set("plastic_ior", static_cast<float>(material_.ior));
-    const bool is_mixed = material_.kind == MaterialKind::metallic_roughness;
-    program_.set("metallic", is_mixed ? static_cast<float>(material_.given_metallic()) : 0.0f);
-    program_.set("clear_coat", is_mixed ? static_cast<float>(material_.clear_coat) : 0.0f);
+    program_.set("shares", 3);
     program_.set("is_coated", live_->shading == Shading::coated_metal ? 1 : 0);
+    program_.set("glass_ior",
+                 material_.kind == MaterialKind::glass ? static_cast<float>(material_.ior) : 1.0f);
     program_.set("coat_ior", static_cast<float>(material_.coat_ior));
     program_.set("coat_absorbance",
                  glm::vec3(glm::dvec3(material_.coat_absorbance[0], material_.coat_absorbance[1],
@@ -87,6 +89,8 @@ LinearImage StimulusRenderer::draw(const MeshBuffers& mesh, const SceneView& sce
     mirrored_->bind(0);
     sharp_.bind(1);
     soft_.bind(2);
+    if (shares_)
+        shares_->bind(3);
     // The projection turns the picture upside down, and with it the fronts. What a closed surface has behind
     // is never seen.
     if (mesh.is_closed()) {

@@ -16,7 +16,7 @@
 namespace overt {
 
 /// Changes whenever the same inputs would give other pixels: part of the key under which frames are kept.
-constexpr int stimulus_renderer_version = 6;
+constexpr int stimulus_renderer_version = 7;
 
 /// One light, turned as each picture needs it.
 class StimulusRenderer {
@@ -42,6 +42,7 @@ class StimulusRenderer {
     Texture2D sharp_;
     Texture2D soft_;
     std::optional<Texture2D> mirrored_;
+    std::optional<Texture2D> shares_; ///< LiveShares: what is mirrored, and below it what is even
     MaterialSettings material_;
     const LiveApproximation* live_ = nullptr; ///< of the material
     glm::dvec3 reflectance_{0.0};             ///< of a metal at normal incidence, or albedo

@@ -78,8 +78,12 @@ nlohmann::ordered_json describe_columns(const std::vector<TableColumn>& columns,
 }
 
 void describe_table(nlohmann::ordered_json& dictionary, const Table& table, TableFormat format) {
-    dictionary[file_name_of(table, format)] = {{"Description", table.description},
-                                               {"Columns", describe_columns(table.all_columns(), format)}};
+    const std::vector<TableColumn> columns = table.all_columns();
+    nlohmann::ordered_json description = describe_columns(columns, format);
+    for (const TableColumn& column : columns)
+        if (!column.format.empty())
+            description[column.name]["Format"] = column.format;
+    dictionary[file_name_of(table, format)] = {{"Description", table.description}, {"Columns", description}};
 }
 
 std::string table_dictionary(const ExportTables& tables, TableFormat format) {

@@ -72,7 +72,8 @@ class ExportTables {
 /// Of each column Description, Units and Levels, as in BIDS side cars.
 nlohmann::ordered_json describe_columns(const std::vector<TableColumn>& columns, TableFormat format);
 
-/// Adds the table's file to a dictionary: its description, and its columns by describe_columns().
+/// Adds the table's file to a dictionary: its description, and its columns by describe_columns(), with the
+/// Format of each ("string", "integer", "number") where all its cells have one.
 void describe_table(nlohmann::ordered_json& dictionary, const Table& table, TableFormat format);
 
 /// The dictionary as JSON: each of the files.

@@ -38,8 +38,10 @@ template <class Row> class RowLayout {
         template <class Of> Column(TableColumn column, Of of) : what(std::move(column)) {
             if constexpr (std::is_invocable_v<Of, TableCells&, const Row&>)
                 cell = std::move(of);
-            else
+            else {
+                what.format = format_of<std::remove_cvref_t<std::invoke_result_t<Of&, const Row&>>>();
                 cell = [of = std::move(of)](TableCells& to, const Row& row) { to.put(std::invoke(of, row)); };
+            }
         }
     };
 

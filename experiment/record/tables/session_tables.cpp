@@ -77,6 +77,11 @@ RowLayout<RecordedStimulus> stimuli_layout(const SharedColumns& shared, const Se
         {{"mesh_file", "The object's mesh, relative to the session's directory"},
          of_object(header, &RecordedObject::mesh_file)},
         {{"mesh_sha256", "SHA-256 of the mesh"}, of_object(header, &RecordedObject::mesh_sha256)},
+        {{"surface_sha256", "SHA-256 of how the object's surface looks by its file, which materials of kind "
+                            "or base `own` show; empty where none does"},
+         of_object(header, &RecordedObject::surface_sha256)},
+        {{"surface_files", "What says it: the mesh's file, then its pictures, with `; ` between them"},
+         of_object(header, &RecordedObject::surface_files)},
         {{"mm_per_unit",
           "Millimetres of the object in a unit of surface_x, surface_y, surface_z and depth; "
           "where the unit of the mesh is not known, the object is taken to be as large as "

@@ -1,5 +1,6 @@
 #include "experiment/record/tables/shared_columns.h"
 
+#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
@@ -27,6 +28,10 @@ std::vector<StimulusColumn> stimulus_columns_of(const SessionHeader& header) {
                 column.what.levels.emplace_back(entry.id, plain_line_of(entry.title));
         for (const int level : factor.level_of_entry)
             column.of_entry.push_back(factor.levels[static_cast<std::size_t>(level)]);
+        const bool has_words = std::ranges::any_of(column.of_entry, [](const FactorLevel& level) {
+            return !level.number && level.name != no_level;
+        });
+        column.what.format = has_words ? "string" : "number";
         columns.push_back(std::move(column));
     }
     return columns;

@@ -68,8 +68,11 @@ std::vector<std::string> befores(const Table& table, TableFormat format) {
 
 std::vector<TableColumn> Table::all_columns() const {
     std::vector<TableColumn> all;
-    for (const LeadingColumn& column : leading)
+    for (const LeadingColumn& column : leading) {
         all.push_back(column.what);
+        const bool is_whole = column.value.find('.') == std::string::npos;
+        all.back().format = !column.is_number ? "string" : is_whole ? "integer" : "number";
+    }
     all.insert(all.end(), columns.begin(), columns.end());
     return all;
 }

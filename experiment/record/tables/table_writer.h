@@ -20,6 +20,8 @@ struct TableColumn {
     std::string meaning;
     std::string unit = {};                                        ///< empty: none
     std::vector<std::pair<std::string, std::string>> levels = {}; ///< value and what it means; empty: any
+    /// "string", "integer" or "number", as the dictionary's key Format has it; empty: a cell may be either.
+    std::string_view format = {};
 };
 
 /// A number with so many decimals; missing if there is none.
@@ -27,6 +29,19 @@ struct Fixed {
     std::optional<double> number;
     int decimals;
 };
+
+/// What a column's cells are if each is put() a value of this type (TableColumn::format).
+template <class Value> constexpr std::string_view format_of() {
+    if constexpr (requires(const Value& value) { value.has_value(); })
+        return format_of<std::remove_cvref_t<decltype(*std::declval<const Value&>())>>();
+    else if constexpr (std::is_integral_v<Value>)
+        return "integer";
+    else if constexpr (std::is_same_v<Value, Fixed> || std::is_same_v<Value, SessionTime> ||
+                       std::is_same_v<Value, SessionDuration>)
+        return "number";
+    else
+        return "string";
+}
 
 /// A column at the left that has one value in all rows.
 struct LeadingColumn {

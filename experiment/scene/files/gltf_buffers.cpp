@@ -9,6 +9,7 @@
 #include "experiment/base/safe_text.h"
 #include "experiment/base/whole_file.h"
 #include "experiment/scene/files/mesh_text.h"
+#include "experiment/scene/files/meshopt_view.h"
 
 namespace overt {
 namespace {
@@ -116,20 +117,39 @@ std::string_view GltfBuffers::buffer(const GltfValue& index) {
 
 GltfBuffers::View GltfBuffers::view(const GltfValue& index) {
     const GltfValue view = gltf_entry(root_, "bufferViews", index);
-    if (const std::optional<GltfValue> extensions = view.find("extensions"))
-        for (const std::string_view packed : {"EXT_meshopt_compression", "KHR_meshopt_compression"})
-            if (extensions->find(packed))
-                view.fail(fmt::format(
-                    "is packed by {}, which overt does not read; export without compression.", packed));
-    const std::string_view bytes = buffer(view.at("buffer"));
-    const std::size_t offset = view.whole_or("byteOffset", 0), length = view.at("byteLength").whole();
-    if (offset > bytes.size() || length > bytes.size() - offset)
-        view.fail(fmt::format("bytes {} to {} are outside its buffer, which has {}.", offset, offset + length,
-                              bytes.size()));
-    const std::size_t stride = view.whole_or("byteStride", 0);
+    std::size_t stride = view.whole_or("byteStride", 0);
     if (view.find("byteStride") && (stride < 4 || stride > 252))
         view.at("byteStride").fail("a stride is from 4 to 252 bytes.");
-    return {bytes.substr(offset, length), stride};
+    if (const std::optional<GltfValue> extensions = view.find("extensions"))
+        for (const std::string_view name : {"EXT_meshopt_compression", "KHR_meshopt_compression"})
+            if (const std::optional<GltfValue> packed = extensions->find(name)) {
+                if (packed->at("mode").text() == "ATTRIBUTES" && stride == 0)
+                    stride = packed->at("byteStride").whole();
+                return {unpacked(index.whole(), *packed), stride};
+            }
+    return {bytes_of(view), stride};
+}
+
+std::string_view GltfBuffers::bytes_of(const GltfValue& place) {
+    const std::string_view bytes = buffer(place.at("buffer"));
+    const std::size_t offset = place.whole_or("byteOffset", 0), length = place.at("byteLength").whole();
+    if (offset > bytes.size() || length > bytes.size() - offset)
+        place.fail(fmt::format("bytes {} to {} are outside its buffer, which has {}.", offset,
+                               offset + length, bytes.size()));
+    return bytes.substr(offset, length);
+}
+
+std::string_view GltfBuffers::unpacked(std::size_t view, const GltfValue& packed) {
+    if (const auto known = unpacked_.find(view); known != unpacked_.end())
+        return known->second;
+    // Many views may unpack the same bytes.
+    constexpr std::size_t always = std::size_t{64} << 20, for_each_byte = 64;
+    std::string bytes = unpacked_by_meshopt(packed, bytes_of(packed));
+    unpacked_bytes_ += bytes.size();
+    if (unpacked_bytes_ > always + for_each_byte * bytes_read())
+        packed.fail("the packed bytes of this file overlap: it is damaged.");
+    kept_.push_back(std::move(bytes));
+    return unpacked_[view] = kept_.back();
 }
 
 } // namespace overt

@@ -146,12 +146,13 @@ class MaterialReader {
             placed.down = edge_of(sampler, "wrapT");
             placed.is_nearest = sampler.whole_or("magFilter", 9729) == 9728;
         }
-        const std::optional<GltfValue> source = texture.find("source");
+        std::optional<GltfValue> source = texture.find("source");
+        if (const auto extensions = texture.find("extensions"); !source && extensions)
+            if (const auto webp = extensions->find("EXT_texture_webp"))
+                source = webp->at("source");
         if (!source) {
             if (has_extension(texture, "KHR_texture_basisu"))
                 texture.fail("its picture is KTX2 alone: convert it to PNG (gltf-transform or ktx do that).");
-            if (has_extension(texture, "EXT_texture_webp"))
-                texture.fail("its picture is WebP alone: export with PNG or JPEG.");
             texture.fail("it has no picture (\"source\").");
         }
         placed.picture = picture(*source);
@@ -175,12 +176,16 @@ class MaterialReader {
         if (!is_new)
             return known->second;
         std::string_view bytes;
-        if (const std::optional<GltfValue> uri = image.find("uri"))
+        std::string file = fmt::format("images[{}]", index.whole());
+        if (const std::optional<GltfValue> uri = image.find("uri")) {
             bytes = buffers_->resource(*uri);
-        else
+            if (!uri->text().starts_with("data:"))
+                file = printable_text(uri->text());
+        } else {
             bytes = buffers_->view(image.at("bufferView")).bytes;
+        }
         auto read = read_surface_picture(
-            bytes, fmt::format("{}: {}", image.source().path().string(), image.pointer()));
+            bytes, fmt::format("{}: {}", image.source().path().string(), image.pointer()), std::move(file));
         texels_ += read->texels.size();
         constexpr std::size_t most_texels = std::size_t{1} << 30;
         if (texels_ > most_texels)

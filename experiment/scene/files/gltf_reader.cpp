@@ -22,9 +22,10 @@ namespace overt {
 namespace {
 
 constexpr std::array extensions_read{
-    std::string_view("KHR_texture_transform"), std::string_view("KHR_mesh_quantization"),
-    std::string_view("KHR_lights_punctual"),   std::string_view("EXT_texture_webp"),
-    std::string_view("KHR_texture_basisu"),    std::string_view("KHR_xmp_json_ld")};
+    std::string_view("KHR_texture_transform"),   std::string_view("KHR_mesh_quantization"),
+    std::string_view("KHR_lights_punctual"),     std::string_view("EXT_texture_webp"),
+    std::string_view("KHR_texture_basisu"),      std::string_view("KHR_xmp_json_ld"),
+    std::string_view("EXT_meshopt_compression"), std::string_view("KHR_meshopt_compression")};
 
 /// Extensions that the file cannot be read without.
 void expect_known_extensions(const GltfValue& root) {
@@ -36,7 +37,7 @@ void expect_known_extensions(const GltfValue& root) {
         if (std::ranges::find(extensions_read, std::string_view(name)) != extensions_read.end() ||
             name.starts_with("KHR_materials_"))
             continue;
-        if (name == "KHR_draco_mesh_compression" || name.ends_with("_meshopt_compression"))
+        if (name == "KHR_draco_mesh_compression")
             item.fail(
                 fmt::format("the file is compressed by {}, which overt does not read; export it without "
                             "compression.",

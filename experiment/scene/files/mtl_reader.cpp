@@ -189,7 +189,7 @@ class MtlLibrary::Reader {
                             fmt::format("the picture {} {}.", MeshText::quoted(name), why));
         const std::string bytes = read_whole_file(folder / name, most_picture_file_bytes);
         library_.files_.push_back(printable_text(name));
-        library_.appearance_->pictures.push_back(read_surface_picture(bytes, (folder / name).string()));
+        library_.appearance_->pictures.push_back(read_surface_picture(bytes, (folder / name).string(), name));
         return known->second;
     }
 

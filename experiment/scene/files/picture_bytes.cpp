@@ -16,7 +16,7 @@ std::string_view format_of_picture(std::string_view bytes) {
     if (bytes.starts_with("\xabKTX"sv))
         return "KTX2";
     if (bytes.starts_with("RIFF"sv) && bytes.substr(0, 12).ends_with("WEBP"sv))
-        return "WebP";
+        return "webp";
     if (bytes.starts_with("II*\0"sv) || bytes.starts_with("MM\0*"sv))
         return "TIFF";
     if (bytes.starts_with("BM"sv))
@@ -26,21 +26,53 @@ std::string_view format_of_picture(std::string_view bytes) {
     return {};
 }
 
-std::shared_ptr<const SurfacePicture> read_surface_picture(std::string_view bytes, const std::string& name) {
-    const std::string_view format = format_of_picture(bytes);
-    if (format != "png" && format != "jpeg")
+namespace {
+
+/// Of an extended WebP ("VP8X"): its reader makes room for the whole canvas before anything else. Others have
+/// sides below 16384 px.
+void expect_small_canvas(std::string_view bytes, const std::string& name) {
+    constexpr std::size_t sides_at = 24;
+    if (bytes.substr(0, 16).substr(12) != "VP8X" || bytes.size() < sides_at + 6)
+        return;
+    const auto side_at = [&](std::size_t at) {
+        std::uint64_t side = 1;
+        for (std::size_t i = 0; i < 3; ++i)
+            side += std::uint64_t{static_cast<unsigned char>(bytes[at + i])} << (8 * i);
+        return side;
+    };
+    const std::uint64_t width = side_at(sides_at), height = side_at(sides_at + 3);
+    constexpr std::uint64_t most_side = most_picture_side_px, most_pixels = most_picture_bytes / 16;
+    if (width > most_side || height > most_side || width * height > most_pixels)
         throw InputError(
-            fmt::format("{}: this picture is {}; overt reads PNG and JPEG on surfaces: convert it to "
+            fmt::format("{}: this picture claims {} x {} px, more than is read.", name, width, height));
+}
+
+} // namespace
+
+std::shared_ptr<const SurfacePicture> read_surface_picture(std::string_view bytes, const std::string& name,
+                                                           std::string file_name) {
+    const std::string_view format = format_of_picture(bytes);
+    if (format != "png" && format != "jpeg" && format != "webp")
+        throw InputError(
+            fmt::format("{}: this picture is {}; overt reads PNG, JPEG and WebP on surfaces: convert it to "
                         "PNG.",
                         name, format.empty() ? "of no format that is known" : std::string(format)));
+    if (format == "webp")
+        expect_small_canvas(bytes, name);
     PictureFile file(bytes, std::string(format), name, "picture", StraightColours::as_they_stand);
     const PictureHeader& header = file.header();
     const int channels = header.channel_count();
     if (channels > 4)
         throw InputError(
             fmt::format("{}: this picture has {} channels; one to four are read.", name, channels));
+    if (format == "webp" && channels == 4)
+        throw InputError(
+            fmt::format("{}: this picture is WebP with alpha, by which its reader changes colours: "
+                        "convert it to PNG.",
+                        name));
     auto picture = std::make_shared<SurfacePicture>();
     picture->name = name;
+    picture->file = std::move(file_name);
     picture->size_px = header.size_px;
     const std::size_t pixels =
         static_cast<std::size_t>(header.size_px.x) * static_cast<std::size_t>(header.size_px.y);

@@ -121,7 +121,7 @@ void PlyLook::finish(RawMesh& mesh, const MeshSource& source, const PlyHeader& h
         material.colour_picture.picture = static_cast<int>(look.pictures.size());
         constexpr std::size_t most_bytes = std::size_t{1} << 30;
         look.pictures.push_back(
-            read_surface_picture(read_whole_file(folder / name, most_bytes), (folder / name).string()));
+            read_surface_picture(read_whole_file(folder / name, most_bytes), (folder / name).string(), name));
         files.push_back(printable_text(name));
     }
     if (!look.colours.empty() && look.materials.empty()) {

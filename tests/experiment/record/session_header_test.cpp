@@ -14,6 +14,8 @@ TEST_CASE("a session's header comes back from the disk in every field", "[unit]"
     const TemporaryFolder root;
     SessionHeader in = example_header();
     in.objects[0].origin = {565400.0, 5934200.25, -35.5};
+    in.objects[0].surface_sha256 = std::string(64, 'c');
+    in.objects[0].surface_files = "bust.glb; skin.png";
     const SessionRecord record(make_session(root.path(), in));
     const SessionHeader& out = record.header();
 
@@ -66,6 +68,8 @@ TEST_CASE("a session's header comes back from the disk in every field", "[unit]"
     CHECK(bust.id == given.id);
     CHECK(bust.title == given.title);
     CHECK(bust.mesh_sha256 == given.mesh_sha256);
+    CHECK(bust.surface_sha256 == given.surface_sha256);
+    CHECK(bust.surface_files == given.surface_files);
     CHECK(bust.mesh_file == given.mesh_file);
     CHECK(bust.part_names == given.part_names);
     CHECK(bust.camera(0).position == given.camera(0).position);

@@ -323,3 +323,59 @@ TEST_CASE("colours of PLY vertices and faces and of OBJ vertices are sRGB", "[un
         CHECK(look_at(look, 0, place).roughness == 1.0f);
     }
 }
+
+namespace {
+
+/// A picture of one normal all over, its codes; and what it says with x and y times `scale`.
+constexpr glm::u8vec3 leaning_codes{218, 64, 230};
+glm::vec3 leaning_normal(float scale) {
+    const glm::vec3 n = glm::vec3(leaning_codes) / 127.5f - 1.0f;
+    return glm::normalize(glm::vec3(scale * n.x, scale * n.y, n.z));
+}
+
+} // namespace
+
+TEST_CASE("normals are read of the pictures that glTF and .mtl files name", "[unit]") {
+    const test::TemporaryFolder folder;
+    folder.file("bumps.png", test::png_of({1, 1}, {leaning_codes}));
+    MeshCleaningReport report;
+    // glTF: the picture's scale, its own set of places, and no bumps where there is no picture.
+    test::GlbMaker maker;
+    const Mesh cube = test::cube();
+    nlohmann::json primitive = maker.primitive(cube);
+    const std::vector<glm::vec2> places(cube.positions.size(), glm::vec2(0.5f));
+    primitive["attributes"]["TEXCOORD_0"] = maker.floats<2>(places);
+    primitive["attributes"]["TEXCOORD_1"] = maker.floats<2>(places);
+    primitive["material"] = maker.painted_material(test::png_of({1, 1}, {{1, 2, 3}}));
+    const int image = maker.add("images", {{"uri", "bumps.png"}});
+    nlohmann::json& material = maker.json["materials"][0];
+    material["normalTexture"] = {
+        {"index", maker.add("textures", {{"source", image}})}, {"scale", 0.5}, {"texCoord", 1}};
+    maker.show({primitive});
+    SurfaceAppearance look;
+    Mesh mesh = import_mesh(folder.file("bumps.gltf", maker.gltf()), {}, report, &look);
+    REQUIRE(has_bumps(look));
+    CHECK(look.materials[0].normal_scale == 0.5f);
+    CHECK(look.materials[0].normal_picture.uv_set == 1);
+    CHECK(look.pictures.at(static_cast<std::size_t>(look.materials[0].normal_picture.picture))->file ==
+          "bumps.png");
+    for (std::uint32_t triangle = 0; triangle < mesh.triangles.size(); ++triangle)
+        CHECK(glm::length(bump_at(look, triangle, {0.3f, 0.2f}) - leaning_normal(0.5f)) < 1e-5f);
+    material.erase("normalTexture");
+    look = {};
+    mesh = import_mesh(folder.file("flat.gltf", maker.gltf()), {}, report, &look);
+    CHECK_FALSE(has_bumps(look));
+    CHECK(bump_at(look, 0, {0.3f, 0.2f}) == glm::vec3(0, 0, 1));
+
+    // OBJ: `norm`.
+    folder.file("m.mtl", "newmtl leaning\nKd 1 1 1\nnorm bumps.png\n");
+    const std::filesystem::path obj =
+        folder.file("m.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
+                             "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
+                             "usemtl leaning\nf 1/1 2/2 3/3 4/4\n");
+    look = {};
+    mesh = import_mesh(obj, {}, report, &look);
+    REQUIRE(has_bumps(look));
+    for (std::uint32_t triangle = 0; triangle < mesh.triangles.size(); ++triangle)
+        CHECK(glm::length(bump_at(look, triangle, {0.3f, 0.2f}) - leaning_normal(1.0f)) < 1e-5f);
+}

@@ -58,6 +58,8 @@ TEST_CASE("glTF stands upright in millimetres by itself, and is read for its loo
     CHECK(look_at(*own.appearance, 3, {0.2f, 0.2f}).colour.x == Approx(linear_of_srgb(200)));
     const Object matt = loaded_looks(folder.path(), "box.glb", "kind = \"diffuse\"").at(0);
     CHECK_FALSE(matt.appearance);
+    CHECK(own.appearance_files == "box.glb; images[0]");
+    CHECK(matt.appearance_files.empty());
     CHECK(matt.mesh_hash == own.mesh_hash);
     CHECK(
         loaded_looks(folder.path(), "box.glb", "kind = \"plastic\"\nbase = \"own\"").at(0).appearance_hash ==

@@ -38,21 +38,97 @@ TEST_CASE("polished glass mirrors by Fresnel and bends by Snell, in and out", "[
     SampleSequence sequence(1, {0, 0}, 0);
     for (const auto& [cosine, reflected] :
          {std::pair{1.0, 0.04}, {0.8, 0.043895}, {0.5, 0.089187}, {0.2, 0.338894}, {0.05, 0.752131}}) {
-        const GlassMeeting met = glass.meet(at_cosine(cosine), straight_up, straight_up, true, -1, sequence);
-        CHECK(met.mirrored.value[7] == Approx(reflected).margin(2e-6));
-        CHECK(met.passed.value[7] == Approx(1.0 - reflected).margin(2e-6));
+        const GlassWay back =
+            glass.meet(at_cosine(cosine), straight_up, straight_up, true, -1, GlassTurn::mirrored, sequence);
+        const GlassWay through = glass.meet(at_cosine(cosine), straight_up, straight_up, true, -1,
+                                            GlassTurn::let_through, sequence);
+        CHECK_FALSE(back.goes_through);
+        CHECK(through.goes_through);
+        CHECK(back.carried.value[7] == Approx(reflected).margin(2e-6));
+        CHECK(through.carried.value[7] == Approx(1.0 - reflected).margin(2e-6));
         const double sine = std::sqrt(1.0 - cosine * cosine);
-        CHECK(met.through.x == Approx(-sine / 1.5).margin(1e-6));
-        CHECK(met.through.z < 0.0f);
-        CHECK(met.back.x == Approx(-sine).margin(1e-6));
+        CHECK(through.direction.x == Approx(-sine / 1.5).margin(1e-6));
+        CHECK(through.direction.z < 0.0f);
+        CHECK(back.direction.x == Approx(-sine).margin(1e-6));
         // Back the same way.
-        const GlassMeeting out = glass.meet(met.through, -straight_up, -straight_up, false, -1, sequence);
-        CHECK(out.goes_through);
-        CHECK(out.mirrored.value[7] == Approx(reflected).margin(1e-5));
+        const GlassWay out = glass.meet(through.direction, -straight_up, -straight_up, false, -1,
+                                        GlassTurn::mirrored, sequence);
+        CHECK(out.carried.value[7] == Approx(reflected).margin(1e-5));
+        // By chance as often as it has light.
+        constexpr std::uint32_t paths = 4096;
+        double mirrored = 0.0;
+        for (std::uint32_t path = 0; path < paths; ++path) {
+            SampleSequence numbers(2, {1, 0}, path);
+            const GlassWay way = glass.meet(at_cosine(cosine), straight_up, straight_up, true, -1,
+                                            GlassTurn::by_chance, numbers);
+            CHECK(way.carried.value[7] == 1.0f);
+            mirrored += way.goes_through ? 0.0 : 1.0 / paths;
+        }
+        CHECK(mirrored == Approx(reflected).margin(2e-3));
     }
-    CHECK(glass.meet(at_cosine(0.8), straight_up, straight_up, false, -1, sequence).mirrored.value[3] ==
-          Approx(0.114141).margin(2e-6));
-    CHECK_FALSE(glass.meet(at_cosine(0.5), straight_up, straight_up, false, -1, sequence).goes_through);
+    const auto from_within = [&](double cosine, GlassTurn turn) {
+        return glass.meet(at_cosine(cosine), straight_up, straight_up, false, -1, turn, sequence);
+    };
+    CHECK(from_within(0.8, GlassTurn::mirrored).carried.value[3] == Approx(0.114141).margin(2e-6));
+    CHECK(from_within(0.5, GlassTurn::mirrored).carried.value[3] == 1.0f);
+    CHECK(from_within(0.5, GlassTurn::let_through).carried.largest() == 0.0f);
+    CHECK_FALSE(from_within(0.5, GlassTurn::by_chance).goes_through);
+}
+
+TEST_CASE("rough glass with an Abbe number keeps all light, each colour its own share", "[unit]") {
+    MaterialSettings flint = glass_of(1.7);
+    flint.abbe = 25.0;
+    flint.roughness = 0.5;
+    const Glass glass(flint);
+    constexpr std::uint32_t paths = 31 * 1024;
+    // Mirrored and let through, of each band; by both turns at first, and by chance alone.
+    const auto shares_of = [&](const Glass& of, std::initializer_list<GlassTurn> turns, std::size_t bin) {
+        glm::dvec2 shares(0.0);
+        for (std::uint32_t path = 0; path < paths; ++path)
+            for (const GlassTurn turn : turns) {
+                SampleSequence numbers(5, {3, 1}, path);
+                const GlassWay way =
+                    of.meet(at_cosine(0.4), straight_up, straight_up, true, -1, turn, numbers);
+                CHECK((way.band >= 0 || !way.goes_through));
+                shares[way.goes_through ? 1 : 0] += static_cast<double>(way.carried.value[bin]) / paths;
+            }
+        return shares;
+    };
+    for (const std::size_t bin : {std::size_t{0}, std::size_t{30}}) {
+        MaterialSettings alone = glass_of(static_cast<double>(glass.index(static_cast<int>(bin))));
+        alone.roughness = 0.5;
+        const Glass of_one(alone);
+        glm::dvec2 known(0.0);
+        for (std::uint32_t path = 0; path < paths; ++path) {
+            SampleSequence numbers(6, {3, 2}, path);
+            known[of_one.meet(at_cosine(0.4), straight_up, straight_up, true, -1, GlassTurn::by_chance,
+                              numbers)
+                          .goes_through
+                      ? 1
+                      : 0] += 1.0 / paths;
+        }
+        const glm::dvec2 both = shares_of(glass, {GlassTurn::mirrored, GlassTurn::let_through}, bin),
+                         by_chance = shares_of(glass, {GlassTurn::by_chance}, bin);
+        CHECK(both.x == Approx(known.x).margin(0.005));
+        CHECK(both.y == Approx(known.y).margin(0.06)); // one path in 31 has this colour
+        CHECK(by_chance.x == Approx(known.x).margin(0.01));
+        CHECK(by_chance.y == Approx(known.y).margin(0.1));
+    }
+}
+
+TEST_CASE("a ball of rough glass in even light is not to be seen", "[unit]") {
+    MaterialSettings frosted = glass_of(1.5);
+    frosted.roughness = 0.6;
+    const Mesh ball = test::ball({0.0, 0.0, 0.0}, 1.0, 96, 192);
+    const LinearImage lit =
+        to_rec709(test::baked(BakeScene(ball, frosted), SpectralLight(test::even_light(), 1.0),
+                              test::front_view(ball, 12), {.samples = 64}));
+    double light = 0.0, covered = 0.0;
+    for (const glm::vec4& pixel : lit.pixels) {
+        light += static_cast<double>(pixel.g);
+        covered += static_cast<double>(pixel.a);
+    }
+    CHECK(light / covered == Approx(1.0).margin(0.01));
 }
 
 TEST_CASE("a ball of glass shows what Snell says lies behind it, upside down", "[unit]") {

@@ -213,6 +213,17 @@ template <class Change> std::string said_of(const Change& change) {
     });
 }
 
+/// Its first view as the extension would have it packed: by a claim, of the bytes that are there.
+void claim_packed(GlbMaker& maker, std::string_view mode, std::size_t count, std::size_t stride) {
+    nlohmann::json& view = maker.json["bufferViews"][0];
+    view["extensions"]["EXT_meshopt_compression"] = {{"buffer", 0},
+                                                     {"byteOffset", view["byteOffset"]},
+                                                     {"byteLength", view["byteLength"]},
+                                                     {"mode", mode},
+                                                     {"count", count},
+                                                     {"byteStride", stride}};
+}
+
 } // namespace
 
 TEST_CASE("a glTF file that lies about its bytes is refused at the place in its JSON", "[unit]") {
@@ -338,11 +349,53 @@ TEST_CASE("a glTF file that lies about its bytes is refused at the place in its 
          "'ACME_shape'"},
         {"Draco", [](GlbMaker& m) { m.json["extensionsRequired"] = {"KHR_draco_mesh_compression"}; },
          "without compression"},
-        {"meshopt",
+        {"packed bytes of no mode",
          [](GlbMaker& m) {
              m.json["bufferViews"][0]["extensions"] = {{"EXT_meshopt_compression", Json::object()}};
          },
-         "without compression"},
+         "/bufferViews/0/extensions/EXT_meshopt_compression: \"mode\" is missing"},
+        {"packed bytes that claim a gigabyte",
+         [](GlbMaker& m) { claim_packed(m, "ATTRIBUTES", 1u << 26, 16); },
+         "/bufferViews/0/extensions/EXT_meshopt_compression/count: claims 67108864 elements of 16 bytes"},
+        {"packed bytes that claim what wraps",
+         [](GlbMaker& m) { claim_packed(m, "ATTRIBUTES", std::size_t{1} << 52, 256); }, "cannot be"},
+        {"packed bytes of a stride of nothing", [](GlbMaker& m) { claim_packed(m, "ATTRIBUTES", 8, 0); },
+         "/byteStride: a whole number of fours"},
+        {"packed triangles of a stride that is none",
+         [](GlbMaker& m) { claim_packed(m, "TRIANGLES", 9, 12); }, "/byteStride: 2 or 4"},
+        {"packed triangles that are no triangles", [](GlbMaker& m) { claim_packed(m, "TRIANGLES", 10, 4); },
+         "/count: whole triangles"},
+        {"packed bytes that are none", [](GlbMaker& m) { claim_packed(m, "ATTRIBUTES", 8, 12); },
+         "/bufferViews/0/extensions/EXT_meshopt_compression: its packed bytes are damaged"},
+        {"packed bytes outside the buffer",
+         [](GlbMaker& m) {
+             claim_packed(m, "ATTRIBUTES", 8, 12);
+             m.json["bufferViews"][0]["extensions"]["EXT_meshopt_compression"]["byteOffset"] = 1e15;
+         },
+         "outside its buffer"},
+        {"a picture that claims 60000 x 60000 px",
+         [](GlbMaker& m) {
+             std::string png = test::png_of({1, 1}, {{1, 2, 3}});
+             // IHDR: length, name, width, height … and the check sum of name and content.
+             const std::string claimed("\0\0\xea\x60\0\0\xea\x60", 8);
+             png.replace(16, 8, claimed);
+             std::uint32_t sum = 0xffffffffu;
+             for (std::size_t i = 12; i < 29; ++i) {
+                 sum ^= static_cast<unsigned char>(png[i]);
+                 for (int bit = 0; bit < 8; ++bit)
+                     sum = (sum >> 1) ^ (0xedb88320u & (0u - (sum & 1u)));
+             }
+             for (std::size_t i = 0; i < 4; ++i)
+                 png[29 + i] = static_cast<char>(~sum >> (24 - 8 * i));
+             m.painted_material(png);
+         },
+         "/images/0: "},
+        {"a WebP that claims 16 million px aside",
+         [](GlbMaker& m) {
+             std::string webp("RIFF\x16\0\0\0WEBPVP8X\x0a\0\0\0\0\0\0\0", 24);
+             m.painted_material(webp + std::string(6, '\xff'));
+         },
+         "/images/0: this picture claims 16777216 x 16777216 px"},
         {"a glTF of old", [](GlbMaker& m) { m.json["asset"]["version"] = "1.0"; }, "/asset/version"},
         {"a list that is a text", [](GlbMaker& m) { m.json["nodes"] = "all"; }, "/nodes: a list"},
         {"a material of old",
