@@ -1,6 +1,6 @@
 """Draws the figure that answers the question of a study, from the tables that `overt analyze` wrote:
 
-    import sys; sys.path += ["readers", "docs/gallery"]
+    import sys; sys.path.append("readers")
     from main_figure import main_figure
     main_figure("analysis", "figure.pdf")  # or .svg, .png
 

@@ -1,6 +1,6 @@
 # Draws the figure that answers the question of a study, from the tables that `overt analyze` wrote:
 #
-#   source("readers/overt.R"); source("docs/gallery/main_figure.R")
+#   source("readers/overt.R"); source("readers/main_figure.R")
 #   main_figure("analysis", "figure.pdf")      # or .svg, .png
 #
 # Which figure it is goes by what the study measured: a scale, matches, reliefs, ratings, answer times by set size, a
@@ -11,7 +11,7 @@ of_all <- function(rows) rows[rows$observer %in% "all", , drop = FALSE]
 # Values with intervals in rows, the names at the left.
 figure_of_rows <- function(names, value, low, high, label, planted = NULL) {
   at <- rev(seq_along(value))
-  par(mar = c(4, max(4, 0.55 * max(nchar(names))), 1, 1))
+  par(mar = c(3, max(3, 0.5 * max(nchar(names))), 0.5, 0.5))
   plot(value, at, xlim = range(value, low, high, planted, 0, na.rm = TRUE), ylim = c(0.5, length(at) + 0.5), yaxt = "n", ylab = "", xlab = label, pch = 19, bty = "l")
   segments(low, at, high, at)
   if (!is.null(planted)) points(planted, at, pch = 4, col = "#d55e00")
@@ -20,7 +20,7 @@ figure_of_rows <- function(names, value, low, high, label, planted = NULL) {
 
 # Values over numbers, with intervals and a line.
 figure_of_curve <- function(x, y, low, high, x_label, y_label, identity = FALSE) {
-  par(mar = c(4, 4, 1, 1))
+  par(mar = c(3, 3.2, 0.5, 0.5))
   plot(x, y, ylim = range(y, low, high, na.rm = TRUE), xlab = x_label, ylab = y_label, pch = 19, bty = "l", type = "b")
   segments(x, low, x, high)
   if (identity) abline(0, 1, lty = 2)
@@ -68,7 +68,7 @@ figures <- list(
     rows <- rows[!is.na(rows$response_s) & rows$is_correct %in% 1, ]
     medians <- aggregate(response_s ~ set_size + target, rows, median)
     medians$set_size <- as.numeric(medians$set_size)
-    par(mar = c(4, 4, 1, 1))
+    par(mar = c(3, 3.2, 0.5, 0.5))
     plot(medians$set_size, medians$response_s, type = "n", xlab = "set size", ylab = "median time of correct answers / s", bty = "l")
     kinds <- unique(medians$target)
     for (i in seq_along(kinds)) {
@@ -113,7 +113,7 @@ main_figure <- function(folder, file = NULL, width_mm = 85, height_mm = 65) {
     open(file, width = width_mm / 25.4, height = height_mm / 25.4)
     on.exit(grDevices::dev.off())
   }
-  par(ps = 8, cex = 1)
+  par(ps = 8, cex = 1, mgp = c(1.8, 0.5, 0), tcl = -0.3)
   for (name in names(figures)) {
     if (!file.exists(file.path(folder, paste0(name, ".csv")))) next
     if (!identical(figures[[name]](study$table(name), study), FALSE)) return(name)
