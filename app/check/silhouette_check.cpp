@@ -158,6 +158,8 @@ std::vector<SequenceSilhouette> check_silhouettes(const Experiment& experiment, 
     const int count = static_cast<int>(protocol.frames.size());
     for (int i = 0; i < count; ++i) {
         const FrameSequenceSettings& sequence = protocol.frames[static_cast<std::size_t>(i)];
+        if (sequence.picture_of >= 0)
+            continue; // a picture fills its map
         const Stimulus stimulus = stimulus_of(protocol, sequence);
         const bool has_mesh = experiment.objects[static_cast<std::size_t>(stimulus.object)].has_mesh();
         if (!has_mesh && !library.cache().has_given_maps(stimulus.object))
