@@ -20,14 +20,22 @@ struct CircumstanceColumn {
     std::string_view table, column;
 };
 inline constexpr CircumstanceColumn circumstance_columns[] = {
-    {"session", "started_utc"},     {"session", "program_version"},
-    {"session", "compiler"},        {"session", "compiler_flags"},
-    {"session", "commit_id"},       {"session", "gl_context"},
-    {"session", "gl_vendor"},       {"session", "gl_renderer"},
-    {"session", "gl_version"},      {"sitting", "started_utc"},
-    {"sitting", "program_version"}, {"sitting", "program_sha256"},
-    {"consent", "at_utc"},          {"map", "sha256"}, // of the file; its pixels are compared
+    {"session", "started_utc"},
+    {"session", "program_version"},
+    {"session", "compiler"},
+    {"session", "compiler_flags"},
+    {"session", "commit_id"},
+    {"session", "gl_context"},
+    {"session", "gl_vendor"},
+    {"session", "gl_renderer"},
+    {"session", "gl_version"},
+    {"sitting", "started_utc"},
+    {"sitting", "program_version"},
+    {"sitting", "program_sha256"},
+    {"consent", "at_utc"},
+    {"map", "sha256"}, // of the file; its pixels are compared
     {"stimulus", "drawn_by"},
+    {"stimulus", "source"}, // a path as it was written; the frames are compared
 };
 inline bool is_circumstance(std::string_view table, std::string_view column) {
     return std::any_of(std::begin(circumstance_columns), std::end(circumstance_columns),
