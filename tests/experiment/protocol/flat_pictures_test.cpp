@@ -44,7 +44,7 @@ TEST_CASE("a picture is as large as on the screen, with its areas, and fills the
     REQUIRE(read.protocol);
     const Protocol& protocol = *read.protocol;
     const ObjectSettings& settings = protocol.objects[0];
-    CHECK(settings.id == "film_##");
+    CHECK(settings.id == "film___");
     CHECK(settings.picture_mm == glm::dvec2(100.0, 50.0));
     // Millimetres upwards from the lower left corner.
     REQUIRE(settings.areas[0].boxes.size() == 1);
