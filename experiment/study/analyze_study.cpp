@@ -209,7 +209,7 @@ void reckon_ways(ReadStudy& study, const ObjectFixationMaps& maps, const StudyOp
     const std::vector<TrialScanpath> scanpaths = trial_scanpaths(results, distances, maps);
     results.scanpaths = scanpath_rows(results, scanpaths, study.levels, options);
     results.scanpath_likeness = scanpath_likeness(results, distances, study.levels, options);
-    std::vector<TrialMeasure> measures = looking_measures(results);
+    std::vector<MeasureOfTrials> measures = looking_measures(results);
     std::ranges::move(scanpath_measures(scanpaths), std::back_inserter(measures));
     results.measure_differences = measure_differences(results, measures, study.levels, options);
 }

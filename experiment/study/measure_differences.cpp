@@ -25,7 +25,8 @@ const StudyTrial& trial_at(const StudyResults& results, int trial) {
     return results.trials[static_cast<std::size_t>(trial)];
 }
 
-void add_area_measures(std::vector<TrialMeasure>& to, const StudyResults& results, const std::string& area) {
+void add_area_measures(std::vector<MeasureOfTrials>& to, const StudyResults& results,
+                       const std::string& area) {
     const auto add = [&](const char* name, const char* unit, auto of_look) {
         to.push_back({name, area, unit, [&results, area, of_look](int trial) {
                           const StudyTrial& of = trial_at(results, trial);
@@ -46,7 +47,7 @@ void add_area_measures(std::vector<TrialMeasure>& to, const StudyResults& result
     });
 }
 
-void add_transitions(std::vector<TrialMeasure>& to, const StudyResults& results) {
+void add_transitions(std::vector<MeasureOfTrials>& to, const StudyResults& results) {
     for (const std::string& from : results.compared_areas) {
         for (const std::string& next : results.compared_areas) {
             to.push_back(
@@ -69,7 +70,7 @@ std::function<MeasureSums(int)> over_fixations(const StudyResults& results, OfFi
     };
 }
 
-void add_gains(std::vector<TrialMeasure>& to, const StudyResults& results) {
+void add_gains(std::vector<MeasureOfTrials>& to, const StudyResults& results) {
     to.push_back({"surface_gain", "", "", over_fixations(results, [](const StudyFixation& fixation) {
                       return sees_surface_move(fixation)
                                  ? MeasureSums{fixation.duration_s * fixation.gaze_with_surface_deg2,
@@ -88,7 +89,7 @@ void add_gains(std::vector<TrialMeasure>& to, const StudyResults& results) {
                   })});
 }
 
-void add_light(std::vector<TrialMeasure>& to, const StudyResults& results) {
+void add_light(std::vector<MeasureOfTrials>& to, const StudyResults& results) {
     const auto add = [&](const char* name, auto of_light) {
         to.push_back({name, "", "", over_fixations(results, [of_light](const StudyFixation& fixation) {
                           return fixation.light ? MeasureSums{fixation.duration_s * of_light(*fixation.light),
@@ -127,7 +128,7 @@ MeasureCells cells_of_measures(const StudyResults& results, const StudyOptions& 
     return cells;
 }
 
-MeasureDifferenceRow difference_row(const TrialMeasure& measure, const MeasureCells& cells,
+MeasureDifferenceRow difference_row(const MeasureOfTrials& measure, const MeasureCells& cells,
                                     const std::string& a, const std::string& b, const StudyOptions& options) {
     MeasureDifferenceRow row;
     row.measure = measure.name;
@@ -182,8 +183,8 @@ void correct_measures(std::vector<MeasureDifferenceRow>& rows) {
 
 } // namespace
 
-std::vector<TrialMeasure> looking_measures(const StudyResults& results) {
-    std::vector<TrialMeasure> measures;
+std::vector<MeasureOfTrials> looking_measures(const StudyResults& results) {
+    std::vector<MeasureOfTrials> measures;
     for (const std::string& area : results.compared_areas)
         add_area_measures(measures, results, area);
     add_transitions(measures, results);
@@ -193,12 +194,12 @@ std::vector<TrialMeasure> looking_measures(const StudyResults& results) {
 }
 
 std::vector<MeasureDifferenceRow> measure_differences(const StudyResults& results,
-                                                      const std::vector<TrialMeasure>& measures,
+                                                      const std::vector<MeasureOfTrials>& measures,
                                                       const LevelLists& levels, const StudyOptions& options) {
     const std::vector<std::string> compared = levels_of(results, options.compare, levels);
     const MeasureCells cells = cells_of_measures(results, options);
     std::vector<MeasureDifferenceRow> rows;
-    for (const TrialMeasure& measure : measures) {
+    for (const MeasureOfTrials& measure : measures) {
         for (std::size_t a = 0; a < compared.size(); ++a) {
             for (std::size_t b = a + 1; b < compared.size(); ++b) {
                 MeasureDifferenceRow row = difference_row(measure, cells, compared[a], compared[b], options);

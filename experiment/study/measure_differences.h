@@ -25,7 +25,7 @@ struct MeasureSums {
 };
 
 /// A number that each trial has, or some have.
-struct TrialMeasure {
+struct MeasureOfTrials {
     std::string name; ///< as the table of levels calls it, "dwell_s"
     std::string of;   ///< as MeasureDifferenceRow has it
     std::string unit;
@@ -35,7 +35,7 @@ struct TrialMeasure {
 /// Dwell, visits, first arrival of each area (area_looks.h), transitions between areas
 /// (surface_transitions.h), gain of gaze (gaze_motion.h) and light at gaze (light_at_gaze.h), of which there
 /// are any. `results` must outlive them.
-std::vector<TrialMeasure> looking_measures(const StudyResults& results);
+std::vector<MeasureOfTrials> looking_measures(const StudyResults& results);
 
 /// Of each measure one row for each two levels of the compared column. An observer's trials on one object
 /// that are alike in all other columns of `--by` are one measure in each level; the differences are averaged
@@ -43,7 +43,7 @@ std::vector<TrialMeasure> looking_measures(const StudyResults& results);
 /// observers' differences, corrected after Holm over the rows of the measure. Measures that no observer has
 /// in two levels are left out.
 std::vector<MeasureDifferenceRow> measure_differences(const StudyResults& results,
-                                                      const std::vector<TrialMeasure>& measures,
+                                                      const std::vector<MeasureOfTrials>& measures,
                                                       const LevelLists& levels, const StudyOptions& options);
 
 } // namespace overt

@@ -104,8 +104,8 @@ TrialScanpath scanpath_of(const StudyResults& results, int trial, const SurfaceD
     return found;
 }
 
-ScanpathRow row_of(const StudyResults& results, const std::vector<TrialScanpath>& scanpaths,
-                   const StudyGroup& group, const StudyOptions& options) {
+ScanpathRow scanpath_row(const StudyResults& results, const std::vector<TrialScanpath>& scanpaths,
+                         const StudyGroup& group, const StudyOptions& options) {
     ScanpathRow row;
     row.keys = group.keys;
     std::vector<double> counts;
@@ -177,12 +177,12 @@ std::vector<ScanpathRow> scanpath_rows(const StudyResults& results,
     std::ranges::move(all_and_levels(results, results.by, levels), std::back_inserter(groups));
     std::vector<ScanpathRow> rows;
     for (const StudyGroup& group : groups)
-        rows.push_back(row_of(results, scanpaths, group, options));
+        rows.push_back(scanpath_row(results, scanpaths, group, options));
     return rows;
 }
 
-std::vector<TrialMeasure> scanpath_measures(const std::vector<TrialScanpath>& scanpaths) {
-    std::vector<TrialMeasure> measures;
+std::vector<MeasureOfTrials> scanpath_measures(const std::vector<TrialScanpath>& scanpaths) {
+    std::vector<MeasureOfTrials> measures;
     measures.push_back({"fixations", "", "", [&scanpaths](int trial) {
                             return MeasureSums{
                                 static_cast<double>(scanpaths[static_cast<std::size_t>(trial)].fixations),

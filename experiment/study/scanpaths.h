@@ -35,6 +35,6 @@ std::vector<ScanpathRow> scanpath_rows(const StudyResults& results,
                                        const StudyOptions& options);
 
 /// The same numbers to be compared between levels. `scanpaths` must outlive them.
-std::vector<TrialMeasure> scanpath_measures(const std::vector<TrialScanpath>& scanpaths);
+std::vector<MeasureOfTrials> scanpath_measures(const std::vector<TrialScanpath>& scanpaths);
 
 } // namespace overt

@@ -11,7 +11,7 @@ using namespace overt;
 namespace {
 
 /// Fixations on a line.
-FixationDistance along(const std::vector<double>& a, const std::vector<double>& b) {
+FixationDistance on_line(const std::vector<double>& a, const std::vector<double>& b) {
     return [&a, &b](std::size_t i, std::size_t j) { return std::abs(a[i] - b[j]); };
 }
 
@@ -55,21 +55,21 @@ TEST_CASE("ScanMatch is 1 for the same places as long, and counts order and dura
     const std::vector<double> a{0.0, 10.0, 20.0}, reversed{20.0, 10.0, 0.0}, far{1000.0, 1000.0, 1000.0};
     const std::vector<double> even{0.2, 0.2, 0.2}, longer{0.2, 0.2, 0.6};
     const double threshold = 5.0, bin_s = 0.1;
-    CHECK(*scan_match(even, even, along(a, a), threshold, bin_s) == Approx(1.0));
+    CHECK(*scan_match(even, even, on_line(a, a), threshold, bin_s) == Approx(1.0));
     // Places the other way round: only one of three can be aligned, two bins of six.
-    CHECK(*scan_match(even, even, along(a, reversed), threshold, bin_s) == Approx(1.0 / 3.0));
+    CHECK(*scan_match(even, even, on_line(a, reversed), threshold, bin_s) == Approx(1.0 / 3.0));
     // Far places are left to gaps, which cost nothing.
-    CHECK(*scan_match(even, even, along(a, far), threshold, bin_s) == Approx(0.0));
+    CHECK(*scan_match(even, even, on_line(a, far), threshold, bin_s) == Approx(0.0));
     // One lasts three times as long: six bins of ten are aligned.
-    CHECK(*scan_match(even, longer, along(a, a), threshold, bin_s) == Approx(0.6));
+    CHECK(*scan_match(even, longer, on_line(a, a), threshold, bin_s) == Approx(0.6));
     // A fifth of the threshold away throughout.
     const std::vector<double> beside{1.0, 11.0, 21.0};
-    CHECK(*scan_match(even, even, along(a, beside), threshold, bin_s) == Approx(0.8));
-    CHECK(*scan_match(even, longer, along(a, beside), threshold, bin_s) ==
-          Approx(*scan_match(longer, even, along(beside, a), threshold, bin_s)));
+    CHECK(*scan_match(even, even, on_line(a, beside), threshold, bin_s) == Approx(0.8));
+    CHECK(*scan_match(even, longer, on_line(a, beside), threshold, bin_s) ==
+          Approx(*scan_match(longer, even, on_line(beside, a), threshold, bin_s)));
     // The shortest fixation counts once.
-    CHECK(*scan_match(std::vector{0.001}, std::vector{0.1}, along(a, a), threshold, bin_s) == Approx(1.0));
-    CHECK_FALSE(scan_match({}, even, along(a, a), threshold, bin_s));
+    CHECK(*scan_match(std::vector{0.001}, std::vector{0.1}, on_line(a, a), threshold, bin_s) == Approx(1.0));
+    CHECK_FALSE(scan_match({}, even, on_line(a, a), threshold, bin_s));
 }
 
 TEST_CASE("MultiMatch tells shape, length, direction, position and duration apart", "[unit]") {
@@ -77,29 +77,29 @@ TEST_CASE("MultiMatch tells shape, length, direction, position and duration apar
     const std::vector<GazeStep> steps = steps_on_line(places);
     const double extent = 40.0;
     const GazeWay way{durations, steps};
-    const auto same = multi_match(way, way, along(places, places), extent);
+    const auto same = multi_match(way, way, on_line(places, places), extent);
     REQUIRE(same);
     for (const double one : {same->shape, same->length, same->direction, same->position, same->duration})
         CHECK(one == Approx(1.0));
     // The same way elsewhere: position alone differs, by a quarter of the extent.
     const std::vector<double> elsewhere{10.0, 20.0, 30.0, 20.0};
     const auto moved =
-        multi_match(way, {durations, steps_on_line(elsewhere)}, along(places, elsewhere), extent);
+        multi_match(way, {durations, steps_on_line(elsewhere)}, on_line(places, elsewhere), extent);
     CHECK(moved->position == Approx(0.75));
     CHECK(moved->shape == Approx(1.0));
     CHECK(moved->direction == Approx(1.0));
     // Fixations twice as long.
     const std::vector<double> twice(4, 0.4);
-    CHECK(multi_match(way, {twice, steps}, along(places, places), extent)->duration == Approx(0.5));
+    CHECK(multi_match(way, {twice, steps}, on_line(places, places), extent)->duration == Approx(0.5));
     // One step against one at a right angle, as long: the difference of both is root 2 of its length.
     const std::vector<GazeStep> one{{10.0, 10.0, 0.0, 0.0}}, aside{{10.0, 0.0, 10.0, 0.0}};
     const std::vector<double> two(2, 0.2);
-    const auto turned = multi_match({two, one}, {two, aside}, along(places, places), extent);
+    const auto turned = multi_match({two, one}, {two, aside}, on_line(places, places), extent);
     CHECK(turned->direction == Approx(0.5));
     CHECK(turned->length == Approx(1.0));
     CHECK(turned->shape == Approx(1.0 - std::numbers::sqrt2 * 10.0 / 80.0));
     // Twice as long a step.
     const std::vector<GazeStep> long_step{{20.0, 20.0, 0.0, 0.0}};
-    CHECK(multi_match({two, one}, {two, long_step}, along(places, places), extent)->length == Approx(0.75));
-    CHECK_FALSE(multi_match({two, one}, {std::vector{0.2}, {}}, along(places, places), extent));
+    CHECK(multi_match({two, one}, {two, long_step}, on_line(places, places), extent)->length == Approx(0.75));
+    CHECK_FALSE(multi_match({two, one}, {std::vector{0.2}, {}}, on_line(places, places), extent));
 }

@@ -22,7 +22,7 @@ void put_in_time(StudyResults& results) {
     }
 }
 
-std::string material_of(const StudyResults& results, const StudyFixation& fixation) {
+std::string material_seen(const StudyResults& results, const StudyFixation& fixation) {
     return results.trials[static_cast<std::size_t>(fixation.trial)].key("material");
 }
 
@@ -35,8 +35,9 @@ test::CountedTrials heads_in_first_material(int observers, double share, double 
             seed};
 }
 
-const MeasureDifferenceRow& row_of(const std::vector<MeasureDifferenceRow>& rows, const std::string& measure,
-                                   const std::string& of, const std::string& b = "material 1") {
+const MeasureDifferenceRow& difference_of(const std::vector<MeasureDifferenceRow>& rows,
+                                          const std::string& measure, const std::string& of,
+                                          const std::string& b = "material 1") {
     const auto found = std::ranges::find_if(rows, [&](const MeasureDifferenceRow& row) {
         return row.measure == measure && row.of == of && row.a == "material 0" && row.b == b;
     });
@@ -50,7 +51,7 @@ TEST_CASE("what levels differ in is found measure by measure, with its sign and 
     test::CountedTrials study = heads_in_first_material(10, 0.6, 0.3);
     put_in_time(study.results);
     for (StudyFixation& fixation : study.results.fixations) {
-        const bool is_first = material_of(study.results, fixation) == "material 0";
+        const bool is_first = material_seen(study.results, fixation) == "material 0";
         fixation.surface_way_deg2 = 0.5;
         fixation.gaze_with_surface_deg2 = is_first ? 0.5 : 0.2;
         // Twice the error's variance leaves less of either: without any it is 0.6 - 0.25 and 0.6.
@@ -58,7 +59,7 @@ TEST_CASE("what levels differ in is found measure by measure, with its sign and 
         fixation.light = {{is_first ? 1.5 : 1.0, 0.5, 0.25}};
     }
     const auto rows = measure_differences(study.results, looking_measures(study.results), {}, study.options);
-    const MeasureDifferenceRow& dwell = row_of(rows, "dwell_s", "head");
+    const MeasureDifferenceRow& dwell = difference_of(rows, "dwell_s", "head");
     CHECK(dwell.observers == 10);
     CHECK(dwell.comparisons == 60); // two tasks, in which all three objects come in all materials
     CHECK(dwell.unit == "s");
@@ -69,15 +70,15 @@ TEST_CASE("what levels differ in is found measure by measure, with its sign and 
     CHECK(*dwell.p == Approx(2.0 / 1024.0));
     CHECK(*dwell.p_holm >= *dwell.p);
     CHECK(*dwell.evidence.bayes_factor > 100.0);
-    CHECK(*row_of(rows, "dwell_s", "body").difference.value == Approx(-*dwell.difference.value));
+    CHECK(*difference_of(rows, "dwell_s", "body").difference.value == Approx(-*dwell.difference.value));
     // Where gaze goes does not depend on where it is: the next is on the head as often as any.
-    CHECK(*row_of(rows, "transition", "head > head").difference.value == Approx(0.3).margin(0.05));
-    CHECK(*row_of(rows, "transition", "body > head").difference.value == Approx(0.3).margin(0.05));
-    CHECK(*row_of(rows, "first_arrival_s", "head").difference.value < -0.1);
-    CHECK(*row_of(rows, "surface_gain", "").difference.value == Approx(0.6));
-    CHECK(*row_of(rows, "corrected_gain", "").difference.value == Approx(0.6 / 0.6 - 0.3 / 0.6));
-    CHECK(*row_of(rows, "lightness", "").difference.value == Approx(0.5));
-    CHECK(*row_of(rows, "over_place", "").difference.value == Approx(0.5));
+    CHECK(*difference_of(rows, "transition", "head > head").difference.value == Approx(0.3).margin(0.05));
+    CHECK(*difference_of(rows, "transition", "body > head").difference.value == Approx(0.3).margin(0.05));
+    CHECK(*difference_of(rows, "first_arrival_s", "head").difference.value < -0.1);
+    CHECK(*difference_of(rows, "surface_gain", "").difference.value == Approx(0.6));
+    CHECK(*difference_of(rows, "corrected_gain", "").difference.value == Approx(0.6 / 0.6 - 0.3 / 0.6));
+    CHECK(*difference_of(rows, "lightness", "").difference.value == Approx(0.5));
+    CHECK(*difference_of(rows, "over_place", "").difference.value == Approx(0.5));
     // The other two materials are alike.
     const auto alike = std::ranges::find_if(rows, [](const MeasureDifferenceRow& row) {
         return row.measure == "dwell_s" && row.of == "head" && row.a == "material 1";
@@ -107,11 +108,11 @@ TEST_CASE("without a difference few measures have a small p", "[unit]") {
         test::CountedTrials study = heads_in_first_material(7, 0.4, 0.4, static_cast<std::uint64_t>(i));
         put_in_time(study.results);
         study.options.resamples = 100;
-        std::vector<TrialMeasure> measures = looking_measures(study.results);
+        std::vector<MeasureOfTrials> measures = looking_measures(study.results);
         std::erase_if(measures,
-                      [](const TrialMeasure& one) { return one.name != "visits" || one.of != "head"; });
+                      [](const MeasureOfTrials& one) { return one.name != "visits" || one.of != "head"; });
         const auto rows = measure_differences(study.results, measures, {}, study.options);
-        small += *row_of(rows, "visits", "head").p <= 0.05;
+        small += *difference_of(rows, "visits", "head").p <= 0.05;
     }
     CHECK(small <= 9); // of 60 at 5 %: more once in 1,000 (binomial distribution)
 }
@@ -120,7 +121,7 @@ TEST_CASE("when levels differ in time is found where it was planted", "[unit]") 
     test::CountedTrials study = heads_in_first_material(10, 0.3, 0.3);
     put_in_time(study.results);
     for (StudyFixation& fixation : study.results.fixations) {
-        if (material_of(study.results, fixation) == "material 0" && fixation.onset_s > 2.0 &&
+        if (material_seen(study.results, fixation) == "material 0" && fixation.onset_s > 2.0 &&
             fixation.onset_s < 4.0)
             fixation.part = PartIndex{1};
     }
