@@ -202,8 +202,8 @@ radius = 25
 """
 
 MATERIALS = {
-    "plastic": 'kind = "plastic"\nreflectance = [0.5, 0.06, 0.05]\nroughness = 0.08',
-    "brushed": 'kind = "rough-conductor"\nmetal = "Ag"\nroughness = 0.08\nanisotropy = 0.6',
+    "red": 'kind = "plastic"\nreflectance = [0.5, 0.06, 0.05]\nroughness = 0.08',
+    "silver": 'kind = "rough-conductor"\nmetal = "Ag"\nroughness = 0.08\nanisotropy = 0.6',
     "film": 'kind = "rough-conductor"\nmetal = "Ag"\nroughness = 0.05\nfilm_nm = 350\nfilm_ior = 2.0',
     "glass": 'kind = "glass"\nior = 1.5\nabsorbance = [0.25, 0.05, 0.15]',
     "frosted": 'kind = "glass"\nior = 1.5\nroughness = 0.15',
@@ -212,11 +212,11 @@ MATERIALS = {
 
 OWN = {
     "own": 'kind = "own"',
-    "own_flat": 'kind = "own"\nbumps = "none"',
-    "own_glossy": 'kind = "own"\nroughness = 0.15',
-    "own_matt": 'kind = "own"\nroughness = 0.9\nmetallic = 0',
-    "own_lacquered": 'kind = "own"\nclear_coat = 1',
-    "gold_with_its_bumps": 'kind = "rough-conductor"\nroughness = 0.1\nbumps = "own"',
+    "flat": 'kind = "own"\nbumps = "none"',
+    "glossy": 'kind = "own"\nroughness = 0.15',
+    "matt": 'kind = "own"\nroughness = 0.9\nmetallic = 0',
+    "lacquered": 'kind = "own"\nclear_coat = 1',
+    "gold": 'kind = "rough-conductor"\nroughness = 0.1\nbumps = "own"',
 }
 
 
@@ -252,8 +252,9 @@ def main():
 
     if options.docs:
         sheet("objects", textured, OWN, only(LIGHTS, "sun"))
-        sheet("materials", textured | only(shipped, "shape-03"), MATERIALS, only(LIGHTS, "hall"))
-        sheet("lights", only(shipped, "muse"), only(MATERIALS, "plastic", "brushed", "glass"))
+        sheet("materials", textured | only(shipped, "shape-03"),
+              only(MATERIALS, "red", "silver", "film", "glass", "lacquer"), only(LIGHTS, "hall"))
+        sheet("lights", only(textured, "vase"), only(MATERIALS, "red", "silver", "glass"))
         return
     sheet("own", textured, OWN)
     if not options.textured_only:

@@ -5,7 +5,9 @@
 #
 # ANALYSIS is a folder that `overt analyze` wrote. It needs the package jsonlite. Recomputed are the shares of
 # areas, differences between levels with their p, Holm's corrections, effect sizes, Bayes factors and tests of
-# equivalence, WSS, and the effects of factors. Intervals that are drawn (bootstraps) and metrics of maps are not.
+# equivalence, WSS, measures of trials between levels (dwell, first arrival and others that trials tell), where the
+# first fixations go, and the effects of factors. Intervals that are drawn (bootstraps), distances along the surface and
+# metrics of maps are not.
 # Ends with status 1 if a number is farther off than its table's rounding, or a p than chance allows.
 
 folder <- commandArgs(trailingOnly = TRUE)[1]
@@ -151,6 +153,56 @@ if (file.exists(file.path(folder, "figure5_distribution.csv"))) {
     if (nrow(f) < 2) NA_real_ else wss(f) * (nrow(f) - 1) / nrow(f)
   }, 1)
   hold("figure5_distribution: wss_mm2", ours / spread$wss_mm2, spread$wss_mm2 / spread$wss_mm2, 1e-6)
+}
+
+# What trials come to, between levels: means over an observer's trials on one object with all else alike.
+same_trial <- function(data) do.call(paste, c(data[c("observer", "session_folder", "trial")], sep = "\r"))
+trial_values <- function(measure, of) {
+  here <- same_trial(trials)
+  area <- if (is.na(of)) "" else of
+  if (measure == "dwell_s") return(trials[[paste0(area, "_s")]])
+  if (measure == "reached") return((trials[[paste0("on_", area)]] > 0) * 1)
+  if (measure == "fixations") return(trials$fixations)
+  if (measure == "fixation_s") return(ifelse(trials$fixations > 0, trials$fixated_s / trials$fixations, NA))
+  if (measure == "first_arrival_s") {
+    f <- fixations[on_area(fixations, area), ]
+    first <- tapply(f$onset_s, same_trial(f), min)
+    arrival <- as.vector(first[here])
+    return(ifelse(is.na(trials[[paste0("on_", area)]]), NA, ifelse(is.na(arrival), trials$presentation_s, arrival)))
+  }
+  NULL
+}
+measure_difference <- function(row) {
+  values <- trial_values(row$measure, row$of)
+  cell <- do.call(paste, c(trials["observer"], trials["object"], trials[setdiff(by, c(compare, "object"))], sep = "\r"))
+  mean_at <- function(level) {
+    here <- trials[[compare]] == level & !is.na(values)
+    tapply(values[here], cell[here], mean)
+  }
+  a <- mean_at(row$a)
+  b <- mean_at(row$b)
+  both <- intersect(names(a), names(b))
+  vapply(split(as.vector(a[both] - b[both]), sub("\r.*", "", both)), mean, numeric(1))
+}
+if (file.exists(file.path(folder, "measure_differences.csv"))) {
+  differences <- read.csv(file.path(folder, "measure_differences.csv"), na.strings = "n/a", check.names = FALSE)
+  known <- differences[differences$measure %in% c("dwell_s", "reached", "fixations", "fixation_s", "first_arrival_s"), ]
+  values <- lapply(seq_len(nrow(known)), function(i) measure_difference(known[i, ]))
+  hold("measure_differences: difference", vapply(values, mean, 1), known$difference, 1e-5)
+  exact <- lengths(values) <= 16
+  hold("measure_differences: p", vapply(values[exact], flip_p, 1), known$p[exact], rounding)
+  hold("measure_differences: p_holm", ave(differences$p, differences$measure, FUN = holm), differences$p_holm, 100 * rounding)
+}
+if (file.exists(file.path(folder, "first_fixations.csv"))) {
+  first <- suppressWarnings(read.csv(file.path(folder, "first_fixations.csv"), na.strings = "n/a", check.names = FALSE))
+  f <- fixations[order(same_trial(fixations), fixations$onset_s), ]
+  f$number <- ave(rep(1, nrow(f)), same_trial(f), FUN = cumsum)
+  ours <- vapply(seq_len(nrow(first)), function(i) {
+    own <- of_keys(f, first[i, ], intersect(by, names(first)))
+    own <- own[own$number == first$number[i], ]
+    mean(tapply(on_area(own, first$area[i]) * 1, own$observer, mean))
+  }, 1)
+  hold("first_fixations: at", ours, first$at, rounding)
 }
 
 # Effects of factors: contrasts beside what trials have in common, flips of observers' signs.

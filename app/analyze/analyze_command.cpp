@@ -20,6 +20,7 @@
 #include "experiment/base/counted.h"
 #include "experiment/base/error.h"
 #include "experiment/protocol/files/old_words.h"
+#include "experiment/scene/files/vertex_values.h"
 #include "experiment/study/methods/study_facts.h"
 #include "experiment/study/tables/study_tables.h"
 
@@ -33,6 +34,7 @@ struct AnalyzeOptions {
     StudyOptions study;
     std::optional<std::string> compare;     ///< nothing: the usual one, where it makes groups
     std::vector<std::string> same_observer; ///< LABEL=LABEL
+    std::vector<std::string> models;        ///< FILE, or OBJECT=FILE
     std::filesystem::path areas;            ///< empty: none
     std::string by, surface_areas, sigma = "1deg", kernel = "geodesic", format = "csv", shard;
     bool overwrite = false;
@@ -51,6 +53,20 @@ std::vector<std::string> listed(const std::string& text) {
         begin = end + 1;
     }
     return items;
+}
+
+/// Read once here, so that a fault is told before minutes of reading sessions.
+std::vector<ModelFile> model_files(const std::vector<std::string>& given) {
+    std::vector<ModelFile> files;
+    for (const std::string& text : given) {
+        const std::size_t equals = text.find('=');
+        if (equals == std::string::npos || std::filesystem::exists(text))
+            files.push_back({"", text});
+        else
+            files.push_back({text.substr(0, equals), text.substr(equals + 1)});
+        read_vertex_values(files.back().file);
+    }
+    return files;
 }
 
 std::vector<std::pair<std::string, std::string>> same_observers(const std::vector<std::string>& given) {
@@ -205,6 +221,7 @@ int run_analyze(AnalyzeOptions options) {
     }
     options.study.sigma = kernel_width(options.sigma);
     options.study.same_observer = same_observers(options.same_observer);
+    options.study.models = model_files(options.models);
     for (std::size_t i = 0; i < names_of<MapKernel>.size(); ++i) {
         if (names_of<MapKernel>[i] == options.kernel)
             options.study.kernel = static_cast<MapKernel>(i);
@@ -293,6 +310,11 @@ void add_study_options(CLI::App& command, AnalyzeOptions& options) {
         command, "--areas", options.areas, "FILE",
         "Areas of the screen to ask gaze for, besides those that recordings tell: an EyeLink file (.ias), or "
         "a table (.csv) with area, shape, left_px, top_px, right_px, bottom_px");
+    option(command, "--model", options.models, "FILE",
+           "A PLY mesh with a number at each vertex (saliency, density, value, quality …): where a model "
+           "says that "
+           "gaze goes, to be held against observers; OBJECT=FILE for one object; once for each",
+           one_each_time);
     option(command, "--time-step", study.time_step_s, "S", "Stretches of the time course", above_zero(),
            shown_default);
     option(command, "--confidence", study.confidence, "", "Level of intervals", CLI::Range(0.5, 0.999),

@@ -115,6 +115,12 @@ void add_bench(CLI::App& app, ChosenCommand& chosen) {
         ->type_name("S")
         ->check(CLI::Range(0.5, 3600.0))
         ->capture_default_str();
+    command
+        .add_option("--studies", options.studies,
+                    "statistics: simulated studies of each of 8 kinds; from 20 on they have targets")
+        ->type_name("N")
+        ->check(CLI::Range(1, 100000))
+        ->default_str("500");
     command.add_flag(
         "--quick", options.is_quick,
         "growth: over 2 to 6 trials and 2 to 4 sessions; statistics: 3 studies of each kind; to see "

@@ -27,6 +27,7 @@ struct BenchOptions {
     double seconds = 60.0;                    ///< tracker, watch: of real time
     ChosenThresholds thresholds;              ///< events: those that are not left to the gaze
     ContextChoice context;
+    int studies = 0;       ///< statistics: of each kind; 0: all that its table is of
     bool is_quick = false; ///< growth: over a few trials and sessions only
     bool json = false;
 };

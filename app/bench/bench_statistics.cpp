@@ -4,6 +4,7 @@
 
 #include "app/bench/bench_command.h"
 #include "app/bench/statistics_studies.h"
+#include "app/cli/progress_bar.h"
 
 namespace overt {
 
@@ -25,9 +26,9 @@ BenchFigure figure_of(const StatisticsCount& count, const StatisticsSetting& set
         return has_target ? at_most(fmt::format("p <= 0.05: {}; {}", count.what, of), percent, "%", bound)
                           : BenchFigure{fmt::format("p <= 0.05: {}; {}", count.what, of), percent, "%"};
     }
-    BenchFigure figure{
-        fmt::format("truth in an interval of 95 %: {} (mean {:.4g}); {}", count.what, count.mean, of),
-        percent, "%"};
+    BenchFigure figure{fmt::format("truth in an interval of 95 %: {} (mean {:.4g}, truth {:.4g}); {}",
+                                   count.what, count.mean, count.truth, of),
+                       percent, "%"};
     if (has_target) {
         const double error = 100.0 * std::sqrt(0.05 * 0.95 / count.studies);
         figure.target = fmt::format("{:.1f} to {:.1f}", 92.0 - error, 98.0 + error);
@@ -40,16 +41,28 @@ BenchFigure figure_of(const StatisticsCount& count, const StatisticsSetting& set
 
 BenchFigures bench_statistics(const BenchOptions& options) {
     BenchFigures figures;
+    const int studies = options.studies > 0 ? options.studies
+                        : options.is_quick  ? quick_studies
+                                            : all_studies;
+    // Of a few studies bounds of two standard errors of the simulation mean nothing.
+    constexpr int least_for_targets = 20;
+    constexpr int settings = 8;
+    ProgressBar bar;
+    int done = 0;
     for (const int observers : {6, 12}) {
         for (const double accuracy_deg : {0.3, 0.6}) {
             for (const bool is_planted : {false, true}) {
                 const StatisticsSetting setting{observers, accuracy_deg, is_planted};
-                for (const StatisticsCount& count :
-                     count_statistics(setting, options.is_quick ? quick_studies : all_studies, 1))
-                    figures.push_back(figure_of(count, setting, !options.is_quick));
+                const auto counts = count_statistics(setting, studies, 1, [&](int of_setting) {
+                    bar.update("studies", done + of_setting, settings * studies);
+                });
+                done += studies;
+                for (const StatisticsCount& count : counts)
+                    figures.push_back(figure_of(count, setting, studies >= least_for_targets));
             }
         }
     }
+    bar.finish();
     return figures;
 }
 

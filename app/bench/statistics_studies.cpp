@@ -1,6 +1,7 @@
 #include "app/bench/statistics_studies.h"
 
 #include <algorithm>
+#include <mutex>
 #include <utility>
 
 #include "experiment/base/parallel.h"
@@ -12,8 +13,11 @@
 #include "experiment/study/factor_effects.h"
 #include "experiment/study/map_predictions.h"
 #include "experiment/study/map_reliability.h"
+#include "experiment/study/measure_differences.h"
 #include "experiment/study/point_distributions.h"
+#include "experiment/study/read/area_evidence.h"
 #include "experiment/study/study_pairs.h"
+#include "experiment/study/time_clusters.h"
 
 namespace overt {
 
@@ -79,12 +83,18 @@ bool is_difference(const std::string& name) {
 StatisticsStudies::StatisticsStudies(const StatisticsSetting& setting)
     : setting_(setting), experiment_(two_sculptures()) {
     GazeStudySettings gaze;
-    gaze.accuracy_deg = setting.accuracy_deg;
     gaze.head_share_sd = 0.4;
     const std::string effect =
         setting.is_planted ? "head:material=rough:odds=1.8" : "head:material=rough:odds=1";
-    studies_ = std::make_unique<GazeStudies>(
-        experiment_, power_effects({effect}, experiment_.protocol, areas_of(experiment_.objects)), gaze);
+    const auto studies_with = [&](double accuracy_deg) {
+        gaze.accuracy_deg = accuracy_deg;
+        return std::make_unique<GazeStudies>(
+            experiment_, power_effects({effect}, experiment_.protocol, areas_of(experiment_.objects)), gaze);
+    };
+    studies_ = studies_with(setting.accuracy_deg);
+    without_error_ = studies_with(0.0);
+    turn_ = std::make_unique<PursuedTurn>(studies_->scene());
+    poses_ = distinct_poses(studies_->scene().animation_of(0));
     for (std::size_t i = 0; i < experiment_.objects.size(); ++i) {
         const Mesh& mesh = *experiment_.objects[i].mesh;
         ObjectSurface& surface = surfaces_.emplace_back();
@@ -95,6 +105,29 @@ StatisticsStudies::StatisticsStudies(const StatisticsSetting& setting)
 }
 
 StatisticsStudies::~StatisticsStudies() = default;
+
+void StatisticsStudies::add_evidence(StudyResults& results) const {
+    const ObservedScene& scene = studies_->scene();
+    for (std::size_t object = 0; object < results.objects.size(); ++object) {
+        std::vector<MeasuredPlace> places;
+        std::vector<StudyFixation*> fixations;
+        for (StudyFixation& fixation : results.fixations) {
+            const StudyTrial& trial = results.trials[static_cast<std::size_t>(fixation.trial)];
+            if (static_cast<std::size_t>(trial.object) != object ||
+                (!fixation.counted() && fixation.why != NotCounted::not_on_surface))
+                continue;
+            const SessionDuration middle = from_seconds(fixation.onset_s + 0.5 * fixation.duration_s);
+            fixations.push_back(&fixation);
+            places.push_back({poses_.pose_of(0, scene.animation_of(0).frame_at_step(turn_->step_at(middle))),
+                              scene.screen.image_from_screen(fixation.place),
+                              setting_.accuracy_deg * px_per_deg_at_centre(scene.screen), fixation.trial});
+        }
+        auto evidence = area_evidence(*results.objects[object].mesh, results.objects[object].areas,
+                                      scene.objects[object].scene, poses_.angles, places);
+        for (std::size_t i = 0; i < fixations.size(); ++i)
+            fixations[i]->evidence = std::move(evidence[i]);
+    }
+}
 
 StudyStatistics StatisticsStudies::study(std::uint64_t seed) const {
     StudyResults results = studies_->study(seed, setting_.observers);
@@ -112,6 +145,7 @@ StudyStatistics StatisticsStudies::study(std::uint64_t seed) const {
     }
     results.areas = results.compared_areas = {"head"};
     results.area = "head";
+    add_evidence(results);
     StudyOptions options;
     options.seed = seed;
     options.resamples = 500;
@@ -133,8 +167,29 @@ StudyStatistics StatisticsStudies::study(std::uint64_t seed) const {
         if (row.keys.empty()) {
             found.estimates["areas by_count"] = row.by_count;
             found.estimates["areas by_duration"] = row.by_duration;
+            found.estimates["areas corrected"] = row.corrected;
+            found.estimates["areas dwell_s"] = row.dwell_s;
+            found.estimates["areas first_arrival_s"] = row.first_arrival_s;
         }
     }
+    StudyResults exact = without_error_->study(seed, setting_.observers);
+    exact.areas = results.areas;
+    exact.by = options.by;
+    exact.groups = make_groups(exact, options.by, studies_->levels());
+    for (const AreaRow& row : area_rows(exact, studies_->levels(), options)) {
+        if (row.keys.empty() && row.by_count.value)
+            found.planted["areas corrected"] = *row.by_count.value;
+    }
+    for (const MeasureDifferenceRow& row :
+         measure_differences(results, looking_measures(results), studies_->levels(), options)) {
+        const std::string name = "measure_differences " + row.measure + (row.of.empty() ? "" : ", ") + row.of;
+        add_p(found, name + " p", row.p);
+        found.estimates[name + " difference"] = row.difference;
+    }
+    double least_in_time = 1.0;
+    for (const TimeClusterRow& row : time_clusters(results, studies_->levels(), options))
+        least_in_time = std::min(least_in_time, row.p);
+    found.p["time_clusters p, the least"] = least_in_time;
     found.estimates["figure5_distribution wss_deg2"] =
         point_distributions(results, surfaces_, options).front().wss_deg2;
     const ObjectFixationMaps maps = fixation_maps(results, surfaces_);
@@ -163,12 +218,18 @@ StudyStatistics StatisticsStudies::study(std::uint64_t seed) const {
 }
 
 std::vector<StatisticsCount> count_statistics(const StatisticsSetting& setting, int studies,
-                                              std::uint64_t seed) {
+                                              std::uint64_t seed, const std::function<void(int)>& done) {
     const StatisticsStudies of(setting);
     std::vector<StudyStatistics> all(static_cast<std::size_t>(studies));
+    std::mutex done_mutex;
+    int count_done = 0;
     parallel_for(studies, [&](int i) {
         RandomStream random(seed, "seeds of studies", static_cast<std::uint64_t>(i));
         all[static_cast<std::size_t>(i)] = of.study(random.next_bits());
+        const std::scoped_lock lock(done_mutex);
+        ++count_done;
+        if (done)
+            done(count_done);
     });
     std::map<std::string, StatisticsCount> p, intervals;
     std::map<std::string, int> values;
@@ -186,16 +247,22 @@ std::vector<StatisticsCount> count_statistics(const StatisticsSetting& setting, 
             }
         }
     }
-    for (auto& [name, count] : intervals)
+    for (auto& [name, count] : intervals) {
         count.mean /= values[name];
+        count.truth = !setting.is_planted && is_difference(name) ? 0.0 : count.mean;
+        if (all.front().planted.contains(name)) {
+            count.truth = 0.0;
+            for (const StudyStatistics& one : all)
+                count.truth += one.planted.at(name) / studies;
+        }
+    }
     for (const StudyStatistics& one : all) {
         for (const auto& [name, estimate] : one.estimates) {
             if (!estimate.interval)
                 continue;
             StatisticsCount& count = intervals[name];
             ++count.studies;
-            const bool is_none = !setting.is_planted && is_difference(name);
-            count.hits += estimate.interval->contains(is_none ? 0.0 : count.mean);
+            count.hits += estimate.interval->contains(count.truth);
         }
     }
     std::vector<StatisticsCount> counts;

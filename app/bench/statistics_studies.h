@@ -17,6 +17,8 @@ namespace overt {
 struct StudyStatistics {
     std::map<std::string, double> p;
     std::map<std::string, Estimate> estimates;
+    std::map<std::string, double>
+        planted; ///< of estimates: what this study would give without the tracker's error
 };
 
 /// One kind of study: two sculptures in two materials, under two questions.
@@ -42,22 +44,31 @@ class StatisticsStudies {
     StatisticsSetting setting_;
     Experiment experiment_;
     std::unique_ptr<GazeStudies> studies_;
+    /// Of all fixations of a study, as read_study() adds it.
+    void add_evidence(StudyResults& results) const;
+
     std::vector<ObjectSurface> surfaces_;
+    std::unique_ptr<GazeStudies> without_error_; ///< the same observers
+    std::unique_ptr<PursuedTurn> turn_;
+    PoseTable poses_;
 };
 
 /// How often tests without an effect have p at most 0.05, and how often intervals of 95 % hold the truth.
 struct StatisticsCount {
     std::string what; ///< the number's name, or that of the p
     bool is_p = false;
-    int studies = 0;   ///< that gave it
-    int hits = 0;      ///< p at most 0.05, or intervals that hold the truth
-    double mean = 0.0; ///< of an estimate over all studies: its truth, for studies of so many observers
+    int studies = 0;    ///< that gave it
+    int hits = 0;       ///< p at most 0.05, or intervals that hold the truth
+    double mean = 0.0;  ///< of an estimate over all studies
+    double truth = 0.0; ///< what was planted, or, of numbers that are made of so many observers, the mean
     double share() const { return static_cast<double>(hits) / studies; }
 };
 
 /// Of studies of one setting, by name. Truths are the means over the studies, of the difference between
-/// levels and of what is 0 where levels are alike 0 without an effect.
+/// levels and of what is 0 where levels are alike 0 without an effect, and of shares without the tracker's
+/// error those of the same observers without one. `done(i)` is told of each study that is done, one at a
+/// time.
 std::vector<StatisticsCount> count_statistics(const StatisticsSetting& setting, int studies,
-                                              std::uint64_t seed);
+                                              std::uint64_t seed, const std::function<void(int)>& done = {});
 
 } // namespace overt

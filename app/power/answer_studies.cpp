@@ -190,7 +190,8 @@ std::vector<StudyAnswer> AnswerStudies::answers_of(const Protocol& planted, cons
 
 std::vector<StudyOutcome> AnswerStudies::tested(const std::vector<std::vector<StudyAnswer>>& study,
                                                 std::span<const int> observers,
-                                                const PermutationSettings& settings) const {
+                                                const PermutationSettings& settings,
+                                                const std::optional<double>& equivalence) const {
     std::vector<std::optional<double>> differences;
     for (const std::vector<StudyAnswer>& own : study) {
         AnswerList list;
@@ -204,13 +205,8 @@ std::vector<StudyOutcome> AnswerStudies::tested(const std::vector<std::vector<St
         for (int i = 0; i < count; ++i)
             if (const std::optional<double>& one = differences[static_cast<std::size_t>(i)])
                 first.push_back(*one);
-        StudyOutcome outcome;
+        StudyOutcome outcome = outcome_of(first, settings, equivalence);
         outcome.without_measure = count - static_cast<int>(first.size());
-        if (const auto test = sign_flip_test(first, settings)) {
-            outcome.p = test->p;
-            outcome.estimate =
-                std::accumulate(first.begin(), first.end(), 0.0) / static_cast<double>(first.size());
-        }
         outcomes.push_back(outcome);
     }
     return outcomes;

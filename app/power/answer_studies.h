@@ -32,8 +32,8 @@ class AnswerStudies {
 
     /// The test with the first observers of a study, by the numbers of them.
     std::vector<StudyOutcome> tested(const std::vector<std::vector<StudyAnswer>>& study,
-                                     std::span<const int> observers,
-                                     const PermutationSettings& settings) const;
+                                     std::span<const int> observers, const PermutationSettings& settings,
+                                     const std::optional<double>& equivalence = {}) const;
 
   private:
     Protocol planted_for(std::uint64_t observer_seed) const;

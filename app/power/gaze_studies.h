@@ -58,6 +58,8 @@ class GazeStudies {
     const StudyResults& frame() const { return frame_; }
     const LevelLists& levels() const { return levels_; }
     const std::vector<PowerEffect>& effects() const { return effects_; }
+    /// What observers look at, without their own inclinations.
+    const ObservedScene& scene() const { return scene_; }
     /// Whether an effect is planted in a trial.
     bool holds_in(std::size_t effect, const Trial& trial) const {
         return scene_.effects[effect].holds_in(trial.task, trial.stimulus);

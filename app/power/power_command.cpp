@@ -123,6 +123,10 @@ void add_power_command(CLI::App& app, ChosenCommand& chosen) {
            CLI::Range(0.0001, 0.5), shown_default);
     option(command, "--power", settings.target, "", "Share of studies that is asked for",
            CLI::Range(0.05, 0.999), shown_default);
+    option(command, "--equivalence", settings.equivalence, "D",
+           "Of studies that are to show that an effect is smaller than D standard deviations of observers' "
+           "differences: the chance that they do",
+           CLI::Range(0.05, 5.0));
     option(command, "--head-share-sd", options.head_share_sd, "",
            "Standard deviation over observers of the logit of their shares on the head, and on other areas "
            "with a "

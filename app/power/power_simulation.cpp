@@ -21,24 +21,24 @@ namespace overt {
 
 namespace {
 
-std::string analysis_of_answers(const Protocol& protocol, const PowerEffect& effect) {
+std::string analysis_of_answers(const Protocol& protocol, const PowerEffect& effect, bool is_equivalence) {
     return fmt::format(
-        "overt analyze SESSION…: the row of {}, \"{}\" of {} {} against {} in answer_differences, "
-        "p",
+        "overt analyze SESSION…: the row of {}, \"{}\" of {} {} against {} in answer_differences, {}",
         AnswerStudies(protocol, effect).measured().name(), effect.answer, effect.column, effect.level,
-        effect.against);
+        effect.against, is_equivalence ? "equivalence_p" : "p");
 }
 
-std::string analysis_of(const Protocol& protocol, const PowerEffect& effect) {
+std::string analysis_of(const Protocol& protocol, const PowerEffect& effect, bool is_equivalence) {
     if (is_of_answers(effect.measure))
-        return analysis_of_answers(protocol, effect);
+        return analysis_of_answers(protocol, effect, is_equivalence);
     const bool is_of_stimuli = effect.column != "task";
     const std::string place = effect.measure == PowerMeasure::area
                                   ? fmt::format("area_pairs, area {}", effect.area)
                                   : std::string("table1_pairs");
-    const char* const column = effect.measure == PowerMeasure::area  ? "p"
-                               : effect.measure == PowerMeasure::wss ? "wss_p"
-                                                                     : "maps_p";
+    const bool is_area = effect.measure == PowerMeasure::area, is_wss = effect.measure == PowerMeasure::wss;
+    const char* const column = is_area  ? is_equivalence ? "equivalence_p" : "p"
+                               : is_wss ? is_equivalence ? "wss_equivalence_p" : "wss_p"
+                                        : "maps_p";
     std::string row = is_of_stimuli ? "the row over all tasks" : "the row";
     for (const StudyKey& key : effect.within)
         row = fmt::format("the row of {} {}", key.column, key.value);
@@ -98,6 +98,10 @@ std::vector<StudyParameter> parameters_of(const Protocol& protocol, const PowerS
         {"studies", text(settings.studies), "", "That were simulated."},
         {"alpha", text(settings.alpha), "", "A study has found the effect if p is at most this."},
         {"power", text(settings.target), "", "The share of studies that is asked for."},
+        {"equivalence", settings.equivalence ? text(*settings.equivalence) : std::string("none"), "",
+         "In standard deviations of observers' differences: a study has found that the effect is smaller, if "
+         "p of "
+         "equivalence is at most alpha; none: that there is an effect."},
         {"area-shares", fmt::format("{}", fmt::join(shares, ", ")), "",
          "Shares of fixations on areas, of the protocol's tasks (simulated_head_share, "
          "simulated_area_shares)."},
@@ -113,7 +117,15 @@ std::vector<StudyParameter> parameters_of(const Protocol& protocol, const PowerS
         {"seed", text(settings.seed), "", "Of all that is drawn at random."}};
 }
 
-void check(const Protocol& protocol, const PowerSettings& settings) {
+void check(const Protocol& protocol, const std::vector<PowerEffect>& effects, const PowerSettings& settings) {
+    for (const PowerEffect& effect : effects) {
+        if (settings.equivalence && effect.measure == PowerMeasure::cc)
+            throw InputError(
+                fmt::format("--equivalence: not of {}: maps of all observers are no differences of "
+                            "observers. Name head, area=NAME, wss or a measure of answers; a size of "
+                            "none is odds=1 or ratio=1.",
+                            effect.text()));
+    }
     if (const auto capacity = group_capacity(protocol); capacity && settings.observers.back() > *capacity)
         throw InputError(fmt::format("--observers: the protocol's groups take {}, and not {}.",
                                      counted(*capacity, "observer"), settings.observers.back()));
@@ -142,7 +154,10 @@ std::vector<PowerCurve> empty_curves(const Protocol& protocol, const std::vector
                                      const PowerSettings& settings) {
     std::vector<PowerCurve> curves;
     for (const PowerEffect& effect : effects) {
-        PowerCurve curve{effect, analysis_of(protocol, effect), planted_words(effect), {}};
+        PowerCurve curve{effect,
+                         analysis_of(protocol, effect, settings.equivalence.has_value()),
+                         planted_words(effect),
+                         {}};
         for (const int count : settings.observers) {
             curve.points.emplace_back();
             curve.points.back().observers = count;
@@ -187,9 +202,9 @@ void simulate(const GazeStudies& studies, std::span<PowerCurve* const> curves, c
             const std::uint64_t high = random.next_bits(), seed = high << 32 | random.next_bits();
             const StudyResults simulated = studies.study(seed, settings.observers.back());
             for (PowerCurve* curve : curves) {
-                const std::vector<StudyOutcome> outcomes =
-                    tested(studies, simulated, curve->effect, settings.observers, maps,
-                           {settings.permutations, PermutationSettings{}.most_exact, seed});
+                const std::vector<StudyOutcome> outcomes = tested(
+                    studies, simulated, curve->effect, settings.observers, maps,
+                    {settings.permutations, PermutationSettings{}.most_exact, seed}, settings.equivalence);
                 for (std::size_t i = 0; i < outcomes.size(); ++i)
                     curve->points[i].studies[study] = outcomes[i];
             }
@@ -209,9 +224,9 @@ void simulate_answers(const AnswerStudies& studies, PowerCurve& curve, const Pow
             const auto study = static_cast<std::size_t>(number);
             RandomStream random(settings.seed, "seeds of studies", study);
             const std::uint64_t high = random.next_bits(), seed = high << 32 | random.next_bits();
-            const std::vector<StudyOutcome> outcomes =
-                studies.tested(studies.study(seed, settings.observers.back()), settings.observers,
-                               {settings.permutations, PermutationSettings{}.most_exact, seed});
+            const std::vector<StudyOutcome> outcomes = studies.tested(
+                studies.study(seed, settings.observers.back()), settings.observers,
+                {settings.permutations, PermutationSettings{}.most_exact, seed}, settings.equivalence);
             for (std::size_t i = 0; i < outcomes.size(); ++i)
                 curve.points[i].studies[study] = outcomes[i];
             const std::scoped_lock lock(reporting);
@@ -247,7 +262,8 @@ void add_remarks(PowerResults& results, const Protocol& protocol, const PowerSet
             is_fitted ? "have no function that can be fitted, with a threshold among the levels or near them,"
                       : "do not have the measure"));
     }
-    if (const int fewest = fewest_testable_observers(settings.alpha); settings.observers.front() < fewest)
+    if (const int fewest = fewest_testable_observers(settings.alpha);
+        !settings.equivalence && settings.observers.front() < fewest)
         results.remarks.push_back(fmt::format(
             "With fewer than {} observers the tests cannot give p at most {}: 2 / 2^n is the least.", fewest,
             settings.alpha));
@@ -277,8 +293,9 @@ void add_remarks(PowerResults& results, const Protocol& protocol, const PowerSet
 PowerResults simulate_power(const Experiment& experiment, const std::vector<PowerEffect>& effects,
                             const PowerSettings& settings, const PowerProgress& progress) {
     const Protocol& protocol = experiment.protocol;
-    check(protocol, settings);
+    check(protocol, effects, settings);
     PowerResults results;
+    results.equivalence = settings.equivalence;
     results.protocol = protocol.title.empty() ? protocol.name : protocol.title;
     results.trials = trial_count(protocol, 1);
     results.planned = protocol.schedule.observers;

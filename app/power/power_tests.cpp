@@ -15,7 +15,7 @@ struct ObserverValue {
 };
 
 StudyOutcome flipped(std::span<const ObserverValue> values, int observers,
-                     const PermutationSettings& settings) {
+                     const PermutationSettings& settings, const std::optional<double>& equivalence) {
     std::vector<ObserverValue> own;
     for (const ObserverValue& one : values) {
         if (one.observer < static_cast<std::size_t>(observers))
@@ -23,13 +23,7 @@ StudyOutcome flipped(std::span<const ObserverValue> values, int observers,
     }
     const std::vector<double> means =
         observer_means(std::span<const ObserverValue>(own), [](const ObserverValue& of) { return of.value; });
-    StudyOutcome outcome;
-    if (const auto test = sign_flip_test(means, settings)) {
-        outcome.p = test->p;
-        outcome.estimate =
-            std::accumulate(means.begin(), means.end(), 0.0) / static_cast<double>(means.size());
-    }
-    return outcome;
+    return outcome_of(means, settings, equivalence);
 }
 
 std::vector<PairedMaps> paired_maps(const std::vector<std::vector<LevelComparison>>& cells,
@@ -76,7 +70,8 @@ compared_cells(const GazeStudies& studies, const StudyResults& results, const Po
 std::vector<StudyOutcome> tested(const GazeStudies& studies, const StudyResults& results,
                                  const PowerEffect& effect, std::span<const int> observers,
                                  std::span<const std::unique_ptr<VertexMaps>> maps,
-                                 const PermutationSettings& settings) {
+                                 const PermutationSettings& settings,
+                                 const std::optional<double>& equivalence) {
     const std::vector<std::vector<LevelComparison>> cells = compared_cells(studies, results, effect);
     std::vector<StudyOutcome> outcomes;
     if (effect.measure == PowerMeasure::cc) {
@@ -101,7 +96,7 @@ std::vector<StudyOutcome> tested(const GazeStudies& studies, const StudyResults&
         }
     }
     for (const int count : observers)
-        outcomes.push_back(flipped(values, count, settings));
+        outcomes.push_back(flipped(values, count, settings, equivalence));
     return outcomes;
 }
 

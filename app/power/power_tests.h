@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -18,10 +19,11 @@ std::vector<std::vector<LevelComparison>>
 compared_cells(const GazeStudies& studies, const StudyResults& results, const PowerEffect& effect);
 
 /// The test of an effect with the first observers of a study, by the numbers of them. `maps` by object,
-/// needed for CC.
+/// needed for CC. `equivalence`: PowerSettings has it; p is of that then.
 std::vector<StudyOutcome> tested(const GazeStudies& studies, const StudyResults& results,
                                  const PowerEffect& effect, std::span<const int> observers,
                                  std::span<const std::unique_ptr<VertexMaps>> maps,
-                                 const PermutationSettings& settings);
+                                 const PermutationSettings& settings,
+                                 const std::optional<double>& equivalence = {});
 
 } // namespace overt

@@ -179,8 +179,8 @@ draw_figure5();
   put('predictions_body', t.predictions, () => ({columns: [
       ...conditions(t.predictions), text_column('predicted by', r => r.by + (r.level ? ': ' + r.level : '')), number_column('KL / nat', r => r.kl), number_column('NSS', r => r.nss),
       number_column('AUC (Judd)', r => r.auc), number_column('AUC (Borji)', r => r.borji), number_column('gain over exposure / bit', r => r.gain),
-      number_column('gain over even gaze / bit', r => r.gain_area), number_column('observers', r => r.observers)],
-      note: 'Each observer\'s fixations are told from a map of other observers, in the same condition or in another one, or from the exposure alone. A material that gaze does not care about is predicted as well by another material as by itself.'}));
+      number_column('gain over even gaze / bit', r => r.gain_area), share_column('of the ceiling', r => r.ceiling), number_column('observers', r => r.observers)],
+      note: 'Of the ceiling: gain over even gaze, of that which other observers\' map gives in the same condition. Each observer\'s fixations are told from a map of other observers, in the same condition or in another one, or from the exposure alone. A material that gaze does not care about is predicted as well by another material as by itself.'}));
   const reliabilities = without_repeats(t.reliabilities, r => r.keys, r => r.object);
   put('reliability_body', reliabilities, () => ({columns: [
       ...conditions(reliabilities, r => r.keys), number_column('CC of halves', r => r.split), number_column('reliability', r => r.reliability),

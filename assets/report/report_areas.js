@@ -22,5 +22,5 @@
 
 // Where nothing is known of what was shown, no section of it is left empty: the remarks at the beginning say what was not computed.
 if (!data.knows_stimuli)
-  for (const id of ['maps', 'figure4', 'surface_areas', 'figure5', 'table1', 'effects', 'differences', 'metrics', 'motion', 'light', 'course']) if (by_id(id)) by_id(id).hidden = true;
+  for (const id of ['maps', 'figure4', 'surface_areas', 'figure5', 'table1', 'measures', 'ways', 'effects', 'differences', 'metrics', 'motion', 'light', 'course']) if (by_id(id)) by_id(id).hidden = true;
 for (const link of document.querySelectorAll('nav a')) link.hidden = document.querySelector(link.getAttribute('href')).hidden;

@@ -1,11 +1,13 @@
 #include "experiment/power/power_results.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include <fmt/format.h>
 
 #include "experiment/base/counted.h"
 #include "experiment/statistics/bootstrap.h"
+#include "experiment/statistics/paired_evidence.h"
 #include "experiment/statistics/proportion.h"
 
 namespace overt {
@@ -20,6 +22,18 @@ std::string of_studies(const PowerPoint& point) {
         percent(point.share()),
         counted(static_cast<int>(point.studies.size()), "simulated study", "simulated studies"),
         100.0 * point.interval.low, 100.0 * point.interval.high);
+}
+
+/// With how many observers the share asked for is reached.
+std::string words_of_needed(const std::optional<int>& needed, const PowerCurve& curve,
+                            const PowerResults& results) {
+    if (needed && *needed == curve.points.front().observers)
+        return fmt::format(" {} is reached with the fewest observers that were simulated, {}.",
+                           percent(results.target), *needed);
+    if (needed)
+        return fmt::format(" {} needs {}.", percent(results.target), counted(*needed, "observer"));
+    return fmt::format(" {} was not reached with up to {}.", percent(results.target),
+                       counted(curve.points.back().observers, "observer"));
 }
 
 } // namespace
@@ -65,19 +79,29 @@ std::string answer_of(const PowerCurve& curve, const PowerResults& results) {
     }
     std::string begin = of_studies(*shown);
     begin[0] = 'W';
+    if (results.equivalence)
+        return fmt::format(
+            "{} showed that the effect on the {} is smaller than {} standard deviations of observers' "
+            "differences.{}",
+            begin, curve.effect.words(), *results.equivalence, words_of_needed(needed, curve, results));
     if (curve.effect.is_none())
         return fmt::format("{} found a difference that was not planted ({}); {} is the level of the test.",
                            begin, curve.effect.words(), percent(results.alpha));
-    std::string text = fmt::format("{} found the effect on the {}.", begin, curve.effect.words());
-    if (needed && *needed == curve.points.front().observers)
-        text += fmt::format(" {} is reached with the fewest observers that were simulated, {}.",
-                            percent(results.target), *needed);
-    else if (needed)
-        text += fmt::format(" {} needs {}.", percent(results.target), counted(*needed, "observer"));
-    else
-        text += fmt::format(" {} was not reached with up to {}.", percent(results.target),
-                            counted(curve.points.back().observers, "observer"));
-    return text;
+    return fmt::format("{} found the effect on the {}.{}", begin, curve.effect.words(),
+                       words_of_needed(needed, curve, results));
+}
+
+StudyOutcome outcome_of(std::span<const double> differences, const PermutationSettings& settings,
+                        const std::optional<double>& equivalence) {
+    StudyOutcome outcome;
+    if (equivalence)
+        outcome.p = paired_evidence(differences, *equivalence).equivalence_p;
+    else if (const auto test = sign_flip_test(differences, settings))
+        outcome.p = test->p;
+    if (outcome.p)
+        outcome.estimate = std::accumulate(differences.begin(), differences.end(), 0.0) /
+                           static_cast<double>(differences.size());
+    return outcome;
 }
 
 int fewest_testable_observers(double alpha) {

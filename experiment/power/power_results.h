@@ -3,11 +3,13 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "experiment/power/power_effect.h"
 #include "experiment/statistics/estimate.h"
+#include "experiment/statistics/permutation.h"
 #include "experiment/study/results/study_results.h"
 
 namespace overt {
@@ -21,6 +23,11 @@ struct StudyOutcome {
     /// be fitted. The test is without them.
     int without_measure = 0;
 };
+
+/// Of observers' differences: p of flips of their signs, or, with an effect size that is still of interest,
+/// that they are shown to be smaller (PairedEvidence::equivalence_p).
+StudyOutcome outcome_of(std::span<const double> differences, const PermutationSettings& settings,
+                        const std::optional<double>& equivalence);
 
 /// All studies with one number of observers.
 struct PowerPoint {
@@ -47,6 +54,7 @@ struct PowerResults {
     int planned = 0;      ///< observers that the protocol plans
     int studies = 0;
     double alpha = 0.05, target = 0.8;
+    std::optional<double> equivalence{}; ///< studies are to show that effects are smaller; see outcome_of
     std::vector<StudyParameter> parameters;
     std::vector<std::string> remarks; ///< whole sentences
     std::vector<PowerCurve> curves;

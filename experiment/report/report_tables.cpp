@@ -126,6 +126,7 @@ Json report_tables(const StudyResults& results) {
                                {"borji", json_of(row.auc_borji)},
                                {"gain", json_of(row.gain_over_exposure)},
                                {"gain_area", json_of(row.gain_over_area)},
+                               {"ceiling", json_of(row.share_of_ceiling)},
                                {"observers", row.observers}});
     for (const MapReliabilityRow& row : results.reliabilities)
         reliabilities.push_back({{"keys", json_of(row.keys)},
@@ -151,7 +152,73 @@ Json report_tables(const StudyResults& results) {
                           {"to", row.to_s},
                           {"share", json_of(row.share)},
                           {"observers", row.observers}});
-    Json tables{{"surface_areas", areas},
+    Json measures = Json::array();
+    for (const MeasureDifferenceRow& row : results.measure_differences)
+        measures.push_back({{"measure", row.measure},
+                            {"of", row.of},
+                            {"unit", row.unit},
+                            {"a", row.a},
+                            {"b", row.b},
+                            {"difference", json_of(row.difference)},
+                            {"p", number(row.p)},
+                            {"holm", number(row.p_holm)},
+                            {"evidence", json_of(row.evidence)},
+                            {"observers", row.observers}});
+    Json clusters = Json::array();
+    for (const TimeClusterRow& row : results.time_clusters) {
+        if (row.number > 0)
+            clusters.push_back({{"area", row.area},
+                                {"a", row.a},
+                                {"b", row.b},
+                                {"from", number(row.from_s)},
+                                {"to", number(row.to_s)},
+                                {"difference", number(row.difference)},
+                                {"p", number(row.p)},
+                                {"p_all", number(row.p_of_all)},
+                                {"least", number(row.least_p)},
+                                {"observers", row.observers}});
+    }
+    Json first = Json::array();
+    for (const FirstFixationsRow& row : results.first_fixations)
+        first.push_back({{"area", row.area},
+                         {"keys", json_of(row.keys)},
+                         {"number", row.number},
+                         {"at", json_of(row.at)},
+                         {"up_to", json_of(row.up_to)},
+                         {"observers", row.observers},
+                         {"trials", row.trials}});
+    Json ways = Json::array();
+    for (const ScanpathRow& row : results.scanpaths)
+        ways.push_back({{"keys", json_of(row.keys)},
+                        {"fixations", json_of(row.fixations)},
+                        {"fixation", json_of(row.fixation_s)},
+                        {"step_mm", json_of(row.step_mm)},
+                        {"step_deg", json_of(row.step_deg)},
+                        {"way", json_of(row.way_mm)},
+                        {"coverage", json_of(row.coverage)},
+                        {"effective", json_of(row.entropy)},
+                        {"recurrence", json_of(row.recurrence)},
+                        {"determinism", json_of(row.determinism)},
+                        {"distance", json_of(row.return_distance)},
+                        {"observers", row.observers},
+                        {"trials", row.trials}});
+    Json likeness = Json::array();
+    for (const ScanpathLikenessRow& row : results.scanpath_likeness)
+        likeness.push_back({{"measure", row.measure},
+                            {"keys", json_of(row.keys)},
+                            {"a", row.a},
+                            {"b", row.b},
+                            {"same", json_of(row.same_level)},
+                            {"other", json_of(row.other_level)},
+                            {"effect", json_of(row.level_effect)},
+                            {"shuffled", json_of(row.shuffled)},
+                            {"observers", row.observers}});
+    Json tables{{"measure_differences", measures},
+                {"time_clusters", clusters},
+                {"first_fixations", first},
+                {"ways", ways},
+                {"likeness", likeness},
+                {"surface_areas", areas},
                 {"surface_transitions", transitions},
                 {"area_pairs", area_pairs},
                 {"distributions", distributions},

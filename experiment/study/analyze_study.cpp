@@ -20,21 +20,26 @@
 #include "experiment/study/error_budget.h"
 #include "experiment/study/explorations.h"
 #include "experiment/study/factor_effects.h"
+#include "experiment/study/first_fixations.h"
 #include "experiment/study/fixation_maps.h"
 #include "experiment/study/gauge_reliefs.h"
 #include "experiment/study/gaze_motion.h"
 #include "experiment/study/light_at_gaze.h"
 #include "experiment/study/map_predictions.h"
 #include "experiment/study/map_reliability.h"
+#include "experiment/study/measure_differences.h"
 #include "experiment/study/methods/headline.h"
 #include "experiment/study/methods/methods_text.h"
 #include "experiment/study/methods/reporting.h"
 #include "experiment/study/point_distributions.h"
 #include "experiment/study/results/study_observers.h"
+#include "experiment/study/scanpath_likeness.h"
+#include "experiment/study/scanpaths.h"
 #include "experiment/study/screen_area_looks.h"
 #include "experiment/study/study_maps.h"
 #include "experiment/study/study_pairs.h"
 #include "experiment/study/surface_transitions.h"
+#include "experiment/study/time_clusters.h"
 
 namespace overt {
 
@@ -197,6 +202,18 @@ void remark_on_differences(StudyResults& results, const StudyOptions& options) {
             counted(most, "observer"), least_p, 6));
 }
 
+/// How gaze goes over the surfaces, and what else trials come to, between levels.
+void reckon_ways(ReadStudy& study, const ObjectFixationMaps& maps, const StudyOptions& options) {
+    StudyResults& results = study.results;
+    const ObjectDistances distances = surface_distances(results, study.surfaces);
+    const std::vector<TrialScanpath> scanpaths = trial_scanpaths(results, distances, maps);
+    results.scanpaths = scanpath_rows(results, scanpaths, study.levels, options);
+    results.scanpath_likeness = scanpath_likeness(results, distances, study.levels, options);
+    std::vector<MeasureOfTrials> measures = looking_measures(results);
+    std::ranges::move(scanpath_measures(scanpaths), std::back_inserter(measures));
+    results.measure_differences = measure_differences(results, measures, study.levels, options);
+}
+
 /// All that needs places on surfaces.
 void reckon_on_surfaces(ReadStudy& study, const StudyOptions& options, const StudyProgress& progress) {
     StudyResults& results = study.results;
@@ -205,10 +222,13 @@ void reckon_on_surfaces(ReadStudy& study, const StudyOptions& options, const Stu
     results.surface_transitions = surface_transitions(results, study.levels, options);
     results.distributions = point_distributions(results, study.surfaces, options);
     results.time_course = area_time_course(results, study.levels, options);
+    results.time_clusters = time_clusters(results, study.levels, options);
+    results.first_fixations = first_fixations(results, study.levels, options);
     progress("comparisons", 0, 1);
     const ObjectFixationMaps maps = fixation_maps(results, study.surfaces);
     results.pairs = study_pairs(results, study.surfaces, maps, study.levels, options);
     results.area_pairs = area_pairs(results, study.surfaces, study.levels, options);
+    reckon_ways(study, maps, options);
     progress("comparisons", 1, 1);
     progress("differences", 0, 1);
     results.differences = difference_maps(results, maps, study.levels, options);
@@ -218,7 +238,8 @@ void reckon_on_surfaces(ReadStudy& study, const StudyOptions& options, const Stu
     results.answer_maps = answer_maps(results, maps, options);
     progress("differences", 1, 1);
     progress("metrics", 0, 1);
-    results.predictions = map_predictions(results, maps, options);
+    results.predictions =
+        map_predictions(results, maps, options, model_maps(results, study.surfaces, options));
     results.reliabilities = map_reliabilities(results, maps, study.levels, options);
     add_fixations_to_exposures(results);
     results.effects = factor_effects(results, study.levels, options);

@@ -12,6 +12,7 @@
 #include "experiment/statistics/proportion.h"
 #include "experiment/study/area_looks.h"
 #include "experiment/study/read/area_evidence.h"
+#include "experiment/study/time_clusters.h"
 
 namespace overt {
 
@@ -80,13 +81,14 @@ AreaRow row_of_area(const StudyResults& results, const std::string& area, const 
     row.area = area;
     row.keys = keys;
     row.trials = static_cast<int>(trials.size());
-    std::vector<double> counts, durations, corrected;
+    std::vector<double> counts, durations;
+    std::vector<std::vector<AreaEvidence>> evidence; ///< by observer
     AreaSum pooled;
     std::map<int, int> on_objects;
     std::vector<std::vector<int>> trials_of_observers;
     for (auto& [observer, own] : by_observer(results, trials)) {
         AreaSum count, duration;
-        std::vector<AreaEvidence> evidence;
+        std::vector<AreaEvidence>& told_by_observer = evidence.emplace_back();
         for (const int trial : own) {
             const StudyTrial& of = results.trials[static_cast<std::size_t>(trial)];
             const Areas& areas = results.objects[static_cast<std::size_t>(of.object)].areas;
@@ -105,11 +107,9 @@ AreaRow row_of_area(const StudyResults& results, const std::string& area, const 
             for (std::size_t i = of.first_fixation; i < of.first_fixation + of.fixations; ++i) {
                 const std::vector<AreaEvidence>& told = results.fixations[i].evidence;
                 if (*index < told.size() && told[*index].tells())
-                    evidence.push_back(told[*index]);
+                    told_by_observer.push_back(told[*index]);
             }
         }
-        if (const std::optional<double> share = most_probable_share(evidence))
-            corrected.push_back(*share);
         if (count.share())
             counts.push_back(*count.share());
         if (duration.share())
@@ -121,7 +121,9 @@ AreaRow row_of_area(const StudyResults& results, const std::string& area, const 
     row.by_count = estimated_share(counts, options, no_fixation);
     row.of_observers = counts;
     row.by_duration = estimated_share(durations, options, no_fixation);
-    row.corrected = estimated_share(corrected, options, no_error);
+    row.corrected = estimated_share(shares_of_observers(evidence), options, no_error);
+    if (row.corrected.value)
+        row.corrected.value = std::clamp(*row.corrected.value, 0.0, 1.0);
     row.pooled = pooled.share();
     row.pooled_interval = wilson_interval(pooled.inside, pooled.all, options.confidence);
     add_baselines(row, results, on_objects);
@@ -190,13 +192,8 @@ std::vector<AreaRow> rows_of_figure_area(const StudyResults& results) {
 std::vector<TimeCourseRow> area_time_course(const StudyResults& results, const LevelLists& order,
                                             const StudyOptions& options) {
     std::vector<TimeCourseRow> rows;
-    double end_s = 0.0;
-    for (const StudyTrial& trial : results.trials)
-        end_s = std::max(end_s, trial.excluded ? 0.0 : trial.presentation_s);
-    // Recordings without a presentation can last an hour: the course of so many stretches tells nothing.
-    constexpr int most_stretches = 120;
-    const int stretches =
-        std::min(most_stretches, static_cast<int>(std::ceil(end_s / options.time_step_s - 1e-3)));
+    const double end_s = longest_presentation_s(results);
+    const int stretches = stretches_of_time(results, options.time_step_s);
     std::vector<std::string> columns;
     if (!results.by.empty())
         columns.push_back(results.by.front());

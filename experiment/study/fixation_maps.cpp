@@ -182,6 +182,25 @@ std::vector<double> FixationMaps::sum_at(std::span<const StudyFixation* const> f
     return found;
 }
 
+std::vector<double> FixationMaps::at_samples(std::span<const double> by_node) const {
+    std::vector<double> found;
+    for (const std::uint32_t node : samples_->nodes())
+        found.push_back(by_node[node]);
+    return found;
+}
+
+std::vector<double> FixationMaps::at_places(std::span<const double> by_node,
+                                            std::span<const StudyFixation* const> places) const {
+    std::vector<double> found;
+    for (const StudyFixation* place : places) {
+        double value = 0.0;
+        for (int corner = 0; corner < 3; ++corner)
+            value += place->barycentric[corner] * by_node[geometry().corners(*place->triangle)[corner]];
+        found.push_back(value);
+    }
+    return found;
+}
+
 std::vector<double> FixationMaps::exposure_at(std::span<const StudyFixation* const> places) const {
     std::vector<double> found;
     for (const StudyFixation* place : places)

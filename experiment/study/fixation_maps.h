@@ -47,6 +47,10 @@ class FixationMaps {
     /// What the sum of some fixations' maps has at the places of others.
     std::vector<double> sum_at(std::span<const StudyFixation* const> fixations,
                                std::span<const StudyFixation* const> places) const;
+    /// Numbers of the surface's nodes: by sample, and at the places of fixations.
+    std::vector<double> at_samples(std::span<const double> by_node) const;
+    std::vector<double> at_places(std::span<const double> by_node,
+                                  std::span<const StudyFixation* const> places) const;
     /// What the exposure has there.
     std::vector<double> exposure_at(std::span<const StudyFixation* const> places) const;
 

@@ -31,10 +31,8 @@ struct MotionSums {
     std::optional<double> corrected_gain() const {
         const double with = 2.0 * own_products - displaced_products,
                      way = 2.0 * own_squares - displaced_squares;
-        // Where little of the surface's way is left, nothing is told.
-        constexpr double least_share = 0.25;
-        return own_squares > 0.0 && way > least_share * own_squares ? std::optional(with / way)
-                                                                    : std::nullopt;
+        return own_squares > 0.0 && way > least_way_left * own_squares ? std::optional(with / way)
+                                                                       : std::nullopt;
     }
 };
 
@@ -46,7 +44,7 @@ GazeMotionRow motion_of(const StudyResults& results, const StudyGroup& group, co
         MotionSums sums;
         for (const int trial : trials) {
             for_each_counted(results, trial, [&](const StudyFixation& fixation) {
-                if (!(fixation.surface_way_deg2 > least_surface_way_deg2))
+                if (!sees_surface_move(fixation))
                     return;
                 sums.add(fixation);
                 ++row.fixations;
@@ -70,6 +68,10 @@ GazeMotionRow motion_of(const StudyResults& results, const StudyGroup& group, co
 }
 
 } // namespace
+
+bool sees_surface_move(const StudyFixation& fixation) {
+    return fixation.surface_way_deg2 > least_surface_way_deg2;
+}
 
 std::vector<GazeMotionRow> gaze_motions(const StudyResults& results, const LevelLists& levels,
                                         const StudyOptions& options) {

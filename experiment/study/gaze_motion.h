@@ -8,6 +8,13 @@
 
 namespace overt {
 
+/// Whether the surface under a fixation moved enough on the screen to tell anything.
+bool sees_surface_move(const StudyFixation& fixation);
+
+/// Of the squares of the surface's way this share must be left without the tracker's error, or no corrected
+/// gain is told.
+inline constexpr double least_way_left = 0.25;
+
 /// The gain of gaze along the motion of the surface: of each observer the sum over counted fixations of the
 /// products of gaze's way and the surface point's way on the screen (both from their means over the fixation,
 /// weighted by duration), divided by that of the squares of the point's way. It is the slope of the line

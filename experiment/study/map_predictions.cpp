@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
+#include <numeric>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -145,12 +147,57 @@ class Predictors {
     std::vector<std::vector<double>> there_; ///< what each observer's map has at the fixations
 };
 
-/// A row to be made, and the group whose fixations predict; null: the exposure.
+/// A model's map on one object, as probable gaze.
+struct ModelDensity {
+    std::string name;
+    std::vector<double> by_node;
+    std::vector<double> density; ///< by sample; its integral over what is visible is 1
+};
+
+/// Of so small a share a model's prediction is the exposure: where a model has 0, a fixation would cost 50
+/// bits.
+constexpr double exposure_in_models = 0.01;
+
+/// The model by itself, and times the exposure: gaze cannot go where nothing is seen.
+std::vector<ModelDensity> densities_of(const ModelMap& model, const FixationMaps& maps) {
+    std::vector<ModelDensity> found;
+    const std::vector<double> at_samples = maps.at_samples(model.by_node);
+    for (const bool is_exposed : {false, true}) {
+        ModelDensity one{model.name + (is_exposed ? " x exposure" : ""), model.by_node, at_samples};
+        for (std::size_t i = 0; is_exposed && i < one.density.size(); ++i)
+            one.density[i] *= maps.exposure()[i];
+        const double all = integral(one.density, maps.visible_areas());
+        if (!(all > 0.0))
+            continue;
+        for (double& value : one.by_node)
+            value /= all;
+        for (std::size_t i = 0; i < one.density.size(); ++i)
+            one.density[i] =
+                (1.0 - exposure_in_models) * one.density[i] / all + exposure_in_models * maps.exposure()[i];
+        found.push_back(std::move(one));
+    }
+    return found;
+}
+
+PredictingMap predicting_map(const ModelDensity& model, bool is_exposed, const Fixations& fixations,
+                             const FixationMaps& maps) {
+    PredictingMap map{model.density, maps.at_places(model.by_node, fixations)};
+    const std::vector<double> exposure = maps.exposure_at(fixations);
+    for (std::size_t i = 0; i < exposure.size(); ++i)
+        map.at_fixations[i] =
+            (1.0 - exposure_in_models) * map.at_fixations[i] * (is_exposed ? exposure[i] : 1.0) +
+            exposure_in_models * exposure[i];
+    return map;
+}
+
+/// A row to be made, and the group whose fixations predict; null: the exposure, or a model.
 struct Prediction {
     MapPredictionRow row;
     const GroupMaps* told;
     const GroupMaps* by;
+    const ModelDensity* model; ///< that predicts; null: none
     std::vector<Scores> scores;
+    std::vector<std::string> observers; ///< whose scores these are
     /// By observer who is left out, of those who tell or are told: means of the scores that need no sorting.
     std::vector<Scores> without;
 };
@@ -193,11 +240,15 @@ void reckon_prediction(Prediction& of, const FixationMaps& maps, std::uint64_t s
         PredictingMap predicting{{maps.exposure().begin(), maps.exposure().end()}, {}};
         if (of.by)
             predicting = predictors.emplace_back(*of.by, observer, maps).without(observer.observer);
+        else if (of.model)
+            predicting =
+                predicting_map(*of.model, of.model->name.ends_with(" x exposure"), observer.fixations, maps);
         else
             predicting.at_fixations = maps.exposure_at(observer.fixations);
         if (predicting.density.empty())
             continue;
-        of.scores.push_back(scores_of(observer, predicting, maps, !of.by));
+        of.observers.push_back(observer.observer);
+        of.scores.push_back(scores_of(observer, predicting, maps, !of.by && !of.model));
         add_areas_under_curves(of.scores.back(), predicting, maps, seed);
     }
     if (of.by)
@@ -233,7 +284,7 @@ void finish_row(Prediction& of, const StudyOptions& options) {
             if (scores.values[i])
                 values.push_back(*scores.values[i]);
         }
-        const bool is_of_itself = !of.by && estimates[i] == &row.gain_over_exposure;
+        const bool is_of_itself = !of.by && !of.model && estimates[i] == &row.gain_over_exposure;
         *estimates[i] = estimated_mean(values, options.bootstrap(),
                                        is_of_itself ? "the exposure is the baseline itself" : absent);
         if (of.by && i < Scores::without_sorting && estimates[i]->value)
@@ -241,10 +292,46 @@ void finish_row(Prediction& of, const StudyOptions& options) {
     }
 }
 
+/// The gain over even gaze as a share of that of the other observers' map: of the observers who have both.
+void add_share_of_ceiling(Prediction& of, const Prediction& ceiling, const StudyOptions& options) {
+    constexpr std::size_t gain_over_area = 3;
+    std::vector<std::pair<double, double>> gains; ///< of this, and of the ceiling
+    for (std::size_t i = 0; i < of.scores.size(); ++i) {
+        const auto found = std::ranges::find(ceiling.observers, of.observers[i]);
+        if (found == ceiling.observers.end())
+            continue;
+        const auto& own = of.scores[i].values[gain_over_area];
+        const auto& most = ceiling.scores[static_cast<std::size_t>(found - ceiling.observers.begin())]
+                               .values[gain_over_area];
+        if (own && most)
+            gains.emplace_back(*own, *most);
+    }
+    const StatisticOf share = [&](std::span<const std::uint32_t> chosen) -> std::optional<double> {
+        double own = 0.0, most = 0.0;
+        for (const std::uint32_t i : chosen) {
+            own += gains[i].first;
+            most += gains[i].second;
+        }
+        return most > 0.0 ? std::optional(own / most) : std::nullopt;
+    };
+    std::vector<std::uint32_t> all(gains.size());
+    std::iota(all.begin(), all.end(), 0u);
+    const std::optional<double> value = gains.empty() ? std::nullopt : share(all);
+    if (!value) {
+        of.row.share_of_ceiling = Estimate::none("other observers' maps tell no more than even gaze");
+        return;
+    }
+    of.row.share_of_ceiling = Estimate::of(*value);
+    if (&of != &ceiling)
+        of.row.share_of_ceiling.interval =
+            bootstrap_interval(static_cast<std::uint32_t>(gains.size()), share, options.bootstrap());
+}
+
 } // namespace
 
 std::vector<MapPredictionRow> map_predictions(const StudyResults& results, const ObjectFixationMaps& maps,
-                                              const StudyOptions& options) {
+                                              const StudyOptions& options,
+                                              const std::vector<ModelMap>& models) {
     std::vector<MapPredictionRow> rows;
     for (int object = 0; object < static_cast<int>(maps.size()); ++object) {
         const FixationMaps* own = maps[static_cast<std::size_t>(object)].get();
@@ -257,14 +344,20 @@ std::vector<MapPredictionRow> map_predictions(const StudyResults& results, const
             if (std::binary_search(shown.begin(), shown.end(), object))
                 groups.push_back(maps_of_group(results, group, object, *own, options.compare));
         }
+        std::vector<ModelDensity> densities;
+        for (const ModelMap& model : models) {
+            if (model.object == object)
+                std::ranges::move(densities_of(model, *own), std::back_inserter(densities));
+        }
         std::vector<Prediction> predictions;
-        const auto add = [&](const GroupMaps& told, MapPredictor by, const GroupMaps* from) {
+        const auto add = [&](const GroupMaps& told, MapPredictor by, const GroupMaps* from,
+                             const ModelDensity* model = nullptr) {
             MapPredictionRow row;
             row.group = told.group;
             row.object = object;
             row.by = by;
-            row.level = from ? from->level : "";
-            predictions.push_back({std::move(row), &told, from, {}, {}});
+            row.level = from ? from->level : model ? model->name : "";
+            predictions.push_back({std::move(row), &told, from, model, {}, {}, {}});
         };
         for (const GroupMaps& told : groups) {
             add(told, MapPredictor::same_level, &told);
@@ -273,14 +366,21 @@ std::vector<MapPredictionRow> map_predictions(const StudyResults& results, const
                     add(told, MapPredictor::other_level, &other);
             }
             add(told, MapPredictor::exposure, nullptr);
+            for (const ModelDensity& model : densities)
+                add(told, MapPredictor::model, nullptr, &model);
         }
         parallel_for(static_cast<int>(predictions.size()), [&](int i) {
             reckon_prediction(predictions[static_cast<std::size_t>(i)], *own, options.seed);
         });
-        for (Prediction& prediction : predictions) {
-            finish_row(prediction, options);
-            rows.push_back(std::move(prediction.row));
+        std::size_t ceiling = 0; // of each group it comes first
+        for (std::size_t i = 0; i < predictions.size(); ++i) {
+            if (predictions[i].row.by == MapPredictor::same_level)
+                ceiling = i;
+            finish_row(predictions[i], options);
+            add_share_of_ceiling(predictions[i], predictions[ceiling], options);
         }
+        for (Prediction& prediction : predictions)
+            rows.push_back(std::move(prediction.row));
     }
     std::stable_sort(rows.begin(), rows.end(), [](const MapPredictionRow& a, const MapPredictionRow& b) {
         return std::tie(a.group, a.object) < std::tie(b.group, b.object);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "experiment/study/fixation_maps.h"
+#include "experiment/study/model_maps.h"
 
 namespace overt {
 
@@ -16,7 +17,14 @@ namespace overt {
 /// n + 1: gaze can go where few fixations have never been, and without that one such fixation would cost 50
 /// bits. The rest is as in map_similarity.h and area_under_curve.h, over the places that could be seen.
 /// Fixations count alike. `results.groups` must have been made.
+///
+/// Of each of the models two rows more: its density as it is, and times that of the exposure, since gaze
+/// cannot go where nothing is seen; both with a hundredth of the exposure, for where a model has 0. The
+/// ceiling of all predictions is the other observers' map of the same group: `share_of_ceiling` is a row's
+/// gain over even gaze divided by its, of the observers who have both (Kümmerer, Wallis and Bethge, PNAS 112,
+/// 2015, 16054-16059).
 std::vector<MapPredictionRow> map_predictions(const StudyResults& results, const ObjectFixationMaps& maps,
-                                              const StudyOptions& options);
+                                              const StudyOptions& options,
+                                              const std::vector<ModelMap>& models = {});
 
 } // namespace overt

@@ -77,6 +77,12 @@ Estimate within(Estimate estimate, double least, double most) {
 
 } // namespace
 
+TransitionCount transitions_between(const StudyResults& results, int trial, const std::string& from,
+                                    const std::string& to) {
+    const TransitionCounts counts = counts_between(results, part_transitions(results, {trial}), from, to);
+    return {counts.from_to, counts.from};
+}
+
 std::vector<SurfaceTransitionRow> surface_transitions(const StudyResults& results, const LevelLists& order,
                                                       const StudyOptions& options) {
     std::vector<SurfaceTransitionRow> rows;

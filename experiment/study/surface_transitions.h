@@ -1,12 +1,21 @@
 /// How gaze goes from area to area, beside what the areas' shares alone would give.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "experiment/study/results/study_groups.h"
 #include "experiment/study/results/study_options.h"
 
 namespace overt {
+
+/// Of a trial, from one area to another or the same: as the rows below count them.
+struct TransitionCount {
+    int to = 0;         ///< from the first to the second
+    int departures = 0; ///< from the first to any
+};
+TransitionCount transitions_between(const StudyResults& results, int trial, const std::string& from,
+                                    const std::string& to);
 
 /// For all trials, and each level of each column of the groups: one row for each ordered pair of areas,
 /// staying included. A transition is from a counted fixation to the next one of the trial; a fixation beside

@@ -50,8 +50,8 @@ void add_areas(std::string& text, const StudyResults& results) {
     if (std::ranges::any_of(results.area_rows, has(&AreaRow::corrected)))
         add_sentence(text,
                      "the corrected shares have the eye tracker's error taken out: they are those under "
-                     "which the measured places are most probable, given the error of the validation "
-                     "before each trial");
+                     "which the measured places are most probable, where the fixations of a trial share an "
+                     "error that is as large as the validation before it says");
 }
 
 /// After the sentences on pairs.
@@ -95,6 +95,22 @@ void add_pairs(std::string& text, const StudyResults& results) {
             "all groups are corrected apart");
 }
 
+/// After the sentences on pairs, of which there are some then.
+void add_measures(std::string& text, const StudyResults& results) {
+    if (results.measure_differences.empty())
+        return;
+    add_sentence(
+        text, fmt::format("other measures of trials, such as dwell, first arrival, transitions and ways "
+                          "along the surface, were compared between levels of {} within observers, on the "
+                          "same object with all else alike, and tested by flipping the signs of observers' "
+                          "differences",
+                          results.measure_differences.front().column));
+    if (std::ranges::any_of(results.time_clusters, [](const TimeClusterRow& row) { return row.number > 0; }))
+        add_sentence(text,
+                     "when levels differ was tested by clusters of successive stretches of time, with the "
+                     "signs of whole observers flipped");
+}
+
 void add_intervals(std::string& text, const StudyResults& results, const StudyOptions& options) {
     const double percent = 100.0 * options.confidence;
     if (results.glance.observers < 3) {
@@ -117,6 +133,7 @@ std::string statistics_text(const StudyResults& results, const StudyOptions& opt
     add_areas(text, results);
     add_pairs(text, results);
     add_area_pairs(text, results);
+    add_measures(text, results);
     add_intervals(text, results, options);
     add_sentence(text, fmt::format("all that was drawn at random follows from the seed {}", options.seed));
     return text;

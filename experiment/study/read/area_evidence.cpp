@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <numbers>
+#include <numeric>
 
 #include "experiment/base/parallel.h"
 #include "experiment/maps/sight_lines.h"
@@ -13,8 +15,12 @@ namespace overt {
 
 namespace {
 
-/// On the shipped sculptures cells are 0.2 degrees apart in the picture, less than the error of any tracker.
-constexpr std::size_t cell_count = 4000;
+/// On the shipped sculptures the most cells are 0.2 degrees apart in the picture, less than the error of any
+/// tracker.
+constexpr std::size_t most_cells = 4000, least_cells = 1000;
+
+/// Cells need not be smaller than this share of the tracker's standard error.
+constexpr double cell_sigmas = 0.35;
 
 /// A tracker with smaller errors than this share of a cell's width is taken to have this one.
 constexpr double least_sigma_cells = 0.6;
@@ -26,6 +32,48 @@ constexpr std::size_t least_fixations = 20;
 /// fitted.
 constexpr int em_steps = 60;
 
+/// Shares of an area that a trial may have; how probable each is follows from all trials.
+constexpr std::array<double, 8> trial_shares{0.01, 0.1, 0.25, 0.4, 0.55, 0.7, 0.85, 0.99};
+
+/// Errors of a trial that are less probable than this are left out of the steps until all are asked again.
+constexpr double least_probable = 1e-4;
+constexpr int steps_between_all = 10;
+
+/// A place may be anywhere with so small a part of its peak's density: no single fixation rules an error of
+/// its trial out.
+constexpr double astray_density = 1e-4;
+
+/// A hexagon of places in a grid of triangles, out to 3 standard deviations, with the weights of a normal
+/// distribution whose width gives what the rest leaves of the variance along each axis.
+std::vector<TrialError> make_trial_errors() {
+    constexpr double step = 0.75, variance = 1.0 - trial_error_rest * trial_error_rest;
+    std::vector<glm::dvec2> places;
+    constexpr int rings = 4;
+    for (int a = -rings; a <= rings; ++a) {
+        for (int b = -rings; b <= rings; ++b) {
+            if (std::abs(a + b) <= rings)
+                places.push_back(step * glm::dvec2(a + 0.5 * b, 0.5 * std::numbers::sqrt3 * b));
+        }
+    }
+    std::vector<TrialError> errors;
+    double low = 0.1, high = 10.0;
+    for (int halving = 0; halving < 60; ++halving) {
+        const double width = 0.5 * (low + high);
+        errors.clear();
+        double sum = 0.0, squares = 0.0;
+        for (const glm::dvec2& place : places) {
+            const double weight = std::exp(-0.5 * glm::dot(place, place) / width);
+            errors.push_back({place, weight});
+            sum += weight;
+            squares += 0.5 * weight * glm::dot(place, place);
+        }
+        for (TrialError& error : errors)
+            error.probability /= sum;
+        (squares / sum < variance ? low : high) = width;
+    }
+    return errors;
+}
+
 /// Points of the surface that stand for equal areas about them.
 struct Cells {
     std::vector<glm::dvec3> positions;
@@ -33,7 +81,7 @@ struct Cells {
     double width = 0.0; ///< of a square of a cell's area, in the mesh's unit
 };
 
-Cells cells_of(const Mesh& mesh) {
+Cells cells_of(const Mesh& mesh, double width) {
     std::vector<double> up_to; // area up to and with each triangle
     double all = 0.0;
     const auto corner = [&](glm::uvec3 triangle, int i) { return glm::dvec3(mesh.positions[triangle[i]]); };
@@ -42,9 +90,11 @@ Cells cells_of(const Mesh& mesh) {
         up_to.push_back(all);
     }
     Cells cells;
-    cells.width = std::sqrt(all / cell_count);
-    for (std::size_t i = 0; i < cell_count; ++i) {
-        const double area = all * (static_cast<double>(i) + 0.5) / cell_count;
+    const auto count = static_cast<std::size_t>(
+        std::clamp(all / (width * width), static_cast<double>(least_cells), static_cast<double>(most_cells)));
+    cells.width = std::sqrt(all / static_cast<double>(count));
+    for (std::size_t i = 0; i < count; ++i) {
+        const double area = all * (static_cast<double>(i) + 0.5) / static_cast<double>(count);
         const auto found = std::upper_bound(up_to.begin(), up_to.end() - 1, area);
         const auto triangle = static_cast<std::size_t>(found - up_to.begin());
         // Evenly over the triangle: the square root of one coordinate, the other by the golden ratio.
@@ -66,6 +116,17 @@ struct Candidate {
     float density; ///< of the measured place, per px^2
 };
 
+/// Of a fixation, given each error of its trial.
+struct Candidates {
+    std::vector<Candidate> all;
+    std::vector<std::uint32_t> begin; ///< by error, and the end; empty: the fixation tells nothing
+    double astray = 0.0;              ///< per px^2, of a place that has to do with none of them
+    bool tell() const { return !begin.empty(); }
+    std::span<const Candidate> of(std::size_t error) const {
+        return std::span(all).subspan(begin[error], begin[error + 1] - begin[error]);
+    }
+};
+
 /// One pose's picture of the cells.
 struct PosePicture {
     std::vector<std::uint32_t> visible;
@@ -78,8 +139,8 @@ class LookedAt {
   public:
     LookedAt(const Mesh& mesh, const SceneView& scene, std::span<const ObjectPose> poses,
              std::span<const MeasuredPlace> fixations)
-        : cells_(cells_of(mesh)), fixations_(fixations), pictures_(poses.size()),
-          candidates_(fixations.size()) {
+        : cells_(cells_of(mesh, cell_width(mesh, scene, poses.front(), fixations))), fixations_(fixations),
+          pictures_(poses.size()), candidates_(fixations.size()) {
         std::vector<std::uint8_t> is_used(poses.size(), 0);
         for (const MeasuredPlace& fixation : fixations)
             is_used[static_cast<std::size_t>(fixation.pose.value)] = 1;
@@ -94,17 +155,27 @@ class LookedAt {
     }
 
     std::size_t told() const {
-        return static_cast<std::size_t>(
-            std::ranges::count_if(candidates_, [](const auto& of) { return !of.empty(); }));
+        return static_cast<std::size_t>(std::ranges::count_if(candidates_, &Candidates::tell));
     }
     const Cells& cells() const { return cells_; }
     const std::vector<PosePicture>& pictures() const { return pictures_; }
-    const std::vector<std::vector<Candidate>>& candidates() const { return candidates_; } ///< by fixation
+    const std::vector<Candidates>& candidates() const { return candidates_; } ///< by fixation
+    int trial_of(std::size_t fixation) const { return fixations_[fixation].trial; }
     std::size_t pose_of(std::size_t fixation) const {
         return static_cast<std::size_t>(fixations_[fixation].pose.value);
     }
 
   private:
+    /// In the mesh's unit, from the most exact of the fixations.
+    static double cell_width(const Mesh& mesh, const SceneView& scene, const ObjectPose& pose,
+                             std::span<const MeasuredPlace> fixations) {
+        double least_px = 1e300;
+        for (const MeasuredPlace& fixation : fixations)
+            least_px = std::min({least_px, fixation.sigma_px.x, fixation.sigma_px.y});
+        const SightLines lines(scene, pose);
+        return cell_sigmas * least_px * lines.pixel_width_at(lines.project(mesh.bounds().centre()).z);
+    }
+
     void draw(PosePicture& picture, const SightLines& lines, const RayCaster& rays, glm::ivec2 size) const {
         for (std::uint32_t cell = 0; cell < cells_.positions.size(); ++cell) {
             const glm::dvec3 seen = lines.project(cells_.positions[cell]);
@@ -123,29 +194,42 @@ class LookedAt {
         const MeasuredPlace& fixation = fixations_[index];
         const PosePicture& picture = pictures_[static_cast<std::size_t>(fixation.pose.value)];
         // Anything of a cell may have been looked at, and between the pictures of two cells there is no gap.
-        const glm::dvec2 sigma = glm::max(
-            glm::sqrt(fixation.sigma_px * fixation.sigma_px + picture.cell_px * picture.cell_px / 12.0),
-            glm::dvec2(least_sigma_cells * picture.cell_px));
-        const double peak = 1.0 / (2.0 * std::numbers::pi * sigma.x * sigma.y);
+        const auto widened = [&](const glm::dvec2& sigma_px) {
+            return glm::max(glm::sqrt(sigma_px * sigma_px + picture.cell_px * picture.cell_px / 12.0),
+                            glm::dvec2(least_sigma_cells * picture.cell_px));
+        };
+        const glm::dvec2 whole = widened(fixation.sigma_px),
+                         rest = widened(trial_error_rest * fixation.sigma_px);
         double nearest = 1e300;
-        std::vector<Candidate>& found = candidates_[index];
-        // Beyond four sigmas lie 0.03 % of errors.
-        constexpr double negligible = 4.0 * 4.0;
-        for (std::size_t i = 0; i < picture.visible.size(); ++i) {
-            const glm::dvec2 off = (fixation.image_px - picture.places[i]) / sigma;
-            const double squares = glm::dot(off, off);
-            nearest = std::min(nearest, squares);
-            if (squares < negligible)
-                found.push_back({picture.visible[i], static_cast<float>(peak * std::exp(-0.5 * squares))});
+        for (const glm::dvec2& place : picture.places) {
+            const glm::dvec2 off = (fixation.image_px - place) / whole;
+            nearest = std::min(nearest, glm::dot(off, off));
         }
         if (nearest > farthest_sigmas * farthest_sigmas)
-            found.clear();
+            return;
+        const double peak = 1.0 / (2.0 * std::numbers::pi * rest.x * rest.y);
+        Candidates& found = candidates_[index];
+        found.astray = astray_density * peak;
+        // Beyond 3.5 sigmas lie 0.2 % of errors.
+        constexpr double negligible = 3.5 * 3.5;
+        for (const TrialError& error : trial_errors()) {
+            found.begin.push_back(static_cast<std::uint32_t>(found.all.size()));
+            const glm::dvec2 meant = fixation.image_px - error.sigmas * fixation.sigma_px;
+            for (std::size_t i = 0; i < picture.visible.size(); ++i) {
+                const glm::dvec2 off = (meant - picture.places[i]) / rest;
+                const double squares = glm::dot(off, off);
+                if (squares < negligible)
+                    found.all.push_back(
+                        {picture.visible[i], static_cast<float>(peak * std::exp(-0.5 * squares))});
+            }
+        }
+        found.begin.push_back(static_cast<std::uint32_t>(found.all.size()));
     }
 
     Cells cells_;
     std::span<const MeasuredPlace> fixations_;
     std::vector<PosePicture> pictures_; ///< by pose
-    std::vector<std::vector<Candidate>> candidates_;
+    std::vector<Candidates> candidates_;
 };
 
 /// Of one area.
@@ -163,21 +247,55 @@ class Deconvolution {
 
     void climb() {
         weights_.assign(is_inside_.size(), 1.0);
-        share_ = 0.5;
+        share_probabilities_.fill(1.0 / trial_shares.size());
+        find_trials();
         for (int step = 0; step < em_steps; ++step)
-            climb_once();
+            climb_once(step % steps_between_all == 0);
     }
 
     /// By fixation.
-    std::vector<AreaEvidence> evidence() const {
+    std::vector<AreaEvidence> evidence() {
         const std::vector<std::array<double, 2>> seen = seen_weights();
         std::vector<AreaEvidence> found(looks_.candidates().size());
-        for (std::size_t i = 0; i < found.size(); ++i)
-            found[i] = evidence_of(i, seen);
+        TrialLikelihood likelihood;
+        for (Trial& trial : trials_) {
+            ask(likelihood, trial, true, seen);
+            for (std::size_t i = trial.begin; i < trial.end; ++i)
+                found[i] = evidence_beside_others(likelihood, trial, i);
+        }
         return found;
     }
 
   private:
+    /// What a fixation's place is like, given an error of its trial, if the area was looked at, and if not.
+    struct Given {
+        double inside = 0.0, elsewhere = 0.0;
+        double with(double share, double astray) const {
+            return share * inside + (1.0 - share) * elsewhere + astray;
+        }
+    };
+
+    /// Fixations from begin to end.
+    struct Trial {
+        std::size_t begin = 0, end = 0;
+        std::vector<std::size_t> errors; ///< those that are not improbable
+    };
+
+    struct TrialLikelihood {
+        std::vector<Given> given;     ///< by fixation and error
+        std::vector<double> probable; ///< by error and share, given all fixations; their sum is 1
+    };
+
+    void find_trials() {
+        const std::size_t fixations = looks_.candidates().size();
+        trials_.clear();
+        for (std::size_t begin = 0, end = 0; begin < fixations; begin = end) {
+            while (end < fixations && looks_.trial_of(end) == looks_.trial_of(begin))
+                ++end;
+            trials_.push_back({begin, end, {}});
+        }
+    }
+
     /// By pose: weight of the area's cells that are seen in it, and of the others.
     std::vector<std::array<double, 2>> seen_weights() const {
         const std::vector<PosePicture>& pictures = looks_.pictures();
@@ -189,41 +307,103 @@ class Deconvolution {
         return seen;
     }
 
-    AreaEvidence evidence_of(std::size_t index, const std::vector<std::array<double, 2>>& seen) const {
+    Given given(std::size_t index, std::size_t error, const std::vector<std::array<double, 2>>& seen) const {
         std::array<double, 2> sums{0.0, 0.0};
-        for (const Candidate& candidate : looks_.candidates()[index])
+        for (const Candidate& candidate : looks_.candidates()[index].of(error))
             sums[is_inside_[candidate.cell]] += weights_[candidate.cell] * candidate.density;
         const auto& of_pose = seen[looks_.pose_of(index)];
         return {of_pose[1] > 0.0 ? sums[1] / of_pose[1] : 0.0, of_pose[0] > 0.0 ? sums[0] / of_pose[0] : 0.0};
     }
 
+    /// Of all errors, which tells those that are probable, or of these.
+    void ask(TrialLikelihood& likelihood, Trial& trial, bool all,
+             const std::vector<std::array<double, 2>>& seen) const {
+        const std::span<const TrialError> errors = trial_errors();
+        if (all) {
+            trial.errors.resize(errors.size());
+            std::iota(trial.errors.begin(), trial.errors.end(), std::size_t{0});
+        }
+        likelihood.given.assign((trial.end - trial.begin) * errors.size(), {});
+        std::vector<double>& probable = likelihood.probable;
+        probable.assign(errors.size() * trial_shares.size(), 0.0);
+        for (const std::size_t error : trial.errors) {
+            for (std::size_t share = 0; share < trial_shares.size(); ++share)
+                probable[error * trial_shares.size() + share] =
+                    errors[error].probability * share_probabilities_[share];
+        }
+        constexpr std::size_t before_scaled = 12; // factors are no less than astray_density
+        for (std::size_t i = trial.begin; i < trial.end; ++i) {
+            const Candidates& candidates = looks_.candidates()[i];
+            if (!candidates.tell())
+                continue;
+            const double scale = astray_density / candidates.astray;
+            for (const std::size_t error : trial.errors) {
+                const Given of = likelihood.given[(i - trial.begin) * errors.size() + error] =
+                    given(i, error, seen);
+                double* const own = &probable[error * trial_shares.size()];
+                for (std::size_t share = 0; share < trial_shares.size(); ++share)
+                    own[share] *= scale * of.with(trial_shares[share], candidates.astray);
+            }
+            if ((i - trial.begin) % before_scaled == before_scaled - 1)
+                divide_by_sum(probable);
+        }
+        divide_by_sum(probable);
+        std::erase_if(trial.errors, [&](std::size_t error) {
+            const auto own = probable.begin() + static_cast<std::ptrdiff_t>(error * trial_shares.size());
+            return all && std::accumulate(own, own + trial_shares.size(), 0.0) < least_probable;
+        });
+    }
+
+    static void divide_by_sum(std::vector<double>& values) {
+        const double sum = std::accumulate(values.begin(), values.end(), 0.0);
+        for (double& value : values)
+            value /= sum;
+    }
+
+    /// Given what the other fixations of the trial leave probable of its error.
+    AreaEvidence evidence_beside_others(const TrialLikelihood& likelihood, const Trial& trial,
+                                        std::size_t fixation) const {
+        const Candidates& candidates = looks_.candidates()[fixation];
+        if (!candidates.tell())
+            return {};
+        AreaEvidence evidence;
+        double all = 0.0;
+        for (std::size_t error = 0; error < trial_errors().size(); ++error) {
+            const Given& of = likelihood.given[(fixation - trial.begin) * trial_errors().size() + error];
+            double others = 0.0;
+            for (std::size_t share = 0; share < trial_shares.size(); ++share)
+                others += likelihood.probable[error * trial_shares.size() + share] /
+                          of.with(trial_shares[share], candidates.astray);
+            all += others;
+            evidence.inside += others * of.inside;
+            evidence.elsewhere += others * of.elsewhere;
+        }
+        return {evidence.inside / all, evidence.elsewhere / all};
+    }
+
     /// One step of EM. A cell's new weight is what it is held responsible for, divided by what it would be if
     /// all seen cells of its part were looked at evenly: in how many fixations it could be seen.
-    void climb_once() {
+    void climb_once(bool of_all_errors) {
         const std::vector<std::array<double, 2>> seen = seen_weights();
         std::vector<double> responsible(weights_.size(), 0.0);
         std::vector<std::array<double, 2>> of_pose(looks_.pictures().size(), {0.0, 0.0});
-        double inside = 0.0, all = 0.0;
-        const std::vector<std::vector<Candidate>>& candidates = looks_.candidates();
-        for (std::size_t i = 0; i < candidates.size(); ++i) {
-            if (candidates[i].empty())
-                continue;
-            const std::size_t pose = looks_.pose_of(i);
-            const std::array<double, 2> shares{1.0 - share_, share_};
-            const AreaEvidence evidence = evidence_of(i, seen);
-            const double total = shares[1] * evidence.inside + shares[0] * evidence.elsewhere;
-            if (!(total > 0.0))
-                continue;
-            for (const Candidate& candidate : candidates[i]) {
-                const std::uint8_t part = is_inside_[candidate.cell];
-                responsible[candidate.cell] +=
-                    shares[part] * weights_[candidate.cell] * candidate.density / (seen[pose][part] * total);
+        std::array<double, trial_shares.size()> of_shares{};
+        TrialLikelihood likelihood;
+        for (Trial& trial : trials_) {
+            ask(likelihood, trial, of_all_errors, seen);
+            for (std::size_t i = 0; i < likelihood.probable.size(); ++i)
+                of_shares[i % of_shares.size()] += likelihood.probable[i];
+            for (std::size_t i = trial.begin; i < trial.end; ++i) {
+                if (!looks_.candidates()[i].tell())
+                    continue;
+                for (const std::size_t error : trial.errors)
+                    hold_responsible(
+                        i, error, likelihood.given[(i - trial.begin) * trial_errors().size() + error],
+                        &likelihood.probable[error * trial_shares.size()], seen, responsible, of_pose);
             }
-            of_pose[pose][1] += shares[1] * evidence.inside / total;
-            of_pose[pose][0] += shares[0] * evidence.elsewhere / total;
-            inside += shares[1] * evidence.inside / total;
-            all += 1.0;
         }
+        for (std::size_t share = 0; share < of_shares.size(); ++share)
+            share_probabilities_[share] = of_shares[share] / static_cast<double>(trials_.size());
         std::vector<double> could(weights_.size(), 0.0);
         for (std::size_t pose = 0; pose < looks_.pictures().size(); ++pose) {
             for (const std::uint32_t cell : looks_.pictures()[pose].visible) {
@@ -234,16 +414,43 @@ class Deconvolution {
         }
         for (std::size_t cell = 0; cell < weights_.size(); ++cell)
             weights_[cell] = could[cell] > 0.0 ? responsible[cell] / could[cell] : 0.0;
-        share_ = all > 0.0 ? inside / all : 0.5;
+    }
+
+    /// Of a fixation, as probable as an error of its trial is, with each share.
+    void hold_responsible(std::size_t fixation, std::size_t error, const Given& given, const double* probable,
+                          const std::vector<std::array<double, 2>>& seen, std::vector<double>& responsible,
+                          std::vector<std::array<double, 2>>& of_pose) const {
+        const Candidates& candidates = looks_.candidates()[fixation];
+        std::array<double, 2> factors{0.0, 0.0}; // elsewhere, inside
+        for (std::size_t i = 0; i < trial_shares.size(); ++i) {
+            const double share = trial_shares[i];
+            const double by = probable[i] / given.with(share, candidates.astray);
+            factors[1] += by * share;
+            factors[0] += by * (1.0 - share);
+        }
+        const std::size_t pose = looks_.pose_of(fixation);
+        of_pose[pose][1] += factors[1] * given.inside;
+        of_pose[pose][0] += factors[0] * given.elsewhere;
+        for (std::size_t part : {std::size_t{0}, std::size_t{1}})
+            factors[part] = seen[pose][part] > 0.0 ? factors[part] / seen[pose][part] : 0.0;
+        for (const Candidate& candidate : candidates.of(error))
+            responsible[candidate.cell] +=
+                factors[is_inside_[candidate.cell]] * weights_[candidate.cell] * candidate.density;
     }
 
     const LookedAt& looks_;
     std::vector<std::uint8_t> is_inside_; ///< by cell
     std::vector<double> weights_;         ///< by cell
-    double share_ = 0.5;
+    std::array<double, trial_shares.size()> share_probabilities_{};
+    std::vector<Trial> trials_;
 };
 
 } // namespace
+
+std::span<const TrialError> trial_errors() {
+    static const std::vector<TrialError> errors = make_trial_errors();
+    return errors;
+}
 
 std::vector<std::vector<AreaEvidence>> area_evidence(const Mesh& mesh, const Areas& areas,
                                                      const SceneView& scene,
@@ -302,6 +509,44 @@ std::optional<double> most_probable_share(std::span<const AreaEvidence> fixation
         (slope(middle) > 0.0 ? low : high) = middle;
     }
     return 0.5 * (low + high);
+}
+
+std::vector<double> shares_of_observers(std::span<const std::vector<AreaEvidence>> observers) {
+    std::vector<AreaEvidence> all;
+    for (const std::vector<AreaEvidence>& own : observers)
+        std::ranges::copy_if(own, std::back_inserter(all), &AreaEvidence::tells);
+    const std::optional<double> most_probable = most_probable_share(all);
+    if (!most_probable)
+        return {};
+    // At an end what a single fixation says could have any size.
+    const double share = std::clamp(*most_probable, 0.02, 0.98);
+    struct Score {
+        double sum = 0.0, squares = 0.0, fixations = 0.0;
+        void add(const AreaEvidence& of, double at) {
+            const double slope = (of.inside - of.elsewhere) / (at * of.inside + (1.0 - at) * of.elsewhere);
+            sum += slope;
+            squares += slope * slope;
+            ++fixations;
+        }
+    };
+    Score together;
+    for (const AreaEvidence& of : all)
+        together.add(of, share);
+    // By its own fixations alone an observer's divisor would go with the dividend.
+    constexpr double of_all = 100.0;
+    const double mean_square = together.squares / together.fixations;
+    std::vector<double> shares;
+    for (const std::vector<AreaEvidence>& own : observers) {
+        Score score;
+        for (const AreaEvidence& of : own) {
+            if (of.tells())
+                score.add(of, share);
+        }
+        const double square = (score.squares + of_all * mean_square) / (score.fixations + of_all);
+        if (score.fixations > 0.0)
+            shares.push_back(share + (square > 0.0 ? score.sum / (score.fixations * square) : 0.0));
+    }
+    return shares;
 }
 
 } // namespace overt

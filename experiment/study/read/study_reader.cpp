@@ -262,12 +262,14 @@ class StudyReader {
         std::vector<StudyFixation*> fixations;
         std::vector<MeasuredPlace> places;
         const SessionHeader* header = nullptr;
+        int presentation = 0;
         for (std::size_t session = 0; session < open_.size(); ++session) {
             for (std::size_t t = 0; t < read_[session].trials.size(); ++t) {
                 const TrialRecord& trial = open_[session].presentations[t];
                 if (!is_of(session, trial, index))
                     continue;
                 header = &open_[session].record().header();
+                ++presentation;
                 const std::optional<double>& accuracy = read_[session].trials[t].trial.quality.accuracy_deg;
                 const double sigma_deg =
                     GazeCone(object.screen, Degrees{accuracy.value_or(0.0)}, 1).sigma().value;
@@ -282,7 +284,7 @@ class StudyReader {
                     places.push_back(
                         {fixation.mid_pose,
                          header->screen_of_slot(trial.trial.slot).image_from_screen(fixation.mid_gaze),
-                         sigma_deg * px_per_deg});
+                         sigma_deg * px_per_deg, presentation});
                 }
             }
         }

@@ -7,6 +7,14 @@ namespace overt {
 
 namespace {
 
+std::string models_of(const StudyOptions& options) {
+    std::string files;
+    for (const ModelFile& model : options.models)
+        files += (files.empty() ? "" : ", ") + (model.object.empty() ? "" : model.object + "=") +
+                 model.file.filename().string();
+    return files.empty() ? "none" : files;
+}
+
 std::string same_observers(const StudyOptions& options) {
     std::string text;
     for (const auto& [label, other] : options.same_observer)
@@ -102,6 +110,8 @@ std::vector<StudyParameter> parameters_of(const StudyOptions& options) {
          "person's."},
         {"areas", options.screen_areas_file.empty() ? "none" : options.screen_areas_file, "",
          "File with areas of the screen, besides those that imported recordings tell by messages."},
+        {"model", models_of(options), "",
+         "Files with maps of models, which are held against observers: numbers at the vertices of a mesh."},
         {"time-step", fmt::format("{}", options.time_step_s), "s", "Stretches of the time course."},
         {"confidence", fmt::format("{}", options.confidence), "", "Level of all intervals."},
         {"smallest-effect", fmt::format("{}", options.smallest_effect), "",

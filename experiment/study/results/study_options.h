@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -45,6 +46,13 @@ std::vector<ExclusionRule> rules_of(const ExclusionRules& rules);
 /// keeps the limits of these; one whose missed refreshes are unproven does not.
 std::optional<ExclusionRule> broken_rule(const StudyQuality& quality, const ExclusionRules& rules);
 
+/// A map that says where gaze should go: a PLY file with a number at each vertex, of an object or, if it is
+/// not named, of each that it fits.
+struct ModelFile {
+    std::string object;
+    std::filesystem::path file;
+};
+
 struct StudyOptions {
     std::vector<std::string> by{"task", "object", "material"};
     bool is_by_asked = false; ///< somebody asked for these columns: a factor with one level is refused
@@ -65,7 +73,8 @@ struct StudyOptions {
     std::string screen_areas_file;              ///< their file's name; empty: none
     /// Labels that stand for the same observer as another, and that one's.
     std::vector<std::pair<std::string, std::string>> same_observer;
-    double time_step_s = 1.0; ///< of the time course
+    double time_step_s = 1.0;      ///< of the time course
+    std::vector<ModelFile> models; ///< whose predictions are compared with observers'
     double confidence = 0.95;
     double smallest_effect = 0.5; ///< d_z that would be of interest: bounds of tests of equivalence, > 0
     int resamples = 2000;         ///< of the bootstrap

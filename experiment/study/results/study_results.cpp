@@ -59,6 +59,8 @@ std::string_view name_of(MapPredictor predictor) {
         return "other level";
     case MapPredictor::exposure:
         return "exposure";
+    case MapPredictor::model:
+        return "model";
     }
     return "";
 }

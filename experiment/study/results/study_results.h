@@ -26,6 +26,7 @@
 #include "experiment/statistics/paired_evidence.h"
 #include "experiment/study/results/answer_rows.h"
 #include "experiment/study/results/exploration_rows.h"
+#include "experiment/study/results/looking_rows.h"
 #include "experiment/study/results/relief_rows.h"
 #include "experiment/study/results/screen_area_rows.h"
 #include "experiment/study/results/session_setup.h"
@@ -400,7 +401,8 @@ struct DifferenceMap {
 enum class MapPredictor : std::uint8_t {
     same_level,  ///< the other observers' fixations in the same group
     other_level, ///< the other observers' fixations in another level of the compared column
-    exposure     ///< how long, how large and how obliquely each place could be seen
+    exposure,    ///< how long, how large and how obliquely each place could be seen
+    model        ///< a map that was given
 };
 
 /// How well a group's fixations on one object are told by a map that none of them made: means over
@@ -408,12 +410,16 @@ enum class MapPredictor : std::uint8_t {
 struct MapPredictionRow {
     int group = 0, object = 0;
     MapPredictor by = MapPredictor::same_level;
-    std::string level; ///< of the compared column, of the predicting map; empty: exposure
-    Estimate kl;       ///< nats, of the observer's map from the predicting one
-    Estimate nss;      ///< standard deviations
+    std::string
+        level;    ///< of the compared column, of the predicting map; of a model its name; empty: exposure
+    Estimate kl;  ///< nats, of the observer's map from the predicting one
+    Estimate nss; ///< standard deviations
     Estimate auc_judd, auc_borji;
     Estimate gain_over_exposure; ///< bits per fixation; of the exposure absent
     Estimate gain_over_area;     ///< the same over gaze that is spread evenly over all that could be seen
+    /// gain_over_area as a share of that of the other observers' map, same_level: the ceiling of all
+    /// predictions.
+    Estimate share_of_ceiling{};
     int observers = 0, fixations = 0;
 };
 
@@ -533,6 +539,11 @@ struct StudyResults {
     std::vector<GazeMotionRow> motions;
     std::vector<LightAtGazeRow> lights;
     std::vector<TimeCourseRow> time_course;
+    std::vector<TimeClusterRow> time_clusters;
+    std::vector<FirstFixationsRow> first_fixations;
+    std::vector<MeasureDifferenceRow> measure_differences;
+    std::vector<ScanpathRow> scanpaths;
+    std::vector<ScanpathLikenessRow> scanpath_likeness;
     std::vector<std::vector<ScreenArea>> screen_areas; ///< by trial; empty: no trial has any
     std::vector<ScreenAreaTrialRow> screen_area_trials;
     std::vector<AreaTransitionRow> area_transitions;

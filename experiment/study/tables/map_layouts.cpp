@@ -57,9 +57,15 @@ RowLayout<MapPredictionRow> map_predictions_layout(const StudyResults& results) 
     to.text(
         "predicted_by",
         "same level: other observers' fixations in the group; other level: theirs in another level of the "
-        "compared column; exposure: how long, how large and how obliquely places could be seen",
+        "compared column; exposure: how long, how large and how obliquely places could be seen; model: a map "
+        "given "
+        "by --model",
         [](const Row& row) { return name_of(row.by); });
-    to.text("level", "Level of the compared column of the predicting map; n/a: none", &Row::level);
+    to.text("level",
+            "Level of the compared column of the predicting map, or the model's name; x exposure: times the "
+            "exposure; "
+            "n/a: none",
+            &Row::level);
     to.estimate("kl", "Divergence of the observer's map from the predicting one", "nat", &Row::kl);
     to.estimate("nss", "Normalised scanpath saliency", "standard deviations", &Row::nss);
     to.estimate("auc_judd", "Area under the curve after Judd", "", &Row::auc_judd);
@@ -68,6 +74,9 @@ RowLayout<MapPredictionRow> map_predictions_layout(const StudyResults& results) 
                 &Row::gain_over_exposure);
     to.estimate("gain_over_area", "Information gain over gaze spread evenly over what could be seen",
                 "bit per fixation", &Row::gain_over_area);
+    to.estimate("share_of_ceiling",
+                "gain_over_area divided by that of the same level, the ceiling that other observers are", "",
+                &Row::share_of_ceiling);
     to.count("observers", "Observers whose fixations were predicted", &Row::observers);
     to.count("fixations", "Counted fixations of the group", &Row::fixations);
     return to;
@@ -124,11 +133,11 @@ RowLayout<FactorEffectRow> factor_effects_layout() {
         "within-cluster sum of squares in mm^2",
         &Row::measure);
     to.text("effect", "A column; with a colon: the interaction of two", &Row::effect);
-    to.number(
-        "statistic",
-        "Of a column: the sum over levels of the squares of the means over observers, times their number; of "
-        "an interaction: the sum over cells of the squares of the means",
-        "", &Row::statistic);
+    to.number("statistic",
+              "The largest contrast of levels, or of cells: what observers give to it, added up, over the "
+              "root of the sum of "
+              "squares",
+              "", &Row::statistic);
     to.number("p", "How often permutations give as much", "", &Row::p);
     to.number("p_holm", "Corrected for the rows of the same measure after Holm", "", &Row::p_holm);
     to.number("least_p", "The smallest p that so many observers can give", "", &Row::least_p);

@@ -13,6 +13,7 @@
 #include "experiment/study/tables/answer_layouts.h"
 #include "experiment/study/tables/answers_json.h"
 #include "experiment/study/tables/area_layouts.h"
+#include "experiment/study/tables/looking_layouts.h"
 #include "experiment/study/tables/mixed_models.h"
 #include "experiment/study/tables/relief_layouts.h"
 #include "experiment/study/tables/screen_area_layouts.h"
@@ -50,9 +51,14 @@ template <class Visit> void for_each_table(const StudyResults& results, const Vi
     all(areas_layout(results), results.area_rows, false);
     all(surface_transitions_layout(results), results.surface_transitions, false);
     all(area_pairs_layout(results), results.area_pairs, false);
+    all(measure_differences_layout(), results.measure_differences, false);
     all(distributions_layout(results), results.distributions, on_surfaces);
     all(pairs_layout(results), results.pairs, on_surfaces);
     all(time_course_layout(results), results.time_course, false);
+    all(time_clusters_layout(), results.time_clusters, false);
+    all(first_fixations_layout(results), results.first_fixations, false);
+    all(scanpaths_layout(results), results.scanpaths, false);
+    all(scanpath_likeness_layout(results), results.scanpath_likeness, false);
     all(study_maps_layout(results), results.maps, on_surfaces);
     all(factor_effects_layout(), results.effects, false);
     all(gaze_motion_layout(results), results.motions, false);

@@ -180,3 +180,26 @@ TEST_CASE("flips of signs have the power of a paired t test of normal difference
     // Four standard errors of a share of 1,000, and 0.02 by which the tests themselves may differ.
     CHECK(found / static_cast<double>(studies) == Approx(power_of_t).margin(0.078));
 }
+
+TEST_CASE("a study that is to show that an effect is smaller has the p of equivalence", "[unit]") {
+    // d_z of 0.1, far below 0.5, of few and of many observers.
+    std::vector<double> differences;
+    for (int i = 0; i < 200; ++i)
+        differences.push_back(0.1 + (i % 2 == 0 ? 1.0 : -1.0));
+    const std::span<const double> all(differences);
+    const StudyOutcome none = outcome_of(all, {}, 0.5), difference = outcome_of(all, {}, {});
+    CHECK(*none.p < 0.001);
+    CHECK(*none.estimate == Approx(0.1));
+    CHECK(*difference.p > 0.05);
+    CHECK(*difference.estimate == Approx(0.1));
+    CHECK(*outcome_of(all.first(8), {}, 0.5).p > 0.05); // so few cannot show it
+    CHECK(*outcome_of(all, {}, 0.05).p > 0.5);          // for it is larger
+    CHECK_FALSE(outcome_of(all.first(1), {}, 0.5).p);
+    PowerCurve curve;
+    curve.points.push_back({12, std::vector<StudyOutcome>(10, StudyOutcome{0.01, 0.1}), 0, 0, 0, {}, 0.0});
+    summarise(curve, 0.05);
+    PowerResults results;
+    results.equivalence = 0.5;
+    CHECK_THAT(answer_of(curve, results), Contains("showed that the effect on the"));
+    CHECK_THAT(answer_of(curve, results), Contains("is smaller than 0.5 standard deviations"));
+}
