@@ -200,10 +200,17 @@ Imported import_foreign(const ForeignImportOptions& options) {
     return imported;
 }
 
+/// BIDS has the log of trials beside the gaze.
+ForeignImportOptions with_found_trials(ForeignImportOptions options) {
+    if (options.trials.empty() && options.columns.empty())
+        options.trials = known_gaze_columns(options.of_gaze.files.front(), options.of_gaze.as_gaze).trials;
+    return options;
+}
+
 } // namespace
 
 int run_foreign_import(const ForeignImportOptions& options) {
-    const Imported imported = import_foreign(options);
+    const Imported imported = import_foreign(with_found_trials(options));
     if (!options.of_gaze.print_session_to.empty())
         write_to(options.of_gaze.print_session_to, imported.session.string() + "\n");
     if (options.of_gaze.json)

@@ -243,14 +243,17 @@ AscSurvey survey_asc(const AscFiles& files, const AscSurveyOptions& options) {
                              ? 1e6 / static_cast<double>(surveyor.shortest_interval_us())
                              : 0.0;
     if (survey.trials == 0 && survey.samples_that_are_no_gaze == 0)
-        throw InputError(
-            fmt::format("{}: no recording of an EyeLink was found in {} lines, {} of them could not "
-                        "be read. Give a file that edf2asc has written.",
-                        file, survey.lines, survey.skipped_lines));
+        throw InputError(fmt::format(
+            "{}: no recording of an EyeLink was found in {} lines, {} of them could not "
+            "be read. Give a file that edf2asc has written; tables of other trackers are imported with "
+            "--protocol, which says what was shown.",
+            file, survey.lines, survey.skipped_lines));
     if (!survey.format.is_eyelinks && !survey.format.eyes_are_known && survey.events == 0)
         throw InputError(fmt::format(
             "{}: is a table of numbers, and nothing in it is as an EyeLink has it: no header, no message, "
-            "no event, no status after the values of a sample. Give a file that edf2asc has written.",
+            "no event, no status after the values of a sample. Give a file that edf2asc has written; tables "
+            "of "
+            "other trackers are imported with --protocol, which says what was shown.",
             file));
     check_gaze(survey, file, options);
     if (surveyor.clock_began_anew())

@@ -43,7 +43,6 @@ GazeColumns tobii_columns(const ForeignTable& table) {
         columns.mark_value = "Event value";
     if (table.has("Presented Stimulus name"))
         columns.trial = "Presented Stimulus name";
-    columns.pupil_unit = "mm";
     return columns;
 }
 
@@ -53,8 +52,9 @@ GazeColumns gazepoint_columns(const ForeignTable& table) {
     columns.time = "TIME";
     columns.time_unit = "s";
     columns.unit = "normalised";
+    // In mm; LPD and RPD are pixels of the camera.
     const auto pupil = [&](const std::string& eye) {
-        return table.has(eye + "PMM") ? eye + "PMM" : table.has(eye + "PD") ? eye + "PD" : std::string();
+        return table.has(eye + "PMM") ? eye + "PMM" : std::string();
     };
     if (table.has("LPOGX") && table.has("RPOGX")) {
         columns.left = {"LPOGX", "LPOGY", pupil("L"), "LPOGV"};
@@ -69,7 +69,6 @@ GazeColumns gazepoint_columns(const ForeignTable& table) {
         columns.mark = "USER";
     if (table.has("MEDIA_NAME"))
         columns.trial = "MEDIA_NAME";
-    columns.pupil_unit = table.has("LPMM") ? "mm" : "";
     return columns;
 }
 
@@ -130,7 +129,6 @@ GazeColumns smi_columns(const ForeignTable& table) {
     };
     columns.left = eye("L");
     columns.right = eye("R");
-    columns.pupil_unit = "mm";
     return columns;
 }
 
@@ -192,6 +190,10 @@ GazeColumns bids_columns(const fs::path& file, bool is_of_events) {
     if (const fs::path events = beside(file, physio_ending, events_ending); fs::exists(events))
         columns.marks.push_back(events);
     const std::string name = file.filename().string();
+    const std::size_t before_ending = std::min(name.find("_recording-"), name.size() - physio_ending.size());
+    if (const fs::path log = file.parent_path() / (name.substr(0, before_ending) + "_events.tsv");
+        fs::exists(log))
+        columns.trials = log;
     if (const std::size_t at = name.find("_recording-eye1_"); at != std::string::npos) {
         std::string other = name;
         other.replace(at, 16, "_recording-eye2_");
@@ -229,7 +231,7 @@ GazeColumns known_gaze_columns(const fs::path& file, bool takes_any_gaze) {
 
 GazeColumns gaze_columns_of(const std::vector<std::string>& words) {
     GazeColumns columns;
-    columns.program = "table";
+    columns.program = "another program";
     const auto true_word = [](const std::string& word) {
         return word == "yes" || word == "true" || word == "1";
     };

@@ -40,10 +40,10 @@ struct GazeColumns {
     /// is in their fourth cell.
     std::string kind, samples_word, messages_word;
     std::vector<std::string> names = {};           ///< of a file without a line of names
-    std::string pupil_unit = {};                   ///< "mm" or ""
     std::vector<std::string> remarks = {};         ///< on what was taken for what
     std::filesystem::path other_eye = {};          ///< a further file, of the other eye
     std::vector<std::filesystem::path> marks = {}; ///< further files, of marks
+    std::filesystem::path trials = {};             ///< a log of trials that lies beside it
     bool is_of_marks_alone() const { return !left.is_there() && !right.is_there() && !single.is_there(); }
 };
 

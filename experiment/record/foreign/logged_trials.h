@@ -54,6 +54,10 @@ struct TrialColumns {
     bool from_first_sample = false;           ///< times count from the first sample
 };
 
+/// Nanoseconds in a unit of time: "s", "ms", "us", "ns", or empty for seconds. Throws InputError that names
+/// `option`.
+double ns_of_unit(const std::string& unit, std::string_view option);
+
 /// What `--trial-columns` says: onset, end, duration, unit, marker, marker_time, answer, response_time,
 /// correct, key, only (COLUMN:WORD), and any other key names a factor. Throws InputError.
 TrialColumns trial_columns_of(const std::vector<std::string>& words);

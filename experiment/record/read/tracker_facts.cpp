@@ -25,6 +25,10 @@ constexpr NamedFacts known_trackers[] = {
     {"tobii", {"Tobii", "P-CR", PupilMeasure::diameter_mm}},
     {"Open Gaze", {"Gazepoint", "P-CR", PupilMeasure::diameter_mm}},
     {"Pupil Core", {"Pupil Labs", "pupil alone, by a model of the eye", PupilMeasure::diameter_mm}},
+    // Of tables that other programs wrote.
+    {"Tobii", {"Tobii", "P-CR", PupilMeasure::diameter_mm}},
+    {"Gazepoint", {"Gazepoint", "P-CR", PupilMeasure::diameter_mm}},
+    {"SMI", {"SensoMotoric Instruments", "P-CR", PupilMeasure::diameter}},
     {"simulated", {"", "simulated", PupilMeasure::area}},
     {"mouse", {"", "pointer of a mouse", PupilMeasure::none}},
 };
