@@ -13,9 +13,9 @@ void add_import_commands(CLI::App& app, ChosenCommand& chosen) {
                     "Makes what other programs presented and recorded into a session",
                     "overt import p07.asc --observer 07 --screen-mm 698.4 392.9 --distance-mm 1750\n"
                     "  overt import p07.asc --into sessions/overt_2019/sub-07_ses-01\n"
-                    "  overt import all_gaze.csv --protocol shown.toml --trials trials.csv --observer 07\n"
+                    "  overt import all_gaze.csv --protocol shown.toml --trial-log trials.csv --observer 07\n"
                     "  overt import gaze.csv --protocol shown.toml --columns time=t,x=gx,y=gy,mark=msg "
-                    "--trials psychopy.csv "
+                    "--trial-log psychopy.csv "
                     "--trial-columns onset=face.started,marker=msg");
     command
         .add_option("FILE", options.of_gaze.files,
@@ -28,11 +28,11 @@ void add_import_commands(CLI::App& app, ChosenCommand& chosen) {
     option(command, "--protocol", options.protocol, "PROTOCOL",
            "What was shown: the session knows its objects, and all that follows works as for a session of "
            "overt's own");
-    option(command, "--trials", options.trials, "FILE",
+    option(command, "--trial-log", options.trials, "FILE",
            "With --protocol: log of the trials (CSV, TSV, PsychoPy, OpenSesame, BIDS events; default: the "
            "column of the gaze "
            "itself that names what was shown)");
-    option(command, "--frames", options.frames, "FILE",
+    option(command, "--frame-log", options.frames, "FILE",
            "With --protocol: log of the frames, or of the object's angles, that were shown (default: as the "
            "protocol plans them)");
     option(command, "--columns", options.columns, "KEY=COLUMN,…",
@@ -87,8 +87,8 @@ void add_import_commands(CLI::App& app, ChosenCommand& chosen) {
 int run_any_import(const ForeignImportOptions& options) {
     if (!options.protocol.empty())
         return run_foreign_import(options);
-    for (const auto& [name, is_given] : {std::pair{"--trials", !options.trials.empty()},
-                                         {"--frames", !options.frames.empty()},
+    for (const auto& [name, is_given] : {std::pair{"--trial-log", !options.trials.empty()},
+                                         {"--frame-log", !options.frames.empty()},
                                          {"--columns", !options.columns.empty()},
                                          {"--trial-columns", !options.trial_columns.empty()},
                                          {"--frame-columns", !options.frame_columns.empty()}})

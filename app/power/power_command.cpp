@@ -117,7 +117,7 @@ void add_power_command(CLI::App& app, ChosenCommand& chosen) {
         ->take_all();
     option(command, "--observers", options.observers, "N",
            "Numbers of observers: 12, 6:24, 6:24:3 or 6,12,18", shown_default);
-    option(command, "--studies", settings.studies, "", "Studies to simulate", CLI::Range(10, 100000),
+    option(command, "--studies", settings.studies, "N", "Studies to simulate", CLI::Range(10, 100000),
            shown_default);
     option(command, "--alpha", settings.alpha, "", "A study has found the effect if p is at most this",
            CLI::Range(0.0001, 0.5), shown_default);

@@ -137,7 +137,7 @@ TrialLog trials_in_gaze(const GazeSurvey& gaze, const std::filesystem::path& fil
         log.trials.back().end = gaze.last.time_since_epoch();
     if (log.trials.empty())
         throw InputError(fmt::format(
-            "{}: nothing says which trials there were and what they showed: give their log, --trials "
+            "{}: nothing says which trials there were and what they showed: give their log, --trial-log "
             "FILE, or name the column that says it, --columns …,trial=NAME",
             file.string()));
     return log;

@@ -121,9 +121,9 @@ TEST_CASE("one thing has one name: an option of several commands takes the same,
           "[unit]") {
     // A text may name what the command is about; a value's name may not differ.
     std::map<std::string, std::set<std::string>> values;
-    const std::set<std::string> several_kinds{"--out",   "--picture", "--format",  "--size",
-                                              "--frame", "--frames",  "--samples", "--observers",
-                                              "--mode",  "--quality", "--stimulus"};
+    const std::set<std::string> several_kinds{"--out",   "--picture", "--format",   "--size",
+                                              "--frame", "--frames",  "--samples",  "--observers",
+                                              "--mode",  "--quality", "--stimulus", "--model"};
     for (const std::string& command : all_commands())
         for (const std::string& line :
              matches(help_of(command), "^ {2,4}(--[a-z0-9-]+[^ \n]*(?: [A-Z][A-Z_.a-z/]*)?)")) {
