@@ -33,7 +33,8 @@ Estimate estimated_share(const std::vector<double>& shares, const StudyOptions& 
                          const std::string& reason) {
     Estimate estimate = estimated_mean(shares, options.bootstrap(), reason);
     if (estimate.interval)
-        estimate.interval = {std::max(estimate.interval->low, 0.0), std::min(estimate.interval->high, 1.0)};
+        estimate.interval = {std::clamp(estimate.interval->low, 0.0, 1.0),
+                             std::clamp(estimate.interval->high, 0.0, 1.0)};
     return estimate;
 }
 

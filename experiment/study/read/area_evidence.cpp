@@ -518,8 +518,16 @@ std::vector<double> shares_of_observers(std::span<const std::vector<AreaEvidence
     const std::optional<double> most_probable = most_probable_share(all);
     if (!most_probable)
         return {};
-    // At an end what a single fixation says could have any size.
-    const double share = std::clamp(*most_probable, 0.02, 0.98);
+    // Near an end nobody's fixations are on both sides, so that nothing tells how much one of them says.
+    constexpr double nearest_to_an_end = 0.02;
+    if (std::min(*most_probable, 1.0 - *most_probable) < nearest_to_an_end) {
+        std::vector<double> shares;
+        for (const std::vector<AreaEvidence>& own : observers)
+            if (const std::optional<double> of_own = most_probable_share(own))
+                shares.push_back(*of_own);
+        return shares;
+    }
+    const double share = *most_probable;
     struct Score {
         double sum = 0.0, squares = 0.0, fixations = 0.0;
         void add(const AreaEvidence& of, double at) {

@@ -68,7 +68,7 @@ std::optional<double> most_probable_share(std::span<const AreaEvidence> fixation
 /// squares. The mean of the former is the observer's distance from p times that of the latter, whatever the
 /// distance, so that shares are without bias however little an observer's fixations tell; most probable
 /// shares of single observers end at 0 and 1, and their mean is drawn to the middle. For the same reason
-/// these may lie beyond 0 and 1.
+/// these may lie beyond 0 and 1. Where p itself is within 0.02 of 0 or 1, each has its most probable share.
 std::vector<double> shares_of_observers(std::span<const std::vector<AreaEvidence>> observers);
 
 } // namespace overt

@@ -173,6 +173,10 @@ TEST_CASE("shares of observers have no bias where single fixations tell little",
         }
     }
     CHECK(shares_of_observers({}).empty());
+    // Where all look on the area, or nobody does, shares are 1 and 0, and nothing beyond.
+    const std::vector<AreaEvidence> inside(12, {0.9, 0.02}), outside(12, {0.01, 0.8});
+    CHECK(shares_of_observers(std::vector{inside, inside}) == std::vector{1.0, 1.0});
+    CHECK(shares_of_observers(std::vector{outside, outside, outside}) == std::vector{0.0, 0.0, 0.0});
     // Who has nothing that tells has no share.
     const std::vector<std::vector<AreaEvidence>> two{{{2.0, 1.0}, {1.0, 2.0}}, {{0.0, 0.0}}};
     CHECK(shares_of_observers(two).size() == 1);
