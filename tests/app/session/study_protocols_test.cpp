@@ -253,3 +253,45 @@ TEST_CASE("a shape is gone once the eyes were on its crest, and free viewing ask
     for (const TrialRecord& trial : viewed.trials())
         CHECK(trial.outcome.given.empty());
 }
+
+TEST_CASE("pictures and a movie are looked at on their own surface, in areas of their pixels", "[session]") {
+    const SmallExperiment experiment(with(shortened("pictures"), "duration_s = 4", "duration_s = 1.5"));
+    std::filesystem::copy(std::filesystem::path(OVERT_SOURCE_DIR) / "protocols/pictures",
+                          experiment.protocol().parent_path() / "pictures");
+    const std::filesystem::path tables = run_study(experiment);
+    const SessionRecord record(experiment.session());
+    CHECK(record.is_complete());
+    const ProgramRun replayed =
+        experiment.overt({"replay", experiment.session().string(), "--context", "osmesa"});
+    INFO(replayed.out << replayed.err);
+    CHECK(replayed.exit_code == 0);
+    // Twelve pictures a second, one after the other, and from the first again.
+    const TsvFile flips(tables / "flips.tsv");
+    std::set<long> frames;
+    for (std::size_t row = 0; row < flips.size(); ++row)
+        if (flips.has(row, "shown_frame"))
+            frames.insert(flips.integer(row, "shown_frame"));
+    CHECK(frames.size() == 12);
+    const TsvFile samples(tables / "samples.tsv");
+    const SessionHeader& header = record.header();
+    const double mm_per_px = 299.0 / 1080.0;
+    std::set<std::string> parts;
+    int on_surface = 0;
+    for (std::size_t row = 0; row < samples.size(); row += 7) {
+        if (!samples.has(row, "surface_x"))
+            continue;
+        ++on_surface;
+        parts.insert(samples.text(row, "part"));
+        CHECK(samples.number(row, "surface_y") == 0.0);
+        // Millimetres to the right and upwards are pixels to the right and downwards, from the picture's
+        // corner.
+        const double left = header.display.screen.image_origin_px.x,
+                     top = header.display.screen.image_origin_px.y;
+        CHECK(samples.number(row, "surface_x") ==
+              Approx((samples.number(row, "x_px") - left) * mm_per_px).margin(0.02));
+        CHECK(samples.number(row, "surface_z") ==
+              Approx((256 - (samples.number(row, "y_px") - top)) * mm_per_px).margin(0.02));
+    }
+    CHECK(on_surface > 500);
+    CHECK(parts == std::set<std::string>{"ball", "body", "face"});
+}
