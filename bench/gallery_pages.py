@@ -110,16 +110,17 @@ def screen_of(program, name, folder):
     server = subprocess.Popen(["Xvfb", f":{display}", "-screen", "0", "1920x1080x24", "-fbdir", str(folder)],
                               stderr=subprocess.DEVNULL)
     time.sleep(2)
-    session = subprocess.Popen([program, "run", str(protocol), "--observer", "P01", "--simulate-observer", "1", "--context", "window",
+    session = subprocess.Popen([program, "run", str(protocol), "--observer", "P01", "--simulate-observer", "1", "--context", "window", "--refresh-check", "0",
                                 "--sessions", str(folder / "screens")], env=os.environ | {"DISPLAY": f":{display}"},
                                stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, start_new_session=True)
-    best, most, until = None, 0, time.monotonic() + 60
-    while time.monotonic() < until and session.poll() is None:
+    best, most, until, since = None, 0, time.monotonic() + 150, time.monotonic()
+    # Until nothing richer comes for a while.
+    while time.monotonic() < until and session.poll() is None and (most < 40 or time.monotonic() - since < 8):
         time.sleep(0.4)
         width, height, rows = pixels_of(folder / "Xvfb_screen0")
         seen = variety(rows)
         if seen > most:
-            best, most = (width, height, rows), seen
+            best, most, since = (width, height, rows), seen, time.monotonic()
     if session.poll() is None:
         os.killpg(session.pid, signal.SIGTERM)
     said = session.communicate()[1]
