@@ -139,7 +139,8 @@ class StimulusCache {
 
     /// Where the small pictures of the light of frames with this hash lie: see light_pictures.h.
     std::filesystem::path light_file(const ContentHash& frames) const {
-        return folder_ / "light" / (frames.substr(0, 24) + ".exr");
+        // The number changes whenever the pictures of the same frames come out differently.
+        return folder_ / "light" / (frames.substr(0, 24) + "-v2.exr");
     }
 
     /// Where the first frame of frames with this hash lies, for looking at.
