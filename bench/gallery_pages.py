@@ -105,7 +105,7 @@ def variety(rows):
 
 def screen_of(program, name, folder):
     """The richest of the pictures that a session has on its screen in the first seconds of its trials."""
-    protocol = begun(program, name, folder, 'timing = "unproven"\n')
+    protocol = begun(program, name, folder, 'timing = "unproven"\nbox = "none"\n')
     display = 90 + os.getpid() % 100
     server = subprocess.Popen(["Xvfb", f":{display}", "-screen", "0", "1920x1080x24", "-fbdir", str(folder)],
                               stderr=subprocess.DEVNULL)
@@ -148,11 +148,13 @@ def figure_of(program, name, studies):
         if (figure && !(name in out)) out[name] = new XMLSerializer().serializeToString(figure); }
       const note = document.createElement('pre'); note.id = 'saved'; note.textContent = JSON.stringify(out); document.body.append(note);
     }, 1500)</script>"""
-    (report / "figures.html").write_text(page[:end] + script + page[end:])
+    # Beside the analysis: an analysis with a file that is not its own is not written over.
+    saving = studies / f"{name}_figures.html"
+    saving.write_text(page[:end] + script + page[end:])
     with tempfile.TemporaryDirectory() as profile:
         seen = subprocess.run(["chromium", "--headless", "--no-sandbox", "--disable-gpu", "--disable-background-networking",
                                f"--user-data-dir={profile}", "--window-size=1400,1000", "--virtual-time-budget=9000", "--dump-dom",
-                               f"file://{report}/figures.html"], capture_output=True, text=True).stdout
+                               saving.as_uri()], capture_output=True, text=True).stdout
     saved = json.loads(html.unescape(re.search(r'<pre id="saved">(.*?)</pre>', seen, re.S)[1]))
     if FIGURES[name] not in saved:
         sys.exit(f"{name}: the report has no figure {FIGURES[name]}, but {', '.join(saved)}")
@@ -163,7 +165,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("protocols", nargs="*", choices=[[], *FIGURES])
     parser.add_argument("--overt", default=str(ROOT / "build/release/app/overt"))
-    parser.add_argument("--studies", type=pathlib.Path)
+    parser.add_argument("--studies", type=lambda given: pathlib.Path(given).resolve())
     parser.add_argument("--only", choices=["screen", "design", "figure"])
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as scratch:

@@ -16,7 +16,7 @@
 #include "experiment/design/answer_forms.h"
 #include "experiment/fits/difference_scaling.h"
 #include "experiment/record/read/session_record.h"
-#include "experiment/study/answer_differences.h"
+#include "experiment/study/answers/answer_differences.h"
 
 namespace overt {
 
@@ -32,7 +32,7 @@ const TaskAnswer* asked_of(const Protocol& protocol, const std::string& task, co
 
 /// An answer with a value that could have been given, and how probable that is.
 struct WeighedAnswer {
-    StudyAnswer answer;
+    StudyAnswer answer; ///< its number and its time are those to be expected
     double weight = 1.0;
     std::optional<double> mean = {}; ///< of numbers
 };
@@ -68,10 +68,14 @@ std::optional<WeighedAnswers> weighed_answers(const StudyResults& results, const
         const AnswerOffer offer = offer_of(protocol, *asked, given.item, trial->second);
         const SimulatedAnswers::Expected expected = simulated->expected(offer, trial->second);
         std::vector<WeighedAnswer>& own = all[{given.observer, given.task, given.answer, given.item}];
+        StudyAnswer likely = given;
+        likely.number = expected.mean;
+        if (likely.response_s)
+            likely.response_s = expected.after_s;
         if (expected.mean)
-            own.push_back({given, 1.0, expected.mean});
+            own.push_back({likely, 1.0, expected.mean});
         for (std::size_t i = 0; i < expected.shares.size(); ++i) {
-            WeighedAnswer& one = own.emplace_back(WeighedAnswer{given, expected.shares[i]});
+            WeighedAnswer& one = own.emplace_back(WeighedAnswer{likely, expected.shares[i]});
             one.answer.value = offer.values[i];
             if (!given.correct.empty())
                 one.answer.is_correct = offer.values[i] == given.correct;
@@ -229,6 +233,59 @@ void plant_differences(StudyAnswers& answers, const WeighedAnswers& weighed) {
             });
 }
 
+/// Answers and their weights apart, of those that count.
+struct WeighedList {
+    AnswerList answers;
+    std::vector<double> weights;
+};
+
+WeighedList weighed_list(const std::vector<const WeighedAnswer*>& own) {
+    WeighedList list;
+    for (const WeighedAnswer* one : own) {
+        list.answers.push_back(&one->answer);
+        list.weights.push_back(one->weight);
+    }
+    return list;
+}
+
+void plant_summaries(StudyAnswers& answers, const WeighedAnswers& weighed) {
+    for (AnswerSummaryRow& row : answers.summaries)
+        row.planted_correct = mean_over_observers(weighed, row.of, [](const std::vector<WeighedAnswer>& own) {
+            return planted_share(weighed_in(own, "", ""),
+                                 [](const StudyAnswer& one) { return one.is_correct; });
+        });
+}
+
+void plant_trends(StudyAnswers& answers, const WeighedAnswers& weighed) {
+    for (AnswerTrendRow& row : answers.trends)
+        row.planted = mean_over_observers(weighed, row.of, [&](const std::vector<WeighedAnswer>& own) {
+            const WeighedList list = weighed_list(weighed_in(own, row.column, row.level));
+            return trend_slope(list.answers, list.weights, row.measure, row.along);
+        });
+}
+
+void plant_likenesses(StudyAnswers& answers, const WeighedAnswers& weighed) {
+    std::map<AnswerOf, std::map<LevelPairOfFactor, double>> known; ///< by observer
+    for (const auto& [of, own] : weighed) {
+        const WeighedList list = weighed_list(weighed_in(own, "", ""));
+        known[of] = likeness_shares(list.answers, list.weights);
+    }
+    for (AnswerLikenessRow& row : answers.likenesses) {
+        double sum = 0.0;
+        int count = 0;
+        for (const auto& [of, shares] : known) {
+            const auto share = shares.find({row.factor, {row.a, row.b}});
+            if (of.task != row.of.task || of.answer != row.of.answer || of.item != row.of.item ||
+                (!row.of.observer.empty() && of.observer != row.of.observer) || share == shares.end())
+                continue;
+            sum += share->second;
+            ++count;
+        }
+        if (count > 0)
+            row.planted = sum / count;
+    }
+}
+
 void plant_scales(StudyAnswers& answers, const Protocol& protocol) {
     std::map<std::tuple<AnswerOf, std::string, std::string>, std::vector<AnswerScaleRow*>> scales;
     for (AnswerScaleRow& row : answers.scales)
@@ -336,6 +393,9 @@ void add_planted_answers(StudyResults& results, const Protocol& protocol, const 
     plant_curves(results.answers, *weighed);
     plant_ratings(results.answers, *weighed);
     plant_differences(results.answers, *weighed);
+    plant_summaries(results.answers, *weighed);
+    plant_trends(results.answers, *weighed);
+    plant_likenesses(results.answers, *weighed);
     plant_scales(results.answers, protocol);
     plant_difference_scales(results.answers, *weighed);
     for (AnswerMatchLineRow& row : results.answers.match_lines)

@@ -255,6 +255,20 @@ void print_answers(const StudyResults& results) {
             print_answer(fmt::format("{}: mean{}", named(row.of),
                                      row.factor.empty() ? "" : fmt::format(", {} {}", row.factor, row.level)),
                          row.mean, row.planted, agreement);
+    for (const AnswerSummaryRow& row : answers.summaries)
+        if (row.of.observer.empty())
+            print_answer(fmt::format("{}: share correct", named(row.of)), row.correct, row.planted_correct,
+                         agreement);
+    for (const AnswerTrendRow& row : answers.trends)
+        if (row.of.observer.empty())
+            print_answer(fmt::format("{}: {} by {}{}", named(row.of), row.measure, row.along,
+                                     row.column.empty() ? std::string()
+                                                        : fmt::format(", {} {}", row.column, row.level)),
+                         row.slope, row.planted, agreement);
+    for (const AnswerLikenessRow& row : answers.likenesses)
+        if (row.of.observer.empty())
+            print_answer(fmt::format("{}: together, {} {} and {}", named(row.of), row.factor, row.a, row.b),
+                         row.share, row.planted, agreement);
     for (const AnswerDifferenceRow& row : answers.differences)
         print_answer(
             fmt::format("{}: {}, {} {} less {}", named(row.of), row.measure, row.column, row.a, row.b),

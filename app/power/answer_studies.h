@@ -9,7 +9,7 @@
 #include "experiment/power/power_results.h"
 #include "experiment/protocol/protocol.h"
 #include "experiment/statistics/permutation.h"
-#include "experiment/study/answer_differences.h"
+#include "experiment/study/answers/answer_differences.h"
 
 namespace overt {
 

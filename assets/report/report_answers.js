@@ -149,7 +149,7 @@ function show_choices() {
   if (panels.length) bars(chart, panels, {x_label: 'share of the answers', most: 1, label: 'Shares of answers'});
   answer_part('answers_body', 'How often, how right, how fast', ...(panels.length ? [chart] : []),
       table({name: 'answers', title: 'Answers', rows: rows_shown(sums), columns: [
-        ...answer_columns(sums), number_column('asked', r => r.trials), number_column('missed', r => r.missed), ...if_any(sums, share_column('correct', r => r.correct)),
+        ...answer_columns(sums), number_column('asked', r => r.trials), number_column('missed', r => r.missed), ...if_any(sums, share_column('correct', r => r.correct)), ...if_any(sums, share_column('planted', r => r.planted)),
         ...if_any(sums, number_column('d′', r => r.d_prime)), ...if_any(sums, number_column('SE of d′', r => r.d_prime_se)), ...if_any(sums, number_column('criterion', r => r.criterion)),
         ...if_any(sums, text_column('design', r => r.design)), ...if_any(sums, number_column('d′ by the design', r => r.design_d_prime)), number_column('median time / s', r => r.median)],
         note: [...(panels.length ? [`Bars with Wilson's ${level}, as if answers were independent of each other; dots: single observers.`] : []),
@@ -305,15 +305,12 @@ function show_reliefs() {
 }
 
 if (answers) {
-  show_curves();
-  show_matches();
-  show_reliefs();
-  show_scales();
-  show_ratings();
-  show_choices();
-  show_times();
-  show_tracks();
-  show_differences();
+  // What the main result is of comes first.
+  const parts = {curves: show_curves, matches: show_matches, reliefs: show_reliefs, likenesses: show_likenesses, scales: show_scales, trends: show_trends,
+                 ratings: show_ratings, choices: show_choices, times: show_times, tracks: show_tracks, differences: show_differences};
+  const main_part = parts[data.headline.measure];
+  if (main_part) main_part();
+  for (const part of Object.values(parts)) if (part !== main_part) part();
 } else by_id('answers').hidden = true;
 
 // Looking and answering.

@@ -33,6 +33,16 @@ std::vector<double> shares_of_largest(const std::vector<double>& means) {
     return shares;
 }
 
+/// How often each is the odd one out, with such noise on each, of so many draws: within 0.5 % of 20,000.
+template <class Chosen> std::vector<double> shares_of_draws(std::size_t count, const Chosen& chosen) {
+    constexpr int draws = 20'000;
+    RandomStream random(1, "expected odd ones");
+    std::vector<double> shares(count, 0.0);
+    for (int i = 0; i < draws; ++i)
+        shares[static_cast<std::size_t>(chosen(random))] += 1.0 / draws;
+    return shares;
+}
+
 /// Of words in a row: how probable each is to be the nearest to a place that has a standard deviation of 1.
 std::vector<double> shares_of_words(double from_middle, std::size_t count) {
     std::vector<double> shares(count, 0.0);
@@ -83,6 +93,9 @@ SimulatedAnswers::Expected SimulatedAnswers::expected(const AnswerOffer& offer, 
     const auto found = std::ranges::find(task.answers, offer.id, &TaskAnswer::id);
     const AnswerTruth truth = found == task.answers.end() ? AnswerTruth{} : found->truth;
     Expected expected;
+    // The mean of a log-normal number.
+    expected.after_s = std::max(0.0, truth.shift_s + more_time_s(trial, truth)) +
+                       truth.median_s * std::exp(0.5 * truth.log_sd * truth.log_sd);
     if (offer.values.empty() || !offer.numbers.empty()) {
         if (!offer.low && !offer.high && truth.by.empty() && !truth.offset)
             return expected;
@@ -96,7 +109,10 @@ SimulatedAnswers::Expected SimulatedAnswers::expected(const AnswerOffer& offer, 
     const Judged means = judged(offer, values, trial, truth);
     const double count = static_cast<double>(values.size());
     std::vector<double> shares(values.size(), 1.0 / count);
-    if (!means.slots.empty())
+    if (!means.slots.empty() && means.is_odd_one_out)
+        shares =
+            shares_of_draws(values.size(), [&](RandomStream& random) { return chosen_slot(means, random); });
+    else if (!means.slots.empty())
         shares = shares_of_largest(means.slots);
     else if (means.words)
         shares = shares_of_words(*means.words, values.size());

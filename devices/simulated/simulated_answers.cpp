@@ -9,6 +9,7 @@
 #include "experiment/base/text_number.h"
 #include "experiment/design/answer_forms.h"
 #include "experiment/fits/attitude_regression.h"
+#include "experiment/ports/given_answer.h"
 
 namespace overt {
 
@@ -113,6 +114,7 @@ SimulatedAnswers::Judged SimulatedAnswers::judged(const AnswerOffer& offer,
     }
     const double bias = truth.bias + inclination(offer, truth);
     if (any_slot) {
+        judged.is_odd_one_out = offer.kind == odd_one_out_kind;
         slots.front() += bias;
         judged.slots = std::move(slots);
         return judged;
@@ -131,6 +133,26 @@ SimulatedAnswers::Judged SimulatedAnswers::judged(const AnswerOffer& offer,
     return judged;
 }
 
+int SimulatedAnswers::chosen_slot(const Judged& judged, RandomStream& random) {
+    std::vector<double> seen = judged.slots;
+    for (double& one : seen)
+        one += random.normal() / std::numbers::sqrt2;
+    if (judged.is_odd_one_out) {
+        std::vector<double> apart(seen.size(), 0.0);
+        for (std::size_t i = 0; i < seen.size(); ++i)
+            for (const double other : seen)
+                apart[i] += std::abs(seen[i] - other);
+        seen = std::move(apart);
+    }
+    return static_cast<int>(std::ranges::max_element(seen) - seen.begin());
+}
+
+double SimulatedAnswers::more_time_s(const Trial& trial, const AnswerTruth& truth) const {
+    const std::optional<double> here =
+        truth.time_by.empty() ? std::nullopt : level(trial, trial.stimulus, truth.time_by);
+    return here ? truth.time_gain_s * *here : 0.0;
+}
+
 int SimulatedAnswers::choose(const AnswerOffer& offer, const std::vector<std::string>& values,
                              const Trial& trial, const AnswerTruth& truth, RandomStream& random) const {
     const int count = static_cast<int>(values.size());
@@ -138,19 +160,8 @@ int SimulatedAnswers::choose(const AnswerOffer& offer, const std::vector<std::st
     if (random.uniform() < truth.lapses)
         return by_chance;
     const Judged means = judged(offer, values, trial, truth);
-    if (!means.slots.empty()) {
-        int best = 0;
-        double most = -1e300;
-        for (int i = 0; i < count; ++i) {
-            const double here =
-                means.slots[static_cast<std::size_t>(i)] + random.normal() / std::numbers::sqrt2;
-            if (here > most) {
-                most = here;
-                best = i;
-            }
-        }
-        return best;
-    }
+    if (!means.slots.empty())
+        return chosen_slot(means, random);
     if (means.words)
         return std::clamp(static_cast<int>(std::lround(0.5 * (count - 1) + *means.words + random.normal())),
                           0, count - 1);
@@ -241,7 +252,8 @@ SimulatedAnswers::Intended SimulatedAnswers::answer(const AnswerOffer& offer, co
     RandomStream when(seed_, fmt::format("answer time {} {}", offer.id, offer.item), index);
     RandomStream what(seed_, fmt::format("answer {} {}", offer.id, offer.item), index);
     Intended given;
-    given.after = from_seconds(truth.shift_s + truth.median_s * std::exp(truth.log_sd * when.normal()));
+    given.after = from_seconds(std::max(0.0, truth.shift_s + more_time_s(trial, truth)) +
+                               truth.median_s * std::exp(truth.log_sd * when.normal()));
     given.is_early = when.uniform() < truth.early;
     given.is_missing = when.uniform() < truth.missing;
     given.is_late = when.uniform() < truth.late && offer.limit_s.has_value();

@@ -43,6 +43,7 @@ class SimulatedAnswers {
     struct Expected {
         std::vector<double> shares;      ///< of choices: of each of the offer's values
         std::optional<double> mean = {}; ///< of scales and numbers
+        double after_s = 0.0;            ///< the window opened, of those that are neither late nor missing
     };
     Expected expected(const AnswerOffer& offer, const Trial& trial) const;
     std::uint64_t seed() const { return seed_; }
@@ -74,12 +75,17 @@ class SimulatedAnswers {
     struct Judged {
         std::vector<double>
             slots; ///< of choices among slots: by value, in standard deviations of a difference
+        bool is_odd_one_out = false; ///< of slots: which is farthest from the others, not the largest
         std::optional<double> words; ///< of words that go by a factor: from the middle one
         int right = -1;              ///< else: index of the value that is correct; -1: nobody knows
         double share_right = 1.0;
     };
     Judged judged(const AnswerOffer& offer, const std::vector<std::string>& values, const Trial& trial,
                   const AnswerTruth& truth) const;
+    /// Index of the slot that is chosen, with noise drawn on each.
+    static int chosen_slot(const Judged& judged, RandomStream& random);
+    /// What is added to the response time, as AnswerTruth::time_gain_s has it.
+    double more_time_s(const Trial& trial, const AnswerTruth& truth) const;
     double number_judged(const AnswerOffer& offer, const Trial& trial, const AnswerTruth& truth,
                          double noise) const;
     /// Index into `values`.

@@ -8,6 +8,7 @@
 
 #include "experiment/answers/answering.h"
 #include "experiment/base/kind_table.h"
+#include "experiment/ports/given_answer.h"
 
 namespace overt {
 
@@ -33,6 +34,13 @@ template <>
 inline constexpr auto kinds_of<AnswerKind> = std::to_array<AnswerKindRow>({
     {"choice",
      "one of `choices`, each with a key, or chosen with the mouse",
+     choice_answering,
+     {"choices", "labels", "keys", "with", "beside_up_deg", "accept", "accept_key", "mapping"},
+     false,
+     true},
+    {odd_one_out_kind,
+     "the one of three `choices` or more, all of them slots, that does not belong; given like a choice. How "
+     "often two stay together is their likeness, which the analysis tells",
      choice_answering,
      {"choices", "labels", "keys", "with", "beside_up_deg", "accept", "accept_key", "mapping"},
      false,

@@ -87,8 +87,10 @@ struct AnswerTruth {
     /// Of matches: offset + gain x reference + noise x normal, drawn towards the start by this share.
     double start_bias = 0.0;
     std::vector<double> cuts; ///< of a scale with steps: as many steps up as cuts lie below that
-    // From the window's begin: shift + log-normal.
+    // From the window's begin: shift + log-normal + time_gain_s x level.
     double shift_s = 0.25, median_s = 0.6, log_sd = 0.35;
+    std::string time_by; ///< a factor whose levels are numbers; empty: none
+    double time_gain_s = 0.0;
     // Shares of trials.
     double early = 0.0;   ///< with a press before the window, too
     double late = 0.0;    ///< answered after the window closed

@@ -35,6 +35,7 @@ class AnswerChecks {
         check_numbers();
         check_pointing();
         check_correct();
+        check_odd_one_out();
         check_window();
         check_truth();
     }
@@ -62,7 +63,7 @@ class AnswerChecks {
 
     void check_choices() {
         const std::size_t count = answer_.choices.size();
-        if (kind().name == "choice" && count < 2)
+        if (has("labels") && has("choices") && count < 2)
             error({"choices"}, "a choice needs two \"choices\" at least",
                   "write choices = [\"left\", \"right\"]");
         for (std::size_t i = 0; i < count; ++i)
@@ -72,8 +73,8 @@ class AnswerChecks {
                 error({"choices"}, fmt::format("the choice \"{}\" is there twice", answer_.choices[i]));
         if (has("choices") && by_keys() && answer_.keys.empty())
             error({"keys", "choices"},
-                  kind().name == "choice" ? "the choices have no keys, and cannot be given"
-                                          : "no keys are named that answer",
+                  has("labels") ? "the choices have no keys, and cannot be given"
+                                : "no keys are named that answer",
                   count > 0 ? "write keys, one for each choice, or with = \"mouse\""
                             : "write keys = [\"f\", \"j\"]");
         else if (count > 0 && by_keys() && answer_.keys.size() != count)
@@ -211,21 +212,43 @@ class AnswerChecks {
         });
     }
 
+    void check_numeric_factor(const std::string& path, const std::string& name) {
+        const std::vector<NamedWord> own = own_levels_of(examination_.protocol);
+        if (std::ranges::any_of(own, [&](const NamedWord& level) {
+                return level.name == name && number_in<double>(level.text).has_value();
+            }))
+            return;
+        const Factors factors = factors_of(examination_.protocol);
+        const Factor* const factor = factors.find(name);
+        const auto is_number = [](const auto& level) { return level.number.has_value(); };
+        if (!factor)
+            examination_.error({path}, fmt::format("there is no factor \"{}\"", name),
+                               suggest_name(name, factors.names()));
+        else if (std::ranges::none_of(factor->levels, is_number))
+            examination_.error({path}, fmt::format("the levels of \"{}\" are no numbers", name),
+                               "a series makes numbers, and a column may have them");
+    }
+
+    void check_odd_one_out() {
+        if (kind().name != odd_one_out_kind)
+            return;
+        const auto slots =
+            std::ranges::count_if(answer_.choices, [&](const auto& choice) { return is_slot(choice); });
+        if (slots < 3 || slots != static_cast<std::ptrdiff_t>(answer_.choices.size()))
+            error({"choices"}, "one is odd among three slots or more",
+                  "have three or more of the task's slots, and nothing else, as choices");
+    }
+
     void check_truth() {
         const AnswerTruth& truth = answer_.truth;
         const std::string path = at("simulated");
-        if (!truth.by.empty()) {
-            const Factors factors = factors_of(examination_.protocol);
-            const Factor* const factor = factors.find(truth.by);
-            const auto is_number = [](const auto& level) { return level.number.has_value(); };
-            if (!factor)
-                examination_.error({path + ".by"}, fmt::format("there is no factor \"{}\"", truth.by),
-                                   suggest_name(truth.by, factors.names()));
-            else if (std::ranges::none_of(factor->levels, is_number))
-                examination_.error({path + ".by"},
-                                   fmt::format("the levels of \"{}\" are no numbers", truth.by),
-                                   "a series makes numbers, and a column may have them");
-        }
+        if (!truth.by.empty())
+            check_numeric_factor(path + ".by", truth.by);
+        if (!truth.time_by.empty())
+            check_numeric_factor(path + ".time_by", truth.time_by);
+        else if (truth.time_gain_s != 0.0)
+            examination_.error({path + ".time_gain_s"}, "nothing says with which factor times grow",
+                               "write time_by = \"set_size\"");
         if (truth.look_share &&
             (!answer_.is_choice() || std::ranges::any_of(answer_.choices, [&](const std::string& choice) {
                 return std::ranges::find(task_.slots, choice) == task_.slots.end();

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -14,6 +15,10 @@
 #include "experiment/trial.h"
 
 namespace overt {
+
+/// Kind of an answer that is a choice among what is shown: of the one that does not belong. Its name in
+/// protocols and records.
+inline constexpr std::string_view odd_one_out_kind = "odd-one-out";
 
 /// From where a response time counts.
 enum class AnswerZero : std::uint8_t {

@@ -179,6 +179,42 @@ Json json_of_reliefs(const StudyReliefs& study) {
     return reliefs;
 }
 
+Json json_of_trends(const StudyAnswers& answers) {
+    Json trends = Json::array();
+    for (const AnswerTrendRow& row : answers.trends) {
+        Json points = Json::array();
+        for (const AnswerTrendPoint& point : row.points)
+            points.push_back({number(point.x), json_of(point.mean)});
+        trends.push_back({{"of", answer_key(row.of)},
+                          {"measure", row.measure},
+                          {"along", row.along},
+                          {"column", row.column},
+                          {"level", row.level},
+                          {"slope", json_of(row.slope)},
+                          {"intercept", json_of(row.intercept)},
+                          {"answers", row.answers},
+                          {"observers", row.observers},
+                          {"points", std::move(points)},
+                          {"planted", number(row.planted)}});
+    }
+    return trends;
+}
+
+Json json_of_likenesses(const StudyAnswers& answers) {
+    Json likenesses = Json::array();
+    for (const AnswerLikenessRow& row : answers.likenesses)
+        likenesses.push_back({{"of", answer_key(row.of)},
+                              {"factor", row.factor},
+                              {"a", row.a},
+                              {"b", row.b},
+                              {"trials", row.trials},
+                              {"together", row.together},
+                              {"share", json_of(row.share)},
+                              {"chance", number(row.chance)},
+                              {"planted", number(row.planted)}});
+    return likenesses;
+}
+
 } // namespace
 
 Json report_answers(const StudyResults& results) {
@@ -192,6 +228,7 @@ Json report_answers(const StudyResults& results) {
                              {"trials", row.trials},
                              {"missed", row.missed},
                              {"correct", json_of(row.correct)},
+                             {"planted", number(row.planted_correct)},
                              {"d_prime", number(row.d_prime)},
                              {"d_prime_se", number(row.d_prime_se)},
                              {"criterion", number(row.criterion)},
@@ -266,6 +303,8 @@ Json report_answers(const StudyResults& results) {
                          {"planted", number(row.planted)}});
     json["matches"] = std::move(matches);
     json["match_lines"] = std::move(lines);
+    json["trends"] = json_of_trends(answers);
+    json["likenesses"] = json_of_likenesses(answers);
     json["reliefs"] = json_of_reliefs(results.reliefs);
     return json;
 }

@@ -1,6 +1,7 @@
 /// A number that a study estimates, how far it can be trusted, and why where there is none.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <utility>
@@ -25,6 +26,15 @@ struct Estimate {
         return {number, interval, {}};
     }
     static Estimate none(std::string reason) { return {{}, {}, std::move(reason)}; }
+    /// With its interval cut off where the quantity cannot be, which makes it no less often right: a share
+    /// lies from 0 to 1, a duration is not below 0.
+    Estimate cut_to(double low, double high) const {
+        Estimate cut = *this;
+        if (cut.interval)
+            cut.interval =
+                Interval{std::clamp(interval->low, low, high), std::clamp(interval->high, low, high)};
+        return cut;
+    }
 };
 
 } // namespace overt

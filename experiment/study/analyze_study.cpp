@@ -13,7 +13,7 @@
 #include "experiment/base/counted.h"
 #include "experiment/base/parallel.h"
 #include "experiment/study/answer_gaze.h"
-#include "experiment/study/answer_results.h"
+#include "experiment/study/answers/answer_results.h"
 #include "experiment/study/area_pairs.h"
 #include "experiment/study/area_shares.h"
 #include "experiment/study/difference_maps.h"

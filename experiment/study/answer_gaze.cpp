@@ -73,8 +73,6 @@ std::vector<std::vector<const GazeBeforeAnswer*>> by_answer(const std::vector<Ga
     return all;
 }
 
-bool is_choice_answer(const StudyAnswer& answer) { return answer.kind == "choice" || answer.kind == "key"; }
-
 /// Whether it is one of the slots that the trial shows something in.
 bool is_of_slots(const StudyAnswer& answer) {
     return answer.shown.size() > 1 &&
@@ -277,7 +275,7 @@ std::vector<AnswerGazeRow> answer_gaze(const StudyResults& results) {
         const std::vector<LookBefore> looks = looks_before(presentations);
         const LookSummary all = summary_of(looks, [](const LookBefore&) { return true; });
         const StudyAnswer& answer = *presentations.front()->answer;
-        const bool has_slots = is_choice_answer(answer) && is_of_slots(answer);
+        const bool has_slots = asks_for_choice(answer) && is_of_slots(answer);
         for (std::size_t i = 0; i < presentations.size(); ++i) {
             const GazeBeforeAnswer& of = *presentations[i];
             const auto add = [&](const std::string& area, const auto& is_there) {
@@ -327,7 +325,7 @@ std::vector<GazeChoiceRow> gaze_choices(const StudyResults& results, const Study
     std::map<AnswerOf, Own> answers;
     std::set<AnswerOf> of_choices;
     for (const StudyAnswer& one : results.answers.given)
-        if (is_choice_answer(one))
+        if (asks_for_choice(one))
             of_choices.insert({"", one.task, one.answer, one.item});
     for (const AnswerGazeRow& row : results.answers.gaze) {
         const AnswerOf of{"", row.task, row.answer, row.item};
@@ -400,7 +398,7 @@ std::vector<DifferenceMap> answer_maps(const StudyResults& results, const Object
     };
     std::map<Of, Fixated> answers;
     for (const GazeBeforeAnswer& one : gaze) {
-        if (!is_choice_answer(*one.answer))
+        if (!asks_for_choice(*one.answer))
             continue;
         const int object = results.trials[static_cast<std::size_t>(one.trial)].object;
         Fixated& own = answers[{one.answer->task, one.answer->answer, one.answer->item, object}];

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "experiment/study/answer_results.h"
+#include "experiment/study/answers/answer_results.h"
 #include "experiment/study/fixation_maps.h"
 #include "experiment/study/results/study_groups.h"
 

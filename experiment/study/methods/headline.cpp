@@ -4,6 +4,8 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -124,7 +126,8 @@ std::string gauge_sentence(const StudyResults& results, const FirstAnswer& first
     std::vector<double> means;
     for (const auto& [observer, sums] : observers)
         means.push_back(sums.first / sums.second);
-    const Estimate mean = estimated_mean(means, options.bootstrap(), "no setting has a normal beside it");
+    const Estimate mean =
+        estimated_mean(means, options.bootstrap(), "no setting has a normal beside it").cut_to(0.0, 180.0);
     if (!mean.value)
         return {};
     return fmt::format("settings of {} lie {} from the surface's own normals in the mean, {}",
@@ -132,19 +135,35 @@ std::string gauge_sentence(const StudyResults& results, const FirstAnswer& first
                        over(static_cast<int>(means.size())));
 }
 
-/// The difference of two levels that is surest, else the mean.
+/// The difference of two levels that is surest, over all items of a scale; else the mean of the first.
 std::string rating_sentence(const StudyAnswers& answers, const FirstAnswer& first, double confidence) {
+    const auto is_of_scale = [&](const AnswerOf& of) {
+        return of.observer.empty() && of.task == first.of.task && of.answer == first.of.answer;
+    };
+    const AnswerDifferenceRow* surest = nullptr; ///< of those beyond chance
+    const auto size = [](const AnswerDifferenceRow& row) {
+        return std::abs(row.evidence.effect_size.value.value_or(0.0));
+    };
+    std::set<std::string> items, with_difference;
+    for (const AnswerRatingRow& row : answers.ratings)
+        if (is_of_scale(row.of))
+            items.insert(row.of.item);
+    for (const AnswerDifferenceRow& row : answers.differences) {
+        if (!is_of_scale(row.of) || row.measure != "mean" || !row.p_holm || !row.difference.value ||
+            *row.p_holm > 1.0 - confidence)
+            continue;
+        with_difference.insert(row.of.item);
+        if (!surest || *row.p_holm < *surest->p_holm ||
+            (*row.p_holm == *surest->p_holm && size(row) > size(*surest)))
+            surest = &row;
+    }
+    const AnswerOf& of = surest ? surest->of : first.of;
     const AnswerRatingRow* const all =
-        row_of_all(answers.ratings, first.of, [](const AnswerRatingRow& row) { return row.factor.empty(); });
+        row_of_all(answers.ratings, of, [](const AnswerRatingRow& row) { return row.factor.empty(); });
     if (!all || !all->mean.value)
         return {};
-    const AnswerDifferenceRow* surest = nullptr; ///< of those beyond chance
-    for (const AnswerDifferenceRow& row : answers.differences)
-        if (row.of == first.of && row.measure == "mean" && row.p_holm && row.difference.value &&
-            *row.p_holm <= 1.0 - confidence && (!surest || *row.p_holm < *surest->p_holm))
-            surest = &row;
     std::string words =
-        fmt::format("the mean of {} is {}", named_answer(first.of), with_interval(all->mean, confidence));
+        fmt::format("the mean of {} is {}", named_answer(of), with_interval(all->mean, confidence));
     if (surest)
         words += fmt::format("; of {} {} it is by {} {} than of {}", surest->column, surest->a,
                              with_interval({std::abs(*surest->difference.value),
@@ -155,6 +174,9 @@ std::string rating_sentence(const StudyAnswers& answers, const FirstAnswer& firs
                                             {}},
                                            confidence),
                              *surest->difference.value < 0.0 ? "lower" : "higher", surest->b);
+    if (items.size() > 1)
+        words += fmt::format("; {} of {} items differ between levels beyond chance", with_difference.size(),
+                             items.size());
     return words + ", " + over(first.observers);
 }
 
@@ -180,7 +202,7 @@ std::string share_sentence(const StudyResults& results, const FirstAnswer& first
     std::vector<double> shares;
     for (const auto& [observer, sums] : observers)
         shares.push_back(sums.first / sums.second);
-    const Estimate mean = estimated_mean(shares, options.bootstrap(), "nobody answered");
+    const Estimate mean = estimated_mean(shares, options.bootstrap(), "nobody answered").cut_to(0.0, 1.0);
     if (!mean.value)
         return {};
     const std::string share = with_interval(mean, options.confidence, 100.0, " %");
@@ -202,19 +224,73 @@ std::string area_sentence(const StudyResults& results, double confidence) {
     return {};
 }
 
-std::string result_clause(const StudyResults& results, const StudyOptions& options) {
-    for (const FirstAnswer& first : answers_in_order(results.answers)) {
-        for (const std::string& clause :
-             {curve_sentence(results.answers, first, options.confidence),
-              match_sentence(results.answers, first, options.confidence),
-              scale_sentence(results.answers, first, options.confidence),
-              noise_sentence(results.answers, first), gauge_sentence(results, first, options),
-              rating_sentence(results.answers, first, options.confidence),
-              share_sentence(results, first, options)})
-            if (!clause.empty())
-                return clause;
+/// Of a search: how answers slow down with every further stimulus.
+std::string trend_sentence(const StudyAnswers& answers, const FirstAnswer& first, double confidence) {
+    constexpr std::string_view set_size = "set_size";
+    std::vector<std::string> clauses;
+    const auto add = [&](const AnswerTrendRow& row, const std::string& where) {
+        clauses.push_back(fmt::format("{}{}", with_interval(row.slope, confidence, 1000.0, " ms"), where));
+    };
+    const auto is_wanted = [&](const AnswerTrendRow& row) {
+        return row.of == first.of && row.along == set_size && row.measure.find("time") != std::string::npos &&
+               row.slope.value;
+    };
+    for (const AnswerTrendRow& row : answers.trends)
+        if (is_wanted(row) && row.column == "target")
+            add(row, fmt::format(" with the target {}", row.level));
+    if (clauses.empty())
+        for (const AnswerTrendRow& row : answers.trends)
+            if (is_wanted(row) && row.column.empty())
+                add(row, "");
+    if (clauses.empty())
+        return {};
+    return fmt::format("response times grow by {} for every further stimulus, {}", joined_words(clauses),
+                       over(first.observers));
+}
+
+/// Which two levels stay together most often, and which least.
+std::string likeness_sentence(const StudyAnswers& answers, const FirstAnswer& first, double confidence) {
+    const AnswerLikenessRow *most = nullptr, *least = nullptr;
+    std::string factor;
+    for (const AnswerLikenessRow& row : answers.likenesses) {
+        if (row.of != first.of || !row.share.value || row.a == row.b ||
+            (!factor.empty() && row.factor != factor))
+            continue;
+        factor = row.factor;
+        most = !most || *row.share.value > *most->share.value ? &row : most;
+        least = !least || *row.share.value < *least->share.value ? &row : least;
     }
-    return area_sentence(results, options.confidence);
+    if (!most || most == least)
+        return {};
+    return fmt::format(
+        "of each {} {} and {} stay together most often, in {} of the trials that show both, {} "
+        "and {} least, in {}; by chance it were {:.3g} %, {}",
+        factor, most->a, most->b, with_interval(most->share, confidence, 100.0, " %"), least->a, least->b,
+        with_interval(least->share, confidence, 100.0, " %"), 100.0 * most->chance, over(first.observers));
+}
+
+/// The main result in a sentence, and what it is of.
+struct MainResult {
+    std::string measure, clause;
+};
+
+MainResult main_result(const StudyResults& results, const StudyOptions& options) {
+    const StudyAnswers& answers = results.answers;
+    for (const FirstAnswer& first : answers_in_order(answers))
+        for (MainResult& found :
+             std::vector<MainResult>{{"curves", curve_sentence(answers, first, options.confidence)},
+                                     {"matches", match_sentence(answers, first, options.confidence)},
+                                     {"likenesses", likeness_sentence(answers, first, options.confidence)},
+                                     {"scales", scale_sentence(answers, first, options.confidence)},
+                                     {"scales", noise_sentence(answers, first)},
+                                     {"trends", trend_sentence(answers, first, options.confidence)},
+                                     {"reliefs", gauge_sentence(results, first, options)},
+                                     {"ratings", rating_sentence(answers, first, options.confidence)},
+                                     {"choices", share_sentence(results, first, options)}})
+            if (!found.clause.empty())
+                return std::move(found);
+    std::string clause = area_sentence(results, options.confidence);
+    return {clause.empty() ? "" : "areas", std::move(clause)};
 }
 
 /// Which things have the same level as which: the number of the first thing of each one's level.
@@ -335,7 +411,9 @@ StudyHeadline study_headline(const StudyResults& results, const StudyOptions& op
                         ? fmt::format("; {} excluded",
                                       share_of(glance.excluded_trials, glance.trials, unit_of_gaze(results)))
                         : fmt::format("; no {} excluded", unit_of_gaze(results))));
-    add_sentence(headline.result, result_clause(results, options));
+    MainResult result = main_result(results, options);
+    headline.measure = std::move(result.measure);
+    add_sentence(headline.result, std::move(result.clause));
     return headline;
 }
 

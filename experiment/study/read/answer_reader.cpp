@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <string_view>
+
+#include <fmt/format.h>
 
 #include "experiment/base/text_number.h"
 #include "experiment/ports/event_kinds.h"
@@ -54,6 +57,49 @@ std::map<int, ChosenByProcedure> procedure_choices(const SessionRecord& record) 
     return choices;
 }
 
+/// A step of a task whose time is drawn from a list, by its place in the task's trials.
+struct DrawnStep {
+    std::string task;
+    std::size_t place = 0;
+    friend auto operator<=>(const DrawnStep&, const DrawnStep&) = default;
+};
+
+/// Adds the drawn times of steps as levels of a factor, "blank_s", to answers whose trials have them: where a
+/// step takes a few times, each in several trials. Times that are drawn from a range are none. With several
+/// such steps of a kind, "blank_s_2" is the second.
+void add_drawn_times(std::vector<StudyAnswer>& answers,
+                     const std::map<std::pair<int, int>, std::vector<AttemptStep>>& steps) {
+    constexpr std::size_t most_levels = 6, least_trials = 2;
+    std::map<DrawnStep, std::map<std::string, std::set<std::pair<int, int>>>> drawn; ///< trials by level
+    std::map<DrawnStep, std::string> kinds;
+    for (const StudyAnswer& one : answers) {
+        const std::pair trial(one.session, one.trial);
+        const auto known = steps.find(trial);
+        for (std::size_t i = 0; known != steps.end() && i < known->second.size(); ++i) {
+            const AttemptStep& step = known->second[i];
+            if (!step.drawn_s)
+                continue;
+            drawn[{one.task, i}][fmt::format("{}", *step.drawn_s)].insert(trial);
+            kinds[{one.task, i}] = step.kind;
+        }
+    }
+    std::map<std::pair<std::string, std::string>, int> of_kind;
+    std::map<DrawnStep, std::string> names;
+    for (const auto& [step, levels] : drawn) {
+        if (levels.size() < 2 || levels.size() > most_levels ||
+            std::ranges::any_of(levels, [](const auto& level) { return level.second.size() < least_trials; }))
+            continue;
+        const int number = ++of_kind[{step.task, kinds[step]}];
+        names[step] = kinds[step] + (number > 1 ? fmt::format("_s_{}", number) : "_s");
+    }
+    for (StudyAnswer& one : answers) {
+        const auto known = steps.find({one.session, one.trial});
+        for (std::size_t i = 0; known != steps.end() && i < known->second.size(); ++i)
+            if (const auto name = names.find({one.task, i}); name != names.end() && known->second[i].drawn_s)
+                one.levels.emplace_back(name->second, fmt::format("{}", *known->second[i].drawn_s));
+    }
+}
+
 } // namespace
 
 std::vector<AnsweredStimulus> answered_stimuli(const Factors& factors, std::span<const std::string> slots,
@@ -91,20 +137,10 @@ std::vector<std::pair<std::string, std::string>> levels_of(const Trial& trial,
     return levels;
 }
 
-const std::string& StudyAnswer::level(const std::string& factor) const {
-    static const std::string none;
-    const auto found = std::ranges::find(levels, factor, &std::pair<std::string, std::string>::first);
-    return found != levels.end() ? found->second : none;
-}
-
-std::optional<double> AnsweredStimulus::number(const std::string& factor) const {
-    const auto found = std::ranges::find(numbers, factor, &std::pair<std::string, double>::first);
-    return found != numbers.end() ? std::optional(found->second) : std::nullopt;
-}
-
 std::vector<StudyAnswer> read_answers(std::span<const std::filesystem::path> sessions,
                                       std::span<const std::pair<std::string, std::string>> same_observer) {
     std::vector<StudyAnswer> answers;
+    std::map<std::pair<int, int>, std::vector<AttemptStep>> steps; ///< by session and trial
     for (std::size_t session = 0; session < sessions.size(); ++session) {
         const SessionRecord record(sessions[session]);
         const SessionHeader& header = record.header();
@@ -129,6 +165,7 @@ std::vector<StudyAnswer> read_answers(std::span<const std::filesystem::path> ses
             }
             const auto levels = levels_of(trial.trial, shown);
             const auto procedure = procedures.find(trial.trial.index);
+            steps[{static_cast<int>(session), trial.trial.index + 1}] = trial.outcome.steps;
             for (const GivenAnswer& given : trial.outcome.given) {
                 StudyAnswer& answer = answers.emplace_back();
                 answer.observer = observer;
@@ -159,6 +196,7 @@ std::vector<StudyAnswer> read_answers(std::span<const std::filesystem::path> ses
             }
         }
     }
+    add_drawn_times(answers, steps);
     return answers;
 }
 

@@ -47,6 +47,9 @@ struct StudyAnswer {
     std::vector<MatchSetting> settings = {}; ///< of a match, one for each of its columns
 };
 
+/// It is to be one of several choices, whether or not it was given.
+bool asks_for_choice(const StudyAnswer& answer);
+
 /// It was given, and is one of several choices: places, words and numbers are none.
 bool is_choice(const StudyAnswer& answer);
 
@@ -63,7 +66,8 @@ struct AnswerOf {
 struct AnswerSummaryRow {
     AnswerOf of;
     int trials = 0, missed = 0;
-    Estimate correct; ///< share of those that are right or wrong
+    Estimate correct;                           ///< share of those that are right or wrong
+    std::optional<double> planted_correct = {}; ///< of simulated observers
     /// Of two choices of which one is right in each trial; log-linear correction.
     std::optional<double> d_prime = {}, d_prime_se = {}, criterion = {};
     /// How answers come about, by what was shown: "ABX", "same-different", "oddity", "3 alternatives"; and
@@ -180,6 +184,39 @@ struct AnswerDifferenceRow {
     std::optional<double> planted = {}; ///< of simulated observers
 };
 
+/// What was answered at a level of a trend's factor.
+struct AnswerTrendPoint {
+    double x = 0.0;
+    Estimate mean;
+};
+
+/// A line of what was answered over a factor whose levels are numbers: how much longer answers take with
+/// each further stimulus of a search, how memory falls with time.
+struct AnswerTrendRow {
+    AnswerOf of;
+    std::string measure;       ///< "share correct", "mean", "mean response time / s"
+    std::string along;         ///< the factor
+    std::string column, level; ///< of trials of this level of another factor alone; empty: of all
+    /// By least squares over the answers of an observer, of times over those that are not wrong; of all
+    /// observers the means of theirs. Per unit of the factor, and at 0.
+    Estimate slope, intercept;
+    int answers = 0, observers = 1;
+    std::vector<AnswerTrendPoint> points; ///< rising
+    std::optional<double> planted = {};   ///< slope that simulated observers mean to have
+};
+
+/// How alike two levels are: how often they stay together where the odd one of several is chosen.
+struct AnswerLikenessRow {
+    AnswerOf of;
+    std::string factor, a, b; ///< in the order of the alphabet; the same level twice, where two have it
+    int trials = 0;           ///< pairs that were shown in a trial that was answered
+    int together = 0;         ///< of which neither was chosen
+    Estimate share; ///< of an observer Wilson's interval; of all that over observers, or Wilson's where it is
+                    ///< wider
+    double chance = 0.0;                ///< that they stay together if each is chosen as often
+    std::optional<double> planted = {}; ///< of simulated observers
+};
+
 /// What was looked at in a trial before an answer was given.
 struct AnswerGazeRow {
     std::string observer, task, answer, item, value;
@@ -250,6 +287,8 @@ struct StudyAnswers {
     std::vector<AnswerTimeRow> times;
     std::vector<AnswerSpeedRow> speeds;
     std::vector<AnswerDifferenceRow> differences;
+    std::vector<AnswerTrendRow> trends;
+    std::vector<AnswerLikenessRow> likenesses;
     std::vector<AnswerGazeRow> gaze;
     std::vector<GazeChoiceRow> gaze_choices;
     std::vector<AnswerMatchRow> matches;

@@ -88,6 +88,8 @@ RowLayout<AnswerSummaryRow> answers_layout() {
              "Of these without an answer, which is neither right nor wrong unless the protocol says so",
              &Row::missed);
     to.estimate("correct", "Share of correct answers, with Wilson's interval", "", &Row::correct);
+    to.number("correct_planted", "Of simulated observers: how often they mean to be right", "",
+              &Row::planted_correct);
     to.number(
         "d_prime",
         "Where one of two answers is right in each trial: sensitivity, log-linear correction of all shares; "
@@ -315,6 +317,73 @@ RowLayout<AnswerGazeRow> answer_gaze_layout() {
     to.count("is_last", "1: the last one before the answer was there", &Row::is_last);
     to.number("first_arrival_s", "From the stimulus's onset to the first fixation there; n/a: there was none",
               "s", &Row::first_arrival_s);
+    return to;
+}
+
+RowLayout<AnswerTrendRow> answer_trends_layout() {
+    using Row = AnswerTrendRow;
+    StudyLayout<Row> to(
+        "answer_trends",
+        "Lines of what was answered over factors whose levels are numbers, such as the set size "
+        "of a search.");
+    add_answer_of(to);
+    to.text("measure", "What is a line of the factor; response times are of answers that are not wrong",
+            &Row::measure);
+    to.text("along", "The factor", &Row::along);
+    to.text("within", "A factor of which trials of one level alone are taken; n/a: all trials", &Row::column);
+    to.text("within_level", "That level", &Row::level);
+    to.estimate("slope",
+                "Per unit of the factor, by least squares over single answers; of all observers the mean of "
+                "theirs",
+                "", &Row::slope);
+    to.estimate("intercept", "Where the factor is 0", "", &Row::intercept);
+    to.count("answers", "Answers that it is made of", &Row::answers);
+    to.count("observers", "Observers", &Row::observers);
+    to.number("planted", "Of simulated observers: the slope that they mean to have", "", &Row::planted);
+    return to;
+}
+
+RowLayout<AnswerTrendPointRow> answer_trend_points_layout() {
+    using Row = AnswerTrendPointRow;
+    StudyLayout<Row> to("answer_trend_points",
+                        "What the lines of answer_trends go through: means at each level.");
+    to.text("observer", "Label of the observer; all: all together", [](const Row& row) {
+        return row.trend.of.observer.empty() ? std::string("all") : row.trend.of.observer;
+    });
+    to.text("task", "Id of the task", [](const Row& row) { return row.trend.of.task; });
+    to.text("answer", "Id of the answer", [](const Row& row) { return row.trend.of.answer; });
+    to.text("item", "Of a scale with several items; n/a: it has one",
+            [](const Row& row) { return row.trend.of.item; });
+    to.text("measure", "What is a line of the factor", [](const Row& row) { return row.trend.measure; });
+    to.text("along", "The factor", [](const Row& row) { return row.trend.along; });
+    to.text("within", "A factor of which trials of one level alone are taken; n/a: all trials",
+            [](const Row& row) { return row.trend.column; });
+    to.text("within_level", "That level", [](const Row& row) { return row.trend.level; });
+    to.number("x", "Level of the factor", "", [](const Row& row) { return std::optional(row.point.x); });
+    to.estimate("mean", "Mean there; of all observers the mean of theirs", "",
+                [](const Row& row) { return row.point.mean; });
+    return to;
+}
+
+RowLayout<AnswerLikenessRow> answer_likenesses_layout() {
+    using Row = AnswerLikenessRow;
+    StudyLayout<Row> to("answer_likenesses",
+                        "How alike two levels of a factor are: how often two stimuli stay together where the "
+                        "one that does not belong was chosen.");
+    add_answer_of(to);
+    to.text("factor", "The factor", &Row::factor);
+    to.text("a", "First level", &Row::a);
+    to.text("b", "Second level; the same as the first, where two stimuli of a trial have it", &Row::b);
+    to.count("trials", "Pairs of such stimuli in trials that were answered", &Row::trials);
+    to.count("together", "Of these the pairs of which neither was chosen", &Row::together);
+    to.estimate(
+        "share",
+        "Share of the pairs that stayed together: of an observer with Wilson's interval, of all the "
+        "mean over observers with the interval over them, or Wilson's of all answers where that is wider",
+        "", &Row::share);
+    to.number("chance", "What it would be if each stimulus were chosen as often", "",
+              [](const Row& row) { return std::optional(row.chance); });
+    to.number("planted", "Of simulated observers: what they were given", "", &Row::planted);
     return to;
 }
 

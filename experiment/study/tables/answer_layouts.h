@@ -25,6 +25,15 @@ RowLayout<AnswerTrackRow> procedure_tracks_layout();
 RowLayout<AnswerTimeRow> response_times_layout();
 RowLayout<AnswerSpeedRow> speed_and_accuracy_layout();
 RowLayout<AnswerDifferenceRow> answer_differences_layout();
+RowLayout<AnswerTrendRow> answer_trends_layout();
+
+/// A point of a trend.
+struct AnswerTrendPointRow {
+    const AnswerTrendRow& trend;
+    const AnswerTrendPoint& point;
+};
+RowLayout<AnswerTrendPointRow> answer_trend_points_layout();
+RowLayout<AnswerLikenessRow> answer_likenesses_layout();
 RowLayout<AnswerGazeRow> answer_gaze_layout();
 RowLayout<GazeChoiceRow> gaze_choices_layout();
 RowLayout<AnswerScaleRow> answer_scales_layout();

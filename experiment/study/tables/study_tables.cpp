@@ -101,6 +101,13 @@ template <class Visit> void for_each_table(const StudyResults& results, const Vi
     all(response_times_layout(), results.answers.times, false);
     all(speed_and_accuracy_layout(), results.answers.speeds, false);
     all(answer_differences_layout(), results.answers.differences, false);
+    all(answer_trends_layout(), results.answers.trends, false);
+    visit(answer_trend_points_layout(), !results.answers.trends.empty(), [&](const auto& take) {
+        for (const AnswerTrendRow& trend : results.answers.trends)
+            for (const AnswerTrendPoint& point : trend.points)
+                take(AnswerTrendPointRow{trend, point});
+    });
+    all(answer_likenesses_layout(), results.answers.likenesses, false);
     all(answer_gaze_layout(), results.answers.gaze, false);
     all(gaze_choices_layout(), results.answers.gaze_choices, false);
     all(answer_scales_layout(), results.answers.scales, false);

@@ -2,6 +2,7 @@
 #include "devices/simulated/simulated_answers.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
@@ -204,4 +205,57 @@ TEST_CASE("observers lean to what they are going to choose, where the protocol s
     favour_area(plan, {-1, 0.0, 1, 4.0});
     CHECK(plan.shares[1] / (1.0 - plan.shares[1]) == Approx(4.0 * 0.25));
     CHECK(plan.shares[0] == Approx(0.3 * (1.0 - plan.shares[1]) / 0.8));
+}
+
+TEST_CASE("the odd one out is farthest from the others on average as in many trials", "[unit]") {
+    Protocol protocol = sided();
+    protocol.slots.resize(3);
+    protocol.slots[2].id = "third";
+    Task& task = protocol.tasks[0];
+    task.slots = {"left", "right", "third"};
+    TaskAnswer& which = task.answers[0];
+    which.kind = kind_named("odd-one-out");
+    which.choices = task.slots;
+    which.keys = {"1", "2", "3"};
+    which.truth.bias = 0.0;
+    which.truth.lapses = 0.0;
+    const SimulatedAnswers answers(protocol, 5);
+    const auto shown = [&](int index) {
+        Trial trial = trial_of(index, 0, 1);
+        trial.beside.push_back({{0, 3, 0, 0, 0}, 2});
+        return trial;
+    };
+    const AnswerOffer offer = offer_of(protocol, which, "", shown(0));
+    const SimulatedAnswers::Expected expected = answers.expected(offer, shown(0));
+    std::vector<double> counts(3, 0.0);
+    constexpr int often = 6000;
+    for (int i = 0; i < often; ++i)
+        counts[static_cast<std::size_t>(answers.answer(offer, shown(i)).choice)] += 1.0 / often;
+    for (std::size_t i = 0; i < 3; ++i)
+        CHECK(expected.shares[i] == Approx(counts[i]).margin(0.025));
+    // Of the levels 0, 1 and 3 it is the last, not the largest of any other three.
+    CHECK(expected.shares[2] > 0.7);
+    CHECK(expected.shares[0] > expected.shares[1]);
+}
+
+TEST_CASE("answers come later by as much as the level of their factor says", "[unit]") {
+    Protocol protocol = sided();
+    AnswerTruth& truth = protocol.tasks[0].answers[0].truth;
+    truth.shift_s = 0.3;
+    truth.median_s = 0.5;
+    truth.log_sd = 0.0;
+    truth.time_by = "gloss";
+    truth.time_gain_s = 0.04;
+    const SimulatedAnswers answers(protocol, 5);
+    for (const int level : {0, 3}) {
+        const Trial trial = trial_of(0, level, 1);
+        const AnswerOffer offer = offer_of(protocol, protocol.tasks[0].answers[0], "", trial);
+        CHECK(to_seconds(answers.answer(offer, trial).after) == Approx(0.8 + 0.04 * level).margin(1e-6));
+        CHECK(answers.expected(offer, trial).after_s == Approx(0.8 + 0.04 * level));
+    }
+    // The mean of a log-normal number is above its median.
+    protocol.tasks[0].answers[0].truth.log_sd = 0.5;
+    const Trial trial = trial_of(0, 0, 1);
+    CHECK(answers.expected(offer_of(protocol, protocol.tasks[0].answers[0], "", trial), trial).after_s ==
+          Approx(0.3 + 0.5 * std::exp(0.125)));
 }

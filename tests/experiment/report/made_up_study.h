@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "experiment/study/answer_results.h"
+#include "experiment/study/answers/answer_results.h"
 #include "experiment/study/results/study_results.h"
 #include "tests/experiment/surface/flat_and_round.h"
 

@@ -1,6 +1,8 @@
 /// The sentences at the head of a study's page: what was asked and varied, and the first result.
 #include "experiment/study/methods/headline.h"
 
+#include <tuple>
+
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
@@ -114,4 +116,50 @@ TEST_CASE("where samples are too few to count fixations, the share is that of th
     results.session_quality.emplace_back().rate_hz = 119.6;
     CHECK_FALSE(rate_too_low_for_counts(results));
     CHECK_THAT(study_headline(results, {}).result, Contains("31 % of the fixations lie on the head"));
+}
+
+TEST_CASE("the main result of a search is how times grow, and of odd ones what stays together", "[unit]") {
+    StudyResults results = study_of_pairs();
+    for (const auto& [level, slope] : {std::pair("absent", 0.05), std::pair("present", 0.02)}) {
+        AnswerTrendRow row;
+        row.of = {"", "glossier", "which", ""};
+        row.measure = "mean response time / s";
+        row.along = "set_size";
+        row.column = "target";
+        row.level = level;
+        row.slope = Estimate::of(slope);
+        results.answers.trends.push_back(row);
+    }
+    StudyHeadline headline = study_headline(results, {});
+    CHECK(headline.measure == "trends");
+    CHECK_THAT(headline.result,
+               Contains("grow by 50 ms with the target absent and 20 ms with the target present"));
+    for (const auto& [a, b, share] : {std::tuple("chalk", "gold", 0.1), std::tuple("gold", "steel", 0.7),
+                                      std::tuple("gold", "gold", 0.9)}) {
+        AnswerLikenessRow row;
+        row.of = {"", "glossier", "which", ""};
+        row.factor = "material";
+        row.a = a;
+        row.b = b;
+        row.share = Estimate::of(share);
+        row.chance = 1.0 / 3.0;
+        results.answers.likenesses.push_back(row);
+    }
+    headline = study_headline(results, {});
+    CHECK(headline.measure == "likenesses");
+    CHECK_THAT(headline.result, Contains("gold and steel stay together most often, in 70 %") &&
+                                    Contains("chalk and gold least, in 10 %") && Contains("33.3 %"));
+}
+
+TEST_CASE("a share in the headline does not leave 0 to 100 per cent", "[unit]") {
+    StudyResults results = study_of_pairs();
+    std::vector<StudyAnswer> all = results.answers.given;
+    for (StudyAnswer& one : all) {
+        one.observer = "02";
+        one.value = one.trial % 2 ? "left" : "right";
+    }
+    all.front().value = "right";
+    results.answers.given.insert(results.answers.given.end(), all.begin(), all.end());
+    const std::string result = study_headline(results, {}).result;
+    CHECK_THAT(result, Contains("interval 0 to 100 %"));
 }

@@ -1,5 +1,5 @@
 /// Settings of matches by reference, and the line over references: the known answers of a published table.
-#include "experiment/study/answer_results.h"
+#include "experiment/study/answers/answer_results.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "experiment/study/answer_designs.h"
+#include "experiment/study/answers/answer_designs.h"
 
 #include <algorithm>
 #include <set>

@@ -6,8 +6,8 @@
 #include "experiment/base/text_number.h"
 #include "experiment/fits/matching.h"
 #include "experiment/statistics/bootstrap.h"
-#include "experiment/study/answer_differences.h"
-#include "experiment/study/answer_results.h"
+#include "experiment/study/answers/answer_differences.h"
+#include "experiment/study/answers/answer_results.h"
 
 namespace overt {
 

@@ -9,8 +9,8 @@
 
 #include "experiment/base/enum_names.h"
 #include "experiment/statistics/permutation.h"
-#include "experiment/study/answer_counts.h"
-#include "experiment/study/answer_results.h"
+#include "experiment/study/answers/answer_counts.h"
+#include "experiment/study/answers/answer_results.h"
 
 namespace overt {
 
@@ -59,6 +59,16 @@ std::optional<double> measured(const MeasuredAnswer& what, const AnswerList& ans
 /// An observer's value in level a less that in b; nothing where one of both has none.
 std::optional<double> difference_of(const MeasuredAnswer& what, const AnswerList& of_observer,
                                     const std::string& column, const std::string& a, const std::string& b);
+
+/// Lines of shares of correct answers, of ratings and of response times over each compared column of numbers
+/// (compared_columns): of all trials, and of those of each level of each other such column but the side. Of
+/// each observer who answered at two levels at least, and of all.
+std::vector<AnswerTrendRow> answer_trends(const AnswersBy& answers, const StudyOptions& options);
+
+/// Of one observer's answers, each counting by its weight (empty: one each), the slope of a measure as
+/// AnswerTrendRow names it; nothing with fewer than two levels.
+std::optional<double> trend_slope(const AnswerList& answers, std::span<const double> weights,
+                                  const std::string& measure, const std::string& along);
 
 /// Each measure that the answers have, for each pair of levels of each column, of observers who have both:
 /// mean of their differences, interval and p over them (flips of signs), corrected after Holm over the rows

@@ -6,7 +6,7 @@
 
 #include "experiment/fits/response_time_fit.h"
 #include "experiment/statistics/bootstrap.h"
-#include "experiment/study/answer_results.h"
+#include "experiment/study/answers/answer_results.h"
 
 namespace overt {
 
@@ -121,7 +121,7 @@ std::vector<AnswerTimeRow> answer_times(const AnswersBy& answers, const StudyOpt
         }
         std::set<std::string> choices;
         for (const StudyAnswer* one : given)
-            if (!one->is_missed && (one->kind == "choice" || one->kind == "key"))
+            if (!one->is_missed && asks_for_choice(*one))
                 choices.insert(one->value);
         for (const std::string& choice : choices)
             add(choice, [&](const StudyAnswer& one) { return one.value == choice; });

@@ -6,9 +6,9 @@
 #include "experiment/fits/rating_scale_fit.h"
 #include "experiment/statistics/bootstrap.h"
 #include "experiment/statistics/proportion.h"
-#include "experiment/study/answer_designs.h"
-#include "experiment/study/answer_differences.h"
-#include "experiment/study/answer_results.h"
+#include "experiment/study/answers/answer_designs.h"
+#include "experiment/study/answers/answer_differences.h"
+#include "experiment/study/answers/answer_results.h"
 
 namespace overt {
 
@@ -178,6 +178,8 @@ void reckon_answers(StudyAnswers& answers, const StudyOptions& options) {
     answers.times = answer_times(by, options);
     answers.speeds = answer_speeds(by, options);
     answers.differences = answer_differences(by, options);
+    answers.trends = answer_trends(by, options);
+    answers.likenesses = answer_likenesses(by, options);
     reckon_matches(answers, by, options);
 }
 

@@ -1,4 +1,4 @@
-#include "experiment/study/answer_differences.h"
+#include "experiment/study/answers/answer_differences.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 
 #include "experiment/base/text_number.h"
 #include "experiment/statistics/bootstrap.h"
-#include "experiment/study/answer_designs.h"
+#include "experiment/study/answers/answer_designs.h"
 
 namespace overt {
 
@@ -68,7 +68,7 @@ std::vector<MeasuredAnswer> measures_of(const AnswerList& given) {
     } else {
         std::set<std::string> choices;
         for (const StudyAnswer* one : given)
-            if (!one->is_missed && (one->kind == "choice" || one->kind == "key"))
+            if (!one->is_missed && asks_for_choice(*one))
                 choices.insert(one->value);
         if (choices.size() == 2)
             choices.erase(std::prev(choices.end())); // the other's is its mirror image

@@ -1,5 +1,5 @@
 /// What follows from answers: shares, thresholds and scales of observers whose truth is known.
-#include "experiment/study/answer_results.h"
+#include "experiment/study/answers/answer_results.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +9,8 @@
 
 #include "experiment/base/random.h"
 #include "experiment/statistics/distributions.h"
-#include "experiment/study/answer_designs.h"
-#include "experiment/study/answer_differences.h"
+#include "experiment/study/answers/answer_designs.h"
+#include "experiment/study/answers/answer_differences.h"
 
 using namespace overt;
 

@@ -1,4 +1,4 @@
-#include "experiment/study/answer_counts.h"
+#include "experiment/study/answers/answer_counts.h"
 
 #include <algorithm>
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "experiment/fits/detection.h"
-#include "experiment/study/answer_counts.h"
+#include "experiment/study/answers/answer_counts.h"
 
 namespace overt {
 

@@ -3,6 +3,8 @@
 
 #include <map>
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "experiment/study/results/answer_rows.h"
@@ -47,6 +49,18 @@ std::vector<AnswerTimeRow> answer_times(const AnswersBy& answers, const StudyOpt
 /// parts of equally many, from the fastest on; of all observers the mean of theirs. Where something is
 /// correct, with ten times for each part at least.
 std::vector<AnswerSpeedRow> answer_speeds(const AnswersBy& answers, const StudyOptions& options);
+
+/// How often two levels of each factor in which stimuli differ stay together, of answers that choose the odd
+/// one out: of each observer and of all. A row for each pair that was shown.
+std::vector<AnswerLikenessRow> answer_likenesses(const AnswersBy& answers, const StudyOptions& options);
+
+/// A factor, and two of its levels in the order of the alphabet.
+using LevelPairOfFactor = std::pair<std::string, std::pair<std::string, std::string>>;
+
+/// The share of the answers that leave a pair together, each answer counting by its weight; empty weights:
+/// one each.
+std::map<LevelPairOfFactor, double> likeness_shares(std::span<const StudyAnswer* const> answers,
+                                                    std::span<const double> weights);
 
 /// Settings of matches that were accepted, for each level of the reference, and the lines over references: of
 /// an observer with intervals by drawing settings again, of all the means of the observers'. Besides, those

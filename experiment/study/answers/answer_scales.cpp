@@ -9,8 +9,8 @@
 #include "experiment/fits/difference_scaling.h"
 #include "experiment/fits/pair_scaling.h"
 #include "experiment/statistics/distributions.h"
-#include "experiment/study/answer_counts.h"
-#include "experiment/study/answer_results.h"
+#include "experiment/study/answers/answer_counts.h"
+#include "experiment/study/answers/answer_results.h"
 
 namespace overt {
 

@@ -7,9 +7,9 @@
 #include "experiment/base/parallel.h"
 #include "experiment/statistics/bootstrap.h"
 #include "experiment/statistics/proportion.h"
-#include "experiment/study/answer_counts.h"
-#include "experiment/study/answer_differences.h"
-#include "experiment/study/answer_results.h"
+#include "experiment/study/answers/answer_counts.h"
+#include "experiment/study/answers/answer_differences.h"
+#include "experiment/study/answers/answer_results.h"
 
 namespace overt {
 
