@@ -15,6 +15,7 @@
 #include "app/cli/old_spellings.h"
 #include "app/cli/this_program.h"
 #include "app/display/display_commands.h"
+#include "app/doctor/doctor_commands.h"
 #include "app/import/import_commands.h"
 #include "app/manual/known_words.h"
 #include "app/manual/manual_commands.h"
@@ -77,7 +78,7 @@ int run_command_line(int argc, char** argv) {
          {add_check_commands, add_session_commands, add_watch_commands, add_record_commands,
           add_import_commands, add_replay_commands, add_analyze_command, add_replicate_command,
           add_power_command, add_stimulus_commands, add_tracker_commands, add_display_commands,
-          add_bench_commands, add_manual_commands})
+          add_doctor_command, add_bench_commands, add_manual_commands})
         add_commands(app, chosen);
 
     if (const std::optional<int> answer = answer_to_no_command(app, argc, argv))

@@ -242,9 +242,8 @@ bool is_wanted(const Output& output, const std::vector<std::string>& modes) {
 
 } // namespace
 
-int run_display_verify(const DisplayVerifyOptions& options) {
+BenchFigures verify_drawn_output(const DisplayVerifyOptions& options, std::vector<std::string>& refused) {
     BenchFigures figures;
-    std::vector<std::string> refused;
     ProgressBar bar;
     std::optional<Experiment> experiment;
     if (!options.protocol.empty())
@@ -274,6 +273,12 @@ int run_display_verify(const DisplayVerifyOptions& options) {
             verify_stimuli(kind, *experiment, options, figures);
     }
     bar.finish();
+    return figures;
+}
+
+int run_display_verify(const DisplayVerifyOptions& options) {
+    std::vector<std::string> refused;
+    const BenchFigures figures = verify_drawn_output(options, refused);
     if (options.json) {
         fmt::print("{}\n", to_json(figures).dump(2));
     } else {

@@ -1,7 +1,6 @@
 #include "app/display/display_commands.h"
 
 #include "app/cli/command_options.h"
-#include "app/cli/library_option.h"
 
 namespace overt {
 
@@ -146,34 +145,6 @@ void add_verify(CLI::App& display, ChosenCommand& chosen) {
     });
 }
 
-void add_doctor(CLI::App& app, ChosenCommand& chosen) {
-    const auto [command, options] = add_command(
-        app, chosen, run_doctor, "doctor", "What this machine offers for a session, and what is missing",
-        "overt doctor --json\n"
-        "  overt doctor protocols/overt_2019.toml --photodiode --sensor simulated "
-        "--context osmesa\n"
-        "  overt doctor --window --monitor 1 --seconds 30 --report rig.md");
-    command.add_option("PROTOCOL", options.protocol,
-                       "Protocol file (TOML): show the square of --photodiode as its sessions would, on its "
-                       "screen, in its mode, through its display box and in its corner");
-    add_json_flag(command, options.json);
-    command.add_flag("--window", options.window,
-                     "Show a dark screen, measure its refreshes, and say what may disturb their times");
-    command.add_flag("--photodiode", options.photodiode,
-                     "Show a square in a corner that changes, and compare what a sensor sees with the times "
-                     "of the flips");
-    option(command, "--sensor", options.sensor, "PORT",
-           "Serial port of a light sensor that sends 1 and 0, or `simulated` (5 ms late, 0.2 ms jitter)");
-    option(command, "--report", options.report, "FILE.md",
-           "Write all that is found as a page to keep, with what --window and --photodiode measure and "
-           "pictures of it");
-    add_context_option(command, options.context);
-    add_library_option(command);
-    add_screen_options(command, options.windowed, options.monitor);
-    option(command, "--seconds", options.seconds, "S", "How long to measure", CLI::Range(0.1, 3600.0),
-           shown_default);
-}
-
 } // namespace
 
 void add_display_commands(CLI::App& app, ChosenCommand& chosen) {
@@ -185,7 +156,6 @@ void add_display_commands(CLI::App& app, ChosenCommand& chosen) {
     add_mode(display, chosen);
     add_characterise(display, chosen);
     add_colour(display, chosen);
-    add_doctor(app, chosen);
 }
 
 } // namespace overt

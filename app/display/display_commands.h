@@ -1,4 +1,4 @@
-/// The commands for the display and the rest of the machine: display, doctor.
+/// The commands for the display, and what the command doctor finds of it.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +9,11 @@
 
 #include "app/cli/chosen_command.h"
 #include "app/cli/context_choice.h"
+#include "app/cli/figures.h"
+#include "devices/display_box/display_plus_plus.h"
+#include "render/gl/gl_context.h"
+#include "render/window/screen_check.h"
+#include "render/window/window_context.h"
 
 namespace overt {
 
@@ -36,6 +41,9 @@ struct DisplayVerifyOptions {
     bool json = false;
 };
 int run_display_verify(const DisplayVerifyOptions& options);
+/// What was drawn in memory, read back and decoded; `refused`: why of the rest nothing could be, a sentence
+/// each. Throws GraphicsError for what was asked for by name and cannot be drawn.
+BenchFigures verify_drawn_output(const DisplayVerifyOptions& options, std::vector<std::string>& refused);
 
 struct DisplayCharacteriseOptions {
     std::filesystem::path protocol; ///< its screen; empty: 1920 x 1080
@@ -77,7 +85,21 @@ struct DisplayHardwareOptions {
     std::string monitor; ///< that is connected to the box, see MonitorWish; empty: the only one
     bool json = false;
 };
-/// Draws known lines and has the display box send back what it received.
+/// Draws known lines, has the display box send back what it received, and keeps what was found
+/// (keep_video_check()).
+struct CheckedHardware {
+    BenchFigures figures; ///< changed bytes, line by line
+    BoxIdentity box;
+    GlDescription graphics;
+    MonitorInfo monitor;
+    double video_rate_hz = 0.0; ///< as the box receives it
+    bool is_good = false;
+    std::string verdict;                 ///< in a sentence
+    std::vector<ScreenFinding> findings; ///< what may change the signal
+};
+/// Throws InputError without a display, DeviceError without a box.
+CheckedHardware check_display_hardware(const DisplayHardwareOptions& options);
+/// The same, and prints it.
 int run_display_hardware_check(const DisplayHardwareOptions& options);
 
 struct DisplayStatusOptions {

@@ -92,7 +92,7 @@ BenchFigures figures_of(const VideoLineReport& report) {
 
 } // namespace
 
-int run_display_hardware_check(const DisplayHardwareOptions& options) {
+CheckedHardware check_display_hardware(const DisplayHardwareOptions& options) {
     if (!display_is_available())
         throw InputError("there is no display to draw on (DISPLAY and WAYLAND_DISPLAY are not set)");
     SteadyClock clock;
@@ -126,30 +126,42 @@ int run_display_hardware_check(const DisplayHardwareOptions& options) {
         readings_per_line);
     box->restore_desktop();
     // What a session asks for, see require_video_check().
-    const std::filesystem::path kept = video_check_file();
-    keep_video_check(kept, {video_path(box->identity(), display.context().description(), monitor), utc_now(),
-                            report.good(), report.description()});
+    keep_video_check(video_check_file(),
+                     {video_path(box->identity(), display.context().description(), monitor), utc_now(),
+                      report.good(), report.description()});
 
-    const BenchFigures figures = figures_of(report);
+    return {figures_of(report),
+            box->identity(),
+            display.context().description(),
+            monitor,
+            rate_hz,
+            report.good(),
+            report.description(),
+            findings};
+}
+
+int run_display_hardware_check(const DisplayHardwareOptions& options) {
+    const CheckedHardware found = check_display_hardware(options);
+    const std::string kept = video_check_file().string();
     if (options.json) {
-        nlohmann::ordered_json json = to_json(figures);
-        json["port"] = box->identity().port;
-        json["serial_number"] = box->identity().serial_number;
-        json["monitor"] = describe(monitor);
-        json["video_rate_hz"] = rate_hz;
-        json["verdict"] = report.description();
-        json["kept_in"] = kept.string();
+        nlohmann::ordered_json json = to_json(found.figures);
+        json["port"] = found.box.port;
+        json["serial_number"] = found.box.serial_number;
+        json["monitor"] = describe(found.monitor);
+        json["video_rate_hz"] = found.video_rate_hz;
+        json["verdict"] = found.verdict;
+        json["kept_in"] = kept;
         fmt::print("{}\n", json.dump(2));
     } else {
-        fmt::print("{} ({}) at {} receives {:.2f} Hz; drawn on {}\n", box->identity().product,
-                   box->identity().serial_number, box->identity().port, rate_hz, describe(monitor));
-        print_table(figures);
-        fmt::print("{}\nkept for sessions in {}\n", report.description(), kept.string());
-        for (const ScreenFinding& finding : findings)
+        fmt::print("{} ({}) at {} receives {:.2f} Hz; drawn on {}\n", found.box.product,
+                   found.box.serial_number, found.box.port, found.video_rate_hz, describe(found.monitor));
+        print_table(found.figures);
+        fmt::print("{}\nkept for sessions in {}\n", found.verdict, kept);
+        for (const ScreenFinding& finding : found.findings)
             if (finding.weight != ScreenFinding::Weight::good)
                 fmt::print("{}: {}\n", finding.what, finding.finding);
     }
-    return report.good() ? 0 : 1;
+    return found.is_good ? 0 : 1;
 }
 
 } // namespace overt

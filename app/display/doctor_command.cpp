@@ -11,6 +11,7 @@
 #include "app/rig/answer_equipment.h"
 #include "app/rig/button_boxes.h"
 #include "app/rig/marker_outputs.h"
+#include "app/rig/rig_page.h"
 #include "devices/display_box/display_plus_plus_search.h"
 #include "devices/display_box/switch_record.h"
 #include "devices/host/clocks.h"
@@ -99,6 +100,17 @@ void add_instruments(std::vector<DoctorFinding>& lines) {
     }
 }
 
+void add_rig_page(std::vector<DoctorFinding>& lines) {
+    constexpr const char* what = "page of this rig";
+    try {
+        const std::optional<KeptRigPage> kept = read_rig_page(rig_folder());
+        lines.push_back({what, sentence_of(kept, {}),
+                         kept && kept->page.is_finished() ? "" : "overt doctor PROTOCOL --first-day"});
+    } catch (const std::exception& error) {
+        lines.push_back({what, error.what()});
+    }
+}
+
 std::vector<DoctorFinding> examine() {
     std::vector<DoctorFinding> lines;
     for (const ContextAttempt& attempt : survey_contexts())
@@ -120,6 +132,7 @@ std::vector<DoctorFinding> examine() {
         lines.push_back({"marker output", output});
     for (const std::string& sound : sound_overview())
         lines.push_back({"sound device", sound});
+    add_rig_page(lines);
     for (DoctorFinding& finding : examine_machine())
         lines.push_back(std::move(finding));
     return lines;

@@ -69,7 +69,7 @@ std::string screen_section(const ExaminedScreen& screen, const std::filesystem::
     const RefreshMeasurement& measured = screen.facts.measured;
     std::string text = fmt::format("\n## The screen's refreshes\n\n{}, {}. {} flips of a dark screen.\n\n"
                                    "| | looked at | found |\n| --- | --- | --- |\n",
-                                   describe(screen.monitor), screen.renderer, measured.flips);
+                                   describe(screen.monitor), screen.graphics.renderer, measured.flips);
     for (const ScreenFinding& finding : screen.findings)
         text += fmt::format("| {} | {} | {} |\n", name_of(finding.weight), cell(finding.what),
                             cell(finding.finding));

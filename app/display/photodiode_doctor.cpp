@@ -113,7 +113,7 @@ OpenDisplay open_display(const SquareScreen& screen, const DoctorOptions& option
                         .finds_blanks = true});
 }
 
-std::unique_ptr<LightSensor> open_sensor(const DoctorOptions& options, const Clock& clock) {
+std::unique_ptr<LightSensor> open_sensor_of(const DoctorOptions& options, const Clock& clock) {
     if (options.sensor == "simulated")
         return std::make_unique<SimulatedLightSensor>(simulated_latency_ms, simulated_jitter_ms, 1);
     if (options.sensor.empty())
@@ -124,6 +124,11 @@ std::unique_ptr<LightSensor> open_sensor(const DoctorOptions& options, const Clo
 } // namespace
 
 MeasuredLight measure_light(const DoctorOptions& options) {
+    return measure_light(options,
+                         [&](Clock& clock, DisplayPlusPlus*) { return open_sensor_of(options, clock); });
+}
+
+MeasuredLight measure_light(const DoctorOptions& options, const SensorOpener& open_sensor) {
     const bool headless = !options.windowed && options.context && *options.context != ContextKind::window;
     const SquareScreen screen = square_screen(options, headless);
     // The box first, as before a session: without it no window need flash up.
@@ -137,13 +142,13 @@ MeasuredLight measure_light(const DoctorOptions& options) {
     Clock& clock = display.clock();
     if (options.sensor.starts_with('/') && !display.is_real())
         throw InputError("a sensor has nothing to see of a display that is not there: give no --context");
-    const std::unique_ptr<LightSensor> sensor = open_sensor(options, clock);
     const SquareFrames frames(screen.geometry.image_px);
     PagePresenter presenter(display.context(), display.surface(), frames, screen.geometry, screen.display,
                             {});
     std::optional<DisplayBoxSession> box;
     if (identity)
         box.emplace(*identity, screen.display, clock, presenter);
+    const std::unique_ptr<LightSensor> sensor = open_sensor(clock, box ? &box->box() : nullptr);
     presenter.load_frames({0, 0});
 
     std::vector<LightEdge> changes;
@@ -169,8 +174,14 @@ MeasuredLight measure_light(const DoctorOptions& options) {
     clock.wait_until(clock.now() + std::chrono::milliseconds(200));
     const double scan_ms =
         1e3 * screen.geometry.image_origin_px.y / (screen.geometry.screen_px.y * screen.display.refresh_hz);
-    return {std::string(name_of(flip.source)), std::string(name_of(screen.display.output)),
-            static_cast<int>(changes.size()), scan_ms,
+    return {std::string(name_of(flip.source)),
+            std::string(name_of(screen.display.output)),
+            display.is_real(),
+            display.context().description(),
+            display.is_real() ? std::optional(display.window()->monitor()) : std::nullopt,
+            identity,
+            static_cast<int>(changes.size()),
+            scan_ms,
             sensor ? compare_light(changes, sensor->edges()) : LightLatency()};
 }
 

@@ -130,7 +130,7 @@ ExaminedScreen measure_screen(const DoctorOptions& options) {
                           : facts.measured.mean_hz > 0.0 ? facts.measured.mean_hz
                                                          : assumed_hz;
     std::vector<ScreenFinding> findings = judge_timing(facts, own_hz, "its mode");
-    return {monitor, display.context().description().renderer, std::move(facts), std::move(findings),
+    return {monitor, display.context().description(), std::move(facts), std::move(findings),
             measure_inputs(display, options.seconds)};
 }
 
@@ -139,7 +139,7 @@ int run_screen_doctor(const DoctorOptions& options) {
     if (options.json) {
         fmt::print("{}\n", json_of(screen).dump(2));
     } else {
-        fmt::print("{}\n{}\n", describe(screen.monitor), screen.renderer);
+        fmt::print("{}\n{}\n", describe(screen.monitor), screen.graphics.renderer);
         for (const ScreenFinding& finding : screen.findings)
             fmt::print("{:<8} {:<18} {}\n", name_of(finding.weight), finding.what, finding.finding);
         if (screen.inputs)

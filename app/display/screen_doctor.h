@@ -5,6 +5,7 @@
 
 #include "app/display/display_commands.h"
 #include "app/rig/input_latency.h"
+#include "render/gl/gl_context.h"
 #include "render/vblank/refresh_measurement.h"
 #include "render/window/screen_check.h"
 #include "render/window/window_context.h"
@@ -14,7 +15,7 @@ namespace overt {
 /// What a window on a monitor was found to be like.
 struct ExaminedScreen {
     MonitorInfo monitor;
-    std::string renderer; ///< OpenGL's
+    GlDescription graphics;
     TimingFacts facts;
     std::vector<ScreenFinding> findings;
     std::optional<InputLatency> inputs; ///< nothing: keys cannot be sent to this window

@@ -13,7 +13,7 @@ namespace {
 const auto button_box_devices =
     for_each_kind<ButtonBoxKind>([]<ButtonBoxKind kind> { return button_box_device_of<kind>(); });
 
-std::unique_ptr<ThreadedButtonBox> start(const ButtonBoxParts& parts) {
+std::unique_ptr<ThreadedButtonBox> start_box(const ButtonBoxParts& parts) {
     using ReadOn = ThreadedButtonBox::ReadOn;
     const ButtonBoxDevice& device = button_box_devices[static_cast<std::size_t>(parts.settings.kind)];
     return std::make_unique<ThreadedButtonBox>(
@@ -22,6 +22,11 @@ std::unique_ptr<ThreadedButtonBox> start(const ButtonBoxParts& parts) {
 }
 
 } // namespace
+
+std::unique_ptr<ThreadedButtonBox> open_button_box(const ButtonBoxSettings& settings, Clock& clock,
+                                                   DisplayPlusPlus* display_box) {
+    return start_box({settings, clock, display_box});
+}
 
 std::unique_ptr<ResponsePanel> make_button_boxes(const Protocol& protocol, Clock& clock,
                                                  ResponsePanel* answering, DisplayPlusPlus* display_box,
@@ -32,7 +37,7 @@ std::unique_ptr<ResponsePanel> make_button_boxes(const Protocol& protocol, Clock
         for (const std::string& meaning : settings.buttons)
             box.meanings.push_back(parse_button_meaning(meaning, box.is_operators));
         try {
-            box.box = start({settings, clock, display_box});
+            box.box = open_button_box(settings, clock, display_box);
         } catch (const DeviceError& error) {
             if (settings.required)
                 throw DeviceError(

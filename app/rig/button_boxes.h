@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "devices/buttons/threaded_button_box.h"
 #include "experiment/ports/clock.h"
 #include "experiment/ports/response_panel.h"
 #include "experiment/protocol/protocol.h"
@@ -21,6 +22,10 @@ class DisplayPlusPlus;
 std::unique_ptr<ResponsePanel> make_button_boxes(const Protocol& protocol, Clock& clock,
                                                  ResponsePanel* answering, DisplayPlusPlus* display_box,
                                                  const std::function<void(const std::string&)>& tell);
+
+/// One of them, by itself, read on a thread of its own where that can be. Throws as make_button_boxes().
+std::unique_ptr<ThreadedButtonBox> open_button_box(const ButtonBoxSettings& settings, Clock& clock,
+                                                   DisplayPlusPlus* display_box);
 
 /// Lines for an overview of the machine: devices that could be response boxes. Opens none.
 std::vector<std::string> button_box_overview();

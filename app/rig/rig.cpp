@@ -86,6 +86,10 @@ Rig::Rig(const Protocol& protocol, std::span<const Object> objects, const RigReq
 
 Rig::~Rig() = default;
 
+std::optional<MonitorInfo> Rig::monitor() const {
+    return is_on_a_real_screen() ? std::optional(display_.window()->monitor()) : std::nullopt;
+}
+
 std::string Rig::timing_word() const {
     return is_on_a_real_screen() ? std::string(name_of(protocol_->display.timing)) : "none";
 }

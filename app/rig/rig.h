@@ -81,6 +81,9 @@ class Rig {
     /// Stimuli are shown on a real screen in real time.
     bool is_on_a_real_screen() const { return display_.is_real(); }
 
+    /// Which one it is; nothing unless is_on_a_real_screen().
+    std::optional<MonitorInfo> monitor() const;
+
     /// What may change the signal on its way to the screen; nothing unless is_on_a_real_screen().
     const std::vector<ScreenFinding>& screen_findings() const { return screen_findings_; }
 

@@ -31,6 +31,8 @@ class BoxInUse {
     /// Null if there is none.
     DisplayPlusPlus* display_box() { return session_ ? &session_->box() : nullptr; }
 
+    const RecordedBox& recorded() const { return recorded_; }
+
     /// As DisplayBoxSession has them; nothing but the record of its absence without one.
     void write_beginning(SessionStore& store);
     void check(SessionStore& store);

@@ -7,8 +7,10 @@
 #include "app/cli/progress_bar.h"
 #include "app/cli/terminal_output.h"
 #include "app/rig/output_verification.h"
+#include "app/rig/rig_page.h"
 #include "app/session/session_messages.h"
 #include "devices/tracker/sample_rate_watch.h"
+#include "experiment/base/error.h"
 #include "experiment/base/whole_file.h"
 #include "experiment/ports/event_kinds.h"
 #include "experiment/record/read/session_faults.h"
@@ -36,6 +38,18 @@ void note_faults(const std::filesystem::path& file, const Clock& clock, SessionL
     if (sides.eye_tracker)
         log.event({clock.now(), -1, simulated_tracker_faults_event, text});
     fmt::print("with the simulated faults of {}\n", file.string());
+}
+
+void note_rig_page(const std::filesystem::path& folder, const RigFacts& rig, const Clock& clock,
+                   SessionLog& log) {
+    std::string sentence;
+    try {
+        sentence = sentence_of(read_rig_page(folder), rig);
+    } catch (const Error& error) {
+        sentence = fmt::format("cannot be read: {}", error.what());
+    }
+    log.event({clock.now(), -1, rig_page_event, sentence});
+    fmt::print(stderr, "page of this rig: {}\n", sentence);
 }
 
 void note_thread(const std::vector<ThreadWish>& wishes, const Clock& clock, SessionLog& log) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/rig/rig.h"
+#include "app/rig/rig_facts.h"
 #include "app/session/session_commands.h"
 #include "devices/host/thread_priority.h"
 #include "experiment/design/schedule.h"
@@ -33,6 +34,10 @@ struct RecordedTracker {
 
 /// Which tracker it is, and what it granted of what was wished.
 void note_tracker(const RecordedTracker& recorded, const Clock& clock);
+
+/// What is proved on this rig, by the page that was kept when it was set up. `folder`: see rig_folder().
+void note_rig_page(const std::filesystem::path& folder, const RigFacts& rig, const Clock& clock,
+                   SessionLog& log);
 
 /// A session with simulated faults must not be taken for one on a real display. `file` may be empty: there
 /// are none.

@@ -1,6 +1,7 @@
 #include "app/session/sitting_record.h"
 
 #include "app/cli/this_program.h"
+#include "app/rig/rig_page.h"
 #include "app/session/recorded_options.h"
 #include "app/session/session_recording.h"
 #include "experiment/ports/event_kinds.h"
@@ -84,10 +85,25 @@ void SittingRecord::write_beginning(const RunOptions& options, const SessionPlan
         shared_->event({rig.clock().now(), -1, earlier_sessions_event, plan.earlier_sessions});
     note_circumstances(options, protocol_, plan.schedule, rig, *shared_);
     note_tracker(own_tracker(), rig.clock());
+    // Time that is virtual runs on no rig.
+    if (!options.virtual_time)
+        note_rig_page(rig_folder(), facts_of_rig(), rig.clock(), *shared_);
     for (const std::string& description : equipment_.markers().descriptions())
         store_->event({rig.clock().now(), -1, marker_output_event, description});
     equipment_.answers().keep_in(folder_.path);
     store_->event({rig.clock().now(), -1, answer_recording_event, equipment_.answers().description()});
+}
+
+RigFacts SittingRecord::facts_of_rig() {
+    Rig& rig = equipment_.rig();
+    RigFacts facts = facts_of_protocol(protocol_);
+    const std::optional<MonitorInfo> monitor = rig.monitor();
+    add_screen_facts(facts, rig.context().description(), monitor ? &*monitor : nullptr);
+    if (rig.tracker().measures_gaze())
+        add_model_fact(facts, rig.tracker().description());
+    if (const RecordedBox& box = equipment_.box().recorded(); box.use == RecordedBox::Use::box)
+        add_box_fact(facts, box.product, box.serial_number);
+    return facts;
 }
 
 RecordedTracker SittingRecord::own_tracker() {

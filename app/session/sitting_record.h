@@ -48,6 +48,7 @@ class SittingRecord {
                               const Experiment& experiment, const SessionPlan& plan, Rig& rig);
     void open_files(const RunOptions& options, const SessionPlan& plan, const PresentingAgain* again);
     void write_beginning(const RunOptions& options, const SessionPlan& plan, bool is_again);
+    RigFacts facts_of_rig();
     RecordedTracker own_tracker();
 
     const Protocol& protocol_;

@@ -51,6 +51,32 @@ std::int64_t StreamFigures::holes(Eye eye) const {
                                  [&](std::int64_t interval) { return 2 * interval > 3 * usual; });
 }
 
+std::int64_t StreamFigures::missing(Eye eye) const {
+    const std::int64_t usual = usual_us(eye);
+    std::int64_t missing = 0;
+    for (const std::int64_t interval : of(eye).intervals_us)
+        if (2 * interval > 3 * usual && usual > 0)
+            missing += (interval + usual / 2) / usual - 1;
+    return missing;
+}
+
+double StreamFigures::clock_span_s() const {
+    return pairs_.empty() ? 0.0 : to_seconds(pairs_.back().after - pairs_.front().before);
+}
+
+std::optional<double> StreamFigures::worst_off_line_us() const {
+    const std::optional<ClockMap> line = clock();
+    if (!line)
+        return std::nullopt;
+    double worst = 0.0;
+    for (const ClockPair& pair : pairs_) {
+        const SessionTime told = line->to_session(pair.other).time;
+        const double outside_s = std::max(to_seconds(pair.before - told), to_seconds(told - pair.after));
+        worst = std::max(worst, 1e6 * outside_s);
+    }
+    return worst;
+}
+
 double StreamFigures::longest_interval_ms(Eye eye) const {
     const std::vector<std::int64_t>& intervals = of(eye).intervals_us;
     return intervals.empty() ? 0.0 : 1e-3 * static_cast<double>(*std::ranges::max_element(intervals));

@@ -30,11 +30,19 @@ class StreamFigures {
     std::optional<double> rate_hz(Eye eye) const;
     /// Times between successive samples of one eye that exceed one and a half of the usual (median) time.
     std::int64_t holes(Eye eye) const;
+    /// Samples that would fill these times, at the usual one.
+    std::int64_t missing(Eye eye) const;
     /// The longest of these times, ms.
     double longest_interval_ms(Eye eye) const;
 
     /// Nothing without clock readings.
     std::optional<ClockMap> clock() const;
+    std::size_t clock_readings() const { return pairs_.size(); }
+    /// From the first reading of the clock to the last, by this computer's.
+    double clock_span_s() const;
+    /// How far a reading lies off the line through all of them at most, beyond half of its own round trip,
+    /// µs: 0 for clocks that run steadily. Nothing without readings.
+    std::optional<double> worst_off_line_us() const;
     /// Half of the shortest round trip, µs.
     std::optional<double> best_half_trip_us() const;
 

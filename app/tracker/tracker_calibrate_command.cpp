@@ -35,8 +35,8 @@ class PrintingLog final : public SessionLog {
 
 } // namespace
 
-int run_tracker_calibrate(const TrackerCalibrateOptions& options) {
-    Experiment experiment = read_experiment_or_report(options.protocol, cache_folder(), InputDepth::objects);
+TriedCalibration calibrate_on(const Experiment& given, const TrackerCalibrateOptions& options) {
+    Experiment experiment = given;
     Protocol& protocol = experiment.protocol;
     protocol = with_one_tracker(protocol, options.further);
     if (!options.kind.empty())
@@ -71,14 +71,22 @@ int run_tracker_calibrate(const TrackerCalibrateOptions& options) {
     OperatorControl(state).calibrate();
     for (const std::string& sentence : rig.tracker().finish(".", {}))
         fmt::print("eye tracker: {}\n", sentence);
-    if (!log.last) {
-        fmt::print(stderr, "the eye tracker was not calibrated{}{}\n", state.is_over() ? ": " : "",
-                   state.why_over());
+    return {log.last, log.last || !state.is_over() ? std::string() : state.why_over(),
+            rig.tracker().description(), rig.is_on_a_real_screen()};
+}
+
+int run_tracker_calibrate(const TrackerCalibrateOptions& options) {
+    const Experiment experiment =
+        read_experiment_or_report(options.protocol, cache_folder(), InputDepth::objects);
+    const TriedCalibration tried = calibrate_on(experiment, options);
+    if (!tried.calibration) {
+        fmt::print(stderr, "the eye tracker was not calibrated{}{}\n", tried.why_not.empty() ? "" : ": ",
+                   tried.why_not);
         return 1;
     }
-    print_calibration(*log.last);
+    print_calibration(*tried.calibration);
     if (!options.picture.empty()) {
-        draw_validation(*log.last, screen_geometry_of(protocol), options.picture);
+        draw_validation(*tried.calibration, screen_geometry_of(experiment.protocol), options.picture);
         fmt::print("picture: {}\n", options.picture.string());
     }
     return 0;

@@ -8,6 +8,10 @@
 
 #include "app/cli/chosen_command.h"
 #include "app/cli/context_choice.h"
+#include "app/inputs/protocol_inputs.h"
+#include "app/tracker/stream_figures.h"
+#include "experiment/ports/eye_tracker.h"
+#include "experiment/ports/recorded_calibration.h"
 
 namespace overt {
 
@@ -28,6 +32,17 @@ struct TrackerTestOptions {
     bool json = false;
 };
 int run_tracker_test(const TrackerTestOptions& options);
+/// What a tracker's stream was like.
+struct MeasuredStream {
+    TrackerDescription tracker;
+    StreamFigures figures;
+    double seconds = 0.0, processor_s = 0.0; ///< that it recorded, and that a processor worked for it
+    bool is_lost = false;                    ///< the tracker was lost meanwhile
+};
+/// Records with the tracker of `protocol`, a simulated observer before one that is simulated; its clock is
+/// read before and after, and once every `clock_every_s` meanwhile (0: not). Throws InputError without a
+/// tracker, DeviceError.
+MeasuredStream measure_stream(const Protocol& protocol, double seconds, double clock_every_s = 0.0);
 
 struct TrackerCalibrateOptions {
     std::filesystem::path protocol;
@@ -41,6 +56,15 @@ struct TrackerCalibrateOptions {
     std::filesystem::path picture;                  ///< of the validation, PNG; empty: none
 };
 int run_tracker_calibrate(const TrackerCalibrateOptions& options);
+/// A calibration on the protocol's screen with its tracker, as a session does it.
+struct TriedCalibration {
+    std::optional<RecordedCalibration> calibration; ///< nothing: it was not calibrated
+    std::string why_not;                            ///< if it was given up
+    TrackerDescription tracker;
+    bool is_on_a_real_screen = false;
+};
+/// `options.protocol` and `picture` are not looked at. Throws as the Rig, and InputError without a tracker.
+TriedCalibration calibrate_on(const Experiment& experiment, const TrackerCalibrateOptions& options);
 
 struct TrackerShowOptions {
     std::filesystem::path session;

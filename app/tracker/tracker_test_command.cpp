@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <ctime>
 
 #include <fmt/format.h>
@@ -115,8 +117,7 @@ void print(const TrackerDescription& description, const StreamFigures& figures, 
 
 } // namespace
 
-int run_tracker_test(const TrackerTestOptions& options) {
-    const Protocol protocol = wished(options);
+MeasuredStream measure_stream(const Protocol& protocol, double wished_s, double clock_every_s) {
     SteadyClock clock;
     ObservedScene scene;
     scene.screen = screen_geometry_of(protocol);
@@ -139,12 +140,20 @@ int run_tracker_test(const TrackerTestOptions& options) {
     ProgressBar bar;
     const double processor_before = processor_seconds();
     tracker->start_recording();
-    const SessionTime began = clock.now(), end = began + from_seconds(options.seconds);
+    const SessionTime began = clock.now(), end = began + from_seconds(wished_s);
+    SessionTime clock_read = began;
+    const int whole_s = static_cast<int>(std::ceil(wished_s));
     while (clock.now() < end && !tracker->lost() && !Interruption::requested()) {
         clock.wait_until(clock.now() + std::chrono::milliseconds(8)); // as at a refresh of 120 Hz
         take();
-        bar.update("recording, s", static_cast<int>(to_seconds(clock.now() - began)),
-                   static_cast<int>(options.seconds));
+        if (clock_every_s > 0.0 && to_seconds(clock.now() - clock_read) >= clock_every_s) {
+            clock_read = clock.now();
+            if (const std::optional<ClockPair> pair = tracker->read_clocks())
+                figures.take(*pair);
+        }
+        // The bar ends once, with its last whole second.
+        bar.update("recording, s", std::min(whole_s - 1, static_cast<int>(to_seconds(clock.now() - began))),
+                   whole_s);
     }
     const double seconds = to_seconds(clock.now() - began);
     const bool lost = tracker->lost();
@@ -159,11 +168,18 @@ int run_tracker_test(const TrackerTestOptions& options) {
     for (const std::string& sentence : tracker->finish(thrown_away.path().string(), {}))
         if (sentence.find(thrown_away.path().string()) == std::string::npos)
             fmt::print(stderr, "{}\n", sentence);
+    return {tracker->description(), std::move(figures), seconds, processor_s, lost};
+}
+
+int run_tracker_test(const TrackerTestOptions& options) {
+    const MeasuredStream found = measure_stream(wished(options), options.seconds);
     if (options.json)
-        fmt::print("{}\n", json_of(tracker->description(), figures, seconds, processor_s, lost).dump(2));
+        fmt::print(
+            "{}\n",
+            json_of(found.tracker, found.figures, found.seconds, found.processor_s, found.is_lost).dump(2));
     else
-        print(tracker->description(), figures, seconds, processor_s, lost);
-    return lost || figures.samples() == 0 ? 1 : 0;
+        print(found.tracker, found.figures, found.seconds, found.processor_s, found.is_lost);
+    return found.is_lost || found.figures.samples() == 0 ? 1 : 0;
 }
 
 } // namespace overt

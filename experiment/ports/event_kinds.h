@@ -18,6 +18,8 @@ inline constexpr std::string_view break_begins_event = "break begins";
 inline constexpr std::string_view break_ends_event = "break ends";
 inline constexpr std::string_view session_completed_event = "session completed";
 inline constexpr std::string_view session_aborted_event = "session aborted"; ///< and why
+/// The program came to a sudden end in this sitting: at what, and in which library.
+inline constexpr std::string_view program_crashed_event = "program crashed";
 
 // What happened in a trial, or to it.
 inline constexpr std::string_view trial_failed_event = "trial failed"; ///< and what becomes of it
@@ -58,7 +60,9 @@ inline constexpr std::string_view marker_output_event = "marker output"; ///< wh
 inline constexpr std::string_view tracker_clock_jumped_event =
     "eye tracker's clock jumped";                                            ///< and by how much
 inline constexpr std::string_view tracker_fault_event = "eye tracker fault"; ///< a simulated one that struck
-inline constexpr std::string_view screen_event = "screen";                   ///< a finding about it
+/// What was proved on this rig when it was set up (overt doctor --first-day), and by which page.
+inline constexpr std::string_view rig_page_event = "rig page";
+inline constexpr std::string_view screen_event = "screen"; ///< a finding about it
 /// What of it is not what it was when the session began: its mode, a compositor, the gamma table, the window.
 inline constexpr std::string_view screen_changed_event = "screen changed";
 /// What a check of the presentation found before the first trial: misses, and the distribution of times.

@@ -8,6 +8,7 @@
 #include "experiment/base/error.h"
 #include "experiment/base/parallel.h"
 #include "experiment/surface/heat_flow.h"
+#include "experiment/surface/sides_together.h"
 
 namespace overt {
 
@@ -109,16 +110,12 @@ HatSmoother::HatSmoother(const SurfaceGeometry& geometry, double least_sigma_mm,
 }
 
 void HatSmoother::multiply(std::vector<double>& densities) const {
-    constexpr std::size_t together = SparseFactor::together;
     const std::vector<double> of = densities;
     for (std::size_t row = 0; row + 1 < products_begin_.size(); ++row) {
-        double sums[together] = {};
-        for (std::size_t e = products_begin_[row]; e < products_begin_[row + 1]; ++e) {
-            const double* const values = of.data() + together * products_[e].hat;
-            for (std::size_t i = 0; i < together; ++i)
-                sums[i] += products_[e].value * values[i];
-        }
-        std::copy_n(sums, together, densities.begin() + static_cast<std::ptrdiff_t>(together * row));
+        SidesTogether sums{};
+        for (std::size_t e = products_begin_[row]; e < products_begin_[row + 1]; ++e)
+            sums += products_[e].value * sides_of(of.data(), products_[e].hat);
+        sides_of(densities.data(), row) = sums;
     }
 }
 
@@ -148,14 +145,6 @@ std::vector<double> HatSmoother::hats_together(std::span<const std::vector<Surfa
         factor_, [&](std::vector<double>& densities) { multiply(densities); }, add_sources);
 }
 
-double HatSmoother::value_at(std::uint32_t node, std::span<const double> of_hats) const {
-    double value = 0.0;
-    for (const SurfaceHats::Share& share : hats_.at(node))
-        value += share.value * of_hats[share.hat];
-    // Far from all weights hats swing a little about 0.
-    return std::max(value, 0.0);
-}
-
 template <class Take>
 void HatSmoother::make(std::span<const std::vector<SurfaceWeight>> maps, int most_threads,
                        const Take& take) const {
@@ -165,42 +154,50 @@ void HatSmoother::make(std::span<const std::vector<SurfaceWeight>> maps, int mos
         batches,
         [&](int batch) {
             const std::size_t begin = static_cast<std::size_t>(batch) * together;
-            const std::size_t count = std::min(together, maps.size() - begin);
-            const std::vector<double> all = hats_together(maps.subspan(begin, count));
-            std::vector<double> of_hats(hats_.count());
-            for (std::size_t i = 0; i < count; ++i) {
-                for (std::size_t hat = 0; hat < of_hats.size(); ++hat)
-                    of_hats[hat] = all[together * hat + i];
-                double given = 0.0;
-                for (const SurfaceWeight& weight : maps[begin + i])
-                    given += weight.weight;
-                take(begin + i, of_hats, given);
-            }
+            take(begin, hats_together(maps.subspan(begin, std::min(together, maps.size() - begin))));
         },
         most_threads);
 }
 
-namespace {
-
-void scale_to_mass(std::vector<double>& densities, std::span<const double> areas, double given) {
-    double mass = 0.0;
-    for (std::size_t i = 0; i < densities.size(); ++i)
-        mass += densities[i] * areas[i];
-    for (double& density : densities)
-        density *= mass > 0.0 ? given / mass : 0.0;
+/// At some nodes, of some maps that were made together, scaled so that the sum of densities times areas is
+/// that of a map's weights.
+template <class NodeAt>
+void HatSmoother::take_values(std::span<const double> of_hats, std::span<const double> areas_mm2,
+                              const NodeAt& node_at, std::span<const std::vector<SurfaceWeight>> maps,
+                              std::span<std::vector<double>> results) const {
+    SidesTogether masses{};
+    for (std::vector<double>& result : results)
+        result.resize(areas_mm2.size());
+    for (std::size_t at = 0; at < areas_mm2.size(); ++at) {
+        SidesTogether values{};
+        for (const SurfaceHats::Share& share : hats_.at(node_at(at)))
+            values += share.value * sides_of(of_hats.data(), share.hat);
+        // Far from all weights hats swing a little about 0.
+        for (std::size_t i = 0; i < results.size(); ++i)
+            results[i][at] = values[i] = std::max(values[i], 0.0);
+        masses += values * areas_mm2[at];
+    }
+    for (std::size_t i = 0; i < results.size(); ++i) {
+        double given = 0.0;
+        for (const SurfaceWeight& weight : maps[i])
+            given += weight.weight;
+        for (double& density : results[i])
+            density *= masses[i] > 0.0 ? given / masses[i] : 0.0;
+    }
 }
-
-} // namespace
 
 std::vector<std::vector<double>> HatSmoother::densities(std::span<const std::vector<SurfaceWeight>> maps,
                                                         int most_threads) const {
     std::vector<std::vector<double>> results(maps.size());
-    make(maps, most_threads, [&](std::size_t map, const std::vector<double>& of_hats, double given) {
-        std::vector<double> of_nodes(geometry_.node_count());
-        for (std::uint32_t node = 0; node < of_nodes.size(); ++node)
-            of_nodes[node] = value_at(node, of_hats);
-        scale_to_mass(of_nodes, geometry_.node_areas_mm2(), given);
-        results[map] = geometry_.at_vertices(of_nodes);
+    make(maps, most_threads, [&](std::size_t begin, const std::vector<double>& of_hats) {
+        const auto own =
+            std::span(results).subspan(begin).first(std::min(SparseFactor::together, results.size() - begin));
+        take_values(
+            of_hats, geometry_.node_areas_mm2(),
+            [](std::size_t node) { return static_cast<std::uint32_t>(node); },
+            maps.subspan(begin, own.size()), own);
+        for (std::vector<double>& of_nodes : own)
+            of_nodes = geometry_.at_vertices(of_nodes);
     });
     return results;
 }
@@ -211,10 +208,12 @@ std::vector<std::vector<double>> HatSmoother::densities_at(std::span<const std::
                                                            int most_threads) const {
     OVERT_EXPECTS(nodes.size() == areas_mm2.size());
     std::vector<std::vector<double>> results(maps.size());
-    make(maps, most_threads, [&](std::size_t map, const std::vector<double>& of_hats, double given) {
-        for (const std::uint32_t node : nodes)
-            results[map].push_back(value_at(node, of_hats));
-        scale_to_mass(results[map], areas_mm2, given);
+    make(maps, most_threads, [&](std::size_t begin, const std::vector<double>& of_hats) {
+        const auto own =
+            std::span(results).subspan(begin).first(std::min(SparseFactor::together, results.size() - begin));
+        take_values(
+            of_hats, areas_mm2, [&](std::size_t at) { return nodes[at]; }, maps.subspan(begin, own.size()),
+            own);
     });
     return results;
 }

@@ -41,11 +41,14 @@ class HatSmoother {
                                                   int most_threads = 0) const;
 
   private:
-    /// Calls take(map, densities by hat, the sum of the map's weights) for each of the maps, on many threads.
+    /// Calls take(first of the maps, densities by hat of all that are made together) on many threads.
     template <class Take>
     void make(std::span<const std::vector<SurfaceWeight>> maps, int most_threads, const Take& take) const;
+    template <class NodeAt>
+    void take_values(std::span<const double> of_hats, std::span<const double> areas_mm2,
+                     const NodeAt& node_at, std::span<const std::vector<SurfaceWeight>> maps,
+                     std::span<std::vector<double>> results) const;
     std::vector<double> hats_together(std::span<const std::vector<SurfaceWeight>> maps) const;
-    double value_at(std::uint32_t node, std::span<const double> of_hats) const;
     void multiply(std::vector<double>& densities) const;
 
     const SurfaceGeometry& geometry_;

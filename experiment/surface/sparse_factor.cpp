@@ -7,6 +7,7 @@
 #include <Eigen/SparseCholesky>
 
 #include "experiment/base/error.h"
+#include "experiment/surface/sides_together.h"
 
 namespace overt {
 
@@ -128,40 +129,23 @@ SparseFactor::SparseFactor(std::vector<std::uint32_t> place_of_row, std::span<co
 void SparseFactor::solve(std::span<double> sides) const {
     OVERT_EXPECTS(sides.size() == together * size());
     std::vector<double> work(sides.size());
-    for (std::size_t row = 0; row < size(); ++row) {
-        for (std::size_t i = 0; i < together; ++i)
-            work[together * place_of_row_[row] + i] = sides[together * row + i];
-    }
+    double* const x = work.data();
+    for (std::size_t row = 0; row < size(); ++row)
+        sides_of(x, place_of_row_[row]) = sides_of(sides.data(), row);
     for (std::size_t column = 0; column < size(); ++column) {
-        double* const x = work.data() + together * column;
-        double known[together];
-        for (std::size_t i = 0; i < together; ++i)
-            known[i] = x[i] *= inverse_diagonal_[column];
-        for (std::size_t e = columns_begin_[column]; e < columns_begin_[column + 1]; ++e) {
-            double* const y = work.data() + together * rows_[e];
-            const double value = values_[e];
-            for (std::size_t i = 0; i < together; ++i)
-                y[i] -= value * known[i];
-        }
+        const SidesTogether known = sides_of(x, column) * inverse_diagonal_[column];
+        sides_of(x, column) = known;
+        for (std::size_t e = columns_begin_[column]; e < columns_begin_[column + 1]; ++e)
+            sides_of(x, rows_[e]) -= values_[e] * known;
     }
     for (std::size_t column = size(); column-- > 0;) {
-        double* const x = work.data() + together * column;
-        double sum[together];
-        for (std::size_t i = 0; i < together; ++i)
-            sum[i] = x[i];
-        for (std::size_t e = columns_begin_[column]; e < columns_begin_[column + 1]; ++e) {
-            const double* const y = work.data() + together * rows_[e];
-            const double value = values_[e];
-            for (std::size_t i = 0; i < together; ++i)
-                sum[i] -= value * y[i];
-        }
-        for (std::size_t i = 0; i < together; ++i)
-            x[i] = sum[i] * inverse_diagonal_[column];
+        SidesTogether sum = sides_of(x, column);
+        for (std::size_t e = columns_begin_[column]; e < columns_begin_[column + 1]; ++e)
+            sum -= values_[e] * sides_of(x, rows_[e]);
+        sides_of(x, column) = sum * inverse_diagonal_[column];
     }
-    for (std::size_t row = 0; row < size(); ++row) {
-        for (std::size_t i = 0; i < together; ++i)
-            sides[together * row + i] = work[together * place_of_row_[row] + i];
-    }
+    for (std::size_t row = 0; row < size(); ++row)
+        sides_of(sides.data(), row) = sides_of(x, place_of_row_[row]);
 }
 
 } // namespace overt

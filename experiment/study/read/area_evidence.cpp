@@ -43,6 +43,9 @@ constexpr int steps_between_all = 10;
 /// its trial out.
 constexpr double astray_density = 1e-4;
 
+/// Of trial_errors(), in standard deviations, and a little more.
+constexpr double farthest_error = 3.001;
+
 /// A hexagon of places in a grid of triangles, out to 3 standard deviations, with the weights of a normal
 /// distribution whose width gives what the rest leaves of the variance along each axis.
 std::vector<TrialError> make_trial_errors() {
@@ -200,22 +203,27 @@ class LookedAt {
         };
         const glm::dvec2 whole = widened(fixation.sigma_px),
                          rest = widened(trial_error_rest * fixation.sigma_px);
+        // Beyond 3.5 sigmas lie 0.2 % of errors.
+        constexpr double negligible = 3.5 * 3.5;
+        // Farther from the measured place no error of the trial reaches.
+        const glm::dvec2 reach = farthest_error * fixation.sigma_px + std::sqrt(negligible) * rest;
+        std::vector<std::size_t> near;
         double nearest = 1e300;
-        for (const glm::dvec2& place : picture.places) {
-            const glm::dvec2 off = (fixation.image_px - place) / whole;
+        for (std::size_t i = 0; i < picture.places.size(); ++i) {
+            const glm::dvec2 away = fixation.image_px - picture.places[i], off = away / whole;
             nearest = std::min(nearest, glm::dot(off, off));
+            if (std::abs(away.x) <= reach.x && std::abs(away.y) <= reach.y)
+                near.push_back(i);
         }
         if (nearest > farthest_sigmas * farthest_sigmas)
             return;
         const double peak = 1.0 / (2.0 * std::numbers::pi * rest.x * rest.y);
         Candidates& found = candidates_[index];
         found.astray = astray_density * peak;
-        // Beyond 3.5 sigmas lie 0.2 % of errors.
-        constexpr double negligible = 3.5 * 3.5;
         for (const TrialError& error : trial_errors()) {
             found.begin.push_back(static_cast<std::uint32_t>(found.all.size()));
             const glm::dvec2 meant = fixation.image_px - error.sigmas * fixation.sigma_px;
-            for (std::size_t i = 0; i < picture.visible.size(); ++i) {
+            for (const std::size_t i : near) {
                 const glm::dvec2 off = (meant - picture.places[i]) / rest;
                 const double squares = glm::dot(off, off);
                 if (squares < negligible)

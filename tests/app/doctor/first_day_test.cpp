@@ -1,0 +1,271 @@
+/// A lab's first day with its hardware, rehearsed: what is simulated proves nothing, nothing is lost, and
+/// sessions name the page.
+#include <algorithm>
+#include <deque>
+#include <fstream>
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "app/doctor/box_light.h"
+#include "app/doctor/first_day.h"
+#include "app/doctor/first_day_steps.h"
+#include "app/doctor/rig_page_html.h"
+#include "devices/host/clocks.h"
+#include "experiment/base/error.h"
+#include "tests/app/small_experiment.h"
+
+using namespace overt;
+using namespace overt::test;
+using Catch::Contains;
+
+namespace {
+
+RigStep step_of(const char* name, StepVerdict verdict, RigFacts facts) {
+    RigStep step;
+    step.name = name;
+    step.verdict = verdict;
+    step.finding = "5 ms <late> & \"well\"";
+    step.measured_utc = "2026-11-27T09:00:00Z";
+    step.figures = {at_most("latency", 5.0, "ms", 6.0), {"changes", 12.0, ""}};
+    step.facts = std::move(facts);
+    return step;
+}
+
+RigPage small_page() {
+    return {"2026-11-27T09:00:00Z",
+            "small",
+            "overt 0",
+            {step_of("light", StepVerdict::proved, {{screen_fact, "a"}}),
+             step_of("stream", StepVerdict::proved, {{tracker_fact, "eyelink at 1000 Hz"}}),
+             step_of("markers", StepVerdict::failed, {}), step_of("bytes", StepVerdict::not_proved, {})}};
+}
+
+/// Tells what it is given.
+class ToldBox final : public ButtonBox {
+  public:
+    explicit ToldBox(std::deque<ButtonChange> changes) : changes_(std::move(changes)) {}
+    ButtonBoxDescription description() const override { return {"told", "a box", true}; }
+    void begin() override {}
+    std::size_t poll(std::span<ButtonChange> into) noexcept override {
+        std::size_t taken = 0;
+        for (; taken < into.size() && !changes_.empty(); ++taken, changes_.pop_front())
+            into[taken] = changes_.front();
+        return taken;
+    }
+    bool lost() const noexcept override { return false; }
+
+  private:
+    std::deque<ButtonChange> changes_;
+};
+
+} // namespace
+
+TEST_CASE("a rig's page comes back from its text, and other texts are refused by name", "[unit]") {
+    const RigPage page = small_page();
+    const std::string text = to_json_text(page);
+    const RigPage again = rig_page_from(text, "rig.json");
+    CHECK(to_json_text(again) == text);
+    CHECK(again.steps[0].figures[0].holds == true);
+    CHECK(again.steps[1].facts == page.steps[1].facts);
+    for (const std::string& other :
+         {std::string("{}"), std::string("[1]"), std::string("no JSON"), text.substr(0, text.size() / 2)})
+        CHECK_THROWS_WITH(rig_page_from(other, "rig.json"), Contains("rig.json"));
+}
+
+TEST_CASE("a record says what a rig's page proves, and of which rig it is", "[unit]") {
+    const KeptRigPage kept{small_page(), "/home/lab/rig.json", "abc"};
+    const std::string same = sentence_of(kept, {{screen_fact, "a"}, {tracker_fact, "eyelink at 1000 Hz"}});
+    CHECK_THAT(same, Contains("proved: light, stream") && Contains("failed: markers") &&
+                         Contains("not proved: bytes") && Contains("SHA-256 abc"));
+    CHECK_THAT(same, !Contains("ANOTHER RIG") && !Contains("/home"));
+    const std::string other = sentence_of(kept, {{screen_fact, "a"}, {tracker_fact, "tobii at 60 Hz"}});
+    CHECK_THAT(other, Contains("THE PAGE IS OF ANOTHER RIG: the eye tracker was eyelink at 1000 Hz, is tobii "
+                               "at 60 Hz; measured there and not here: stream"));
+    CHECK_THAT(other, Contains("proved: light;"));
+    CHECK_THAT(sentence_of(std::nullopt, {}), Contains("none") && Contains("--first-day"));
+}
+
+TEST_CASE("what is simulated is never proved, and what misses a bound failed", "[unit]") {
+    const RigStep good = judged({at_most("a", 1.0, "", 2.0)}, "well", "mend it");
+    CHECK(good.verdict == StepVerdict::proved);
+    CHECK(good.remedy.empty());
+    CHECK(as_simulated(good, "a tracker").verdict == StepVerdict::not_proved);
+    CHECK_THAT(as_simulated(good, "a tracker").finding, Contains("SIMULATED: a tracker"));
+    const RigStep bad = judged({at_most("a", 3.0, "", 2.0)}, "ill", "mend it");
+    CHECK(bad.verdict == StepVerdict::failed);
+    CHECK(as_simulated(bad, "a tracker").verdict == StepVerdict::failed);
+    CHECK(bad.remedy == "mend it");
+    CHECK(first_day_steps().size() == names_of_steps().size());
+}
+
+TEST_CASE("the page that is read names each verdict and hides no character", "[unit]") {
+    const std::string html = rig_page_html(small_page());
+    CHECK_THAT(html, Contains("5 ms &lt;late> &amp; &quot;well&quot;"));
+    const auto place = [&](const char* text) { return html.find(text); };
+    CHECK(place("id=\"markers\"") > place("<section id=\"failed\""));
+    CHECK(place("id=\"markers\"") < place("<section id=\"not_proved\""));
+    CHECK(place("id=\"light\"") > place("<section id=\"proved\""));
+}
+
+TEST_CASE("a response box tells light as a sensor does", "[unit]") {
+    SteadyClock clock;
+    using namespace std::chrono_literals;
+    std::deque<ButtonChange> changes;
+    for (int i = 0; i < 4; ++i)
+        changes.push_back(
+            {.button = 3, .is_down = i % 2 == 0, .at = SessionTime(i * 50ms), .uncertainty = 1ms});
+    changes[2].uncertainty = 3ms;
+    changes.push_back({.at = SessionTime(1s), .turn_steps = 2}); // a knob is no light
+    BoxWords words;
+    const auto box = [&] {
+        return std::make_unique<ThreadedButtonBox>([&] { return std::make_unique<ToldBox>(changes); }, clock,
+                                                   ThreadedButtonBox::ReadOn::sessions_thread);
+    };
+    BoxLightSensor sensor(box(), words);
+    const std::vector<LightEdge> edges = sensor.edges();
+    REQUIRE(edges.size() == 4);
+    CHECK(edges[0].is_light);
+    CHECK_FALSE(edges[1].is_light);
+    CHECK(edges[3].at == SessionTime(150ms));
+    CHECK(words.worst_uncertainty == 3ms);
+    CHECK(words.description.model == "a box");
+}
+
+TEST_CASE("a first day is rehearsed, broken off, gone on with, and named in sessions", "[session][waits]") {
+    const SmallExperiment experiment;
+    const std::filesystem::path state = experiment.folder().path() / "state";
+    const std::vector<std::string> environment{"OVERT_STATE=" + state.string()};
+    const auto first_day = [&](std::vector<std::string> more) {
+        std::vector<std::string> all{"doctor",
+                                     experiment.protocol().string(),
+                                     "--first-day",
+                                     "--context",
+                                     "osmesa",
+                                     "--simulate-observer",
+                                     "5",
+                                     "--sensor",
+                                     "simulated",
+                                     "--seconds",
+                                     "1",
+                                     "--clock-minutes",
+                                     "0.02",
+                                     "--trials",
+                                     "2"};
+        all.insert(all.end(), more.begin(), more.end());
+        return experiment.overt(all, environment);
+    };
+    const auto page = [&] {
+        const std::filesystem::path file = rig_page_file(state / "rig");
+        return rig_page_from(text_of(file), file);
+    };
+    const auto verdict_of = [&](const RigPage& of, std::string_view name) {
+        return std::ranges::find(of.steps, name, &RigStep::name)->verdict;
+    };
+
+    // Broken off: steps that were left out stay open.
+    const ProgramRun begun = first_day({"--skip", "accuracy", "--skip", "trials"});
+    INFO(begun.out << begun.err);
+    REQUIRE(begun.exit_code == 0);
+    const RigPage half = page();
+    CHECK_FALSE(half.is_finished());
+    CHECK(verdict_of(half, "accuracy") == StepVerdict::open);
+    CHECK_THAT(begun.out, Contains("the same command goes on"));
+
+    // Gone on with: what was measured is not measured again.
+    const ProgramRun rest = first_day({});
+    INFO(rest.out << rest.err);
+    REQUIRE(rest.exit_code == 0);
+    const RigPage whole = page();
+    CHECK(whole.is_finished());
+    CHECK(whole.begun_utc == half.begun_utc);
+    CHECK_THAT(rest.out, !Contains("== light") && Contains("== accuracy") && Contains("== trials"));
+    for (const RigStep& step : whole.steps) {
+        CAPTURE(step.name, step.finding);
+        CHECK(step.verdict == StepVerdict::not_proved);
+        CHECK_FALSE(step.remedy.empty());
+    }
+    for (const char* const name : {"light", "stream", "accuracy", "clock", "trials"})
+        CHECK(std::ranges::find(whole.steps, name, &RigStep::name)->is_simulated);
+    CHECK(std::filesystem::exists(state / "rig/rig.html"));
+
+    const ProgramRun finished = first_day({});
+    CHECK_THAT(finished.out, Contains("is finished"));
+
+    // A session on this rig names the page; with another tracker it says that the page is of another rig.
+    const auto run = [&](std::vector<std::string> more) {
+        std::vector<std::string> all{"run",
+                                     experiment.protocol().string(),
+                                     "--observer",
+                                     "P01",
+                                     "--sessions",
+                                     experiment.sessions().string(),
+                                     "--context",
+                                     "osmesa",
+                                     "--trials",
+                                     "1",
+                                     "--simulate-observer",
+                                     "5"};
+        all.insert(all.end(), more.begin(), more.end());
+        const ProgramRun done = experiment.overt(all, environment);
+        INFO(done.err);
+        REQUIRE(done.exit_code == 0);
+    };
+    run({});
+    run({"--tracker", "none"});
+    const auto shown = [&](int number) {
+        return experiment.overt({"show", experiment.session(number).string()}).out;
+    };
+    CHECK_THAT(shown(1), Contains("page of the rig in sitting 1: begun " + whole.begun_utc) &&
+                             Contains("not proved: bytes") && !Contains("ANOTHER RIG"));
+    CHECK_THAT(shown(2),
+               Contains("THE PAGE IS OF ANOTHER RIG: the eye tracker was simulated at 1000 Hz, is none"));
+    CHECK(experiment.overt({"verify", experiment.session(2).string()}).exit_code == 0);
+
+    // Another rig: what depends on what changed is open again, and another day keeps the earlier page.
+    const std::string text = text_of(experiment.protocol());
+    std::ofstream(experiment.protocol()) << with(text, "rate_hz = 1000", "rate_hz = 500");
+    const ProgramRun other = first_day({"--skip", "trials", "--skip", "accuracy"});
+    CHECK_THAT(other.out, Contains("== stream") && Contains("== clock") && !Contains("== light"));
+    CHECK(first_day({"--anew", "--step", "screen"}).exit_code == 0);
+    CHECK(std::ranges::count_if(page().steps,
+                                [](const RigStep& step) { return step.verdict == StepVerdict::open; }) == 8);
+    int kept = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(state / "rig"))
+        kept += entry.path().filename().string().starts_with("rig_") ? 1 : 0;
+    CHECK(kept == 2);
+}
+
+TEST_CASE("a step that misses a bound fails the day, and wrong input is refused", "[session]") {
+    const SmallExperiment experiment;
+    const std::filesystem::path state = experiment.folder().path() / "state";
+    const std::vector<std::string> environment{"OVERT_STATE=" + state.string()};
+    const std::string protocol = experiment.protocol().string();
+    // Nothing is to be found at that address.
+    const ProgramRun absent =
+        experiment.overt({"doctor", protocol, "--first-day", "--step", "stream", "--tracker", "opengaze",
+                          "--address", "127.0.0.1:1", "--json"},
+                         environment);
+    INFO(absent.out << absent.err);
+    const auto page = nlohmann::json::parse(absent.out);
+    for (const auto& step : page["steps"])
+        if (step["step"] == "stream")
+            CHECK(step["verdict"] == "not proved");
+    // The sensor of a display that is not there cannot be a port.
+    const ProgramRun failed = experiment.overt({"doctor", protocol, "--first-day", "--step", "light",
+                                                "--sensor", "/dev/null", "--context", "osmesa"},
+                                               environment);
+    INFO(failed.out << failed.err);
+    CHECK(failed.exit_code == 1);
+    CHECK_THAT(failed.out, Contains("light      failed") && Contains("a sensor has nothing to see"));
+
+    CHECK(experiment.overt({"doctor", "--first-day"}, environment).exit_code == 2);
+    CHECK(experiment.overt({"doctor", protocol, "--first-day", "--step", "lihgt"}, environment).exit_code ==
+          2);
+    CHECK(experiment.overt({"doctor", protocol, "--anew"}, environment).exit_code == 2);
+    std::ofstream(state / "rig/rig.json") << "{}";
+    const ProgramRun damaged =
+        experiment.overt({"doctor", protocol, "--first-day", "--context", "osmesa"}, environment);
+    CHECK(damaged.exit_code == 2);
+    CHECK_THAT(damaged.err, Contains("rig.json: is no page of a rig"));
+}
