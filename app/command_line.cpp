@@ -22,6 +22,7 @@
 #include "app/power/power_command.h"
 #include "app/record/record_commands.h"
 #include "app/replay/replay_commands.h"
+#include "app/session/crash_guard.h"
 #include "app/session/session_commands.h"
 #include "app/stimuli/stimulus_commands.h"
 #include "app/tracker/tracker_commands.h"
@@ -68,6 +69,8 @@ int run_command_line(int argc, char** argv) {
     const std::vector<std::string> given(argv + std::min(argc, 1), argv + argc);
     if (answer_shell(given))
         return 0;
+    if (!given.empty() && given.front() == close_crashed_word)
+        return close_crashed_session(given);
     CLI::App app(synopsis, "overt");
     app.set_version_flag("-V,--version", version_text(), "Print the version of the program and end");
     app.require_subcommand(1);

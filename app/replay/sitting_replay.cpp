@@ -90,6 +90,14 @@ int attempts_in(const SessionRecord& record, int sitting) {
     return static_cast<int>(std::ranges::count(record.trials(), sitting, &TrialRecord::sitting));
 }
 
+bool has_crashed(const SessionRecord& record, int sitting) {
+    bool has = false;
+    record.read_events([&](const RecordedEvent& event) {
+        has |= event.sitting == sitting && event.kind == program_crashed_event;
+    });
+    return has;
+}
+
 bool cuts_an_attempt(const SessionRecord& record, int sitting, const SittingCut& cut) {
     return std::ranges::any_of(record.trials(), [&](const TrialRecord& attempt) {
         return attempt.sitting == sitting && attempt.id == cut.cut.attempt;
@@ -129,6 +137,8 @@ std::optional<SittingCut> cut_of(const SessionRecord& record, int sitting) {
     std::optional<SittingCut> cut;
     if (is_open || !record.closed_in_order(sitting))
         return SittingCut{{is_open ? last->id : after_last, {}}, "the program was killed in it"};
+    if (has_crashed(record, sitting))
+        return SittingCut{{after_last, {}}, "the program crashed in it"};
     std::optional<SessionTime> end;
     bool broke_off = false;
     record.read_events([&](const RecordedEvent& event) {

@@ -5,6 +5,7 @@
 #include "app/inputs/protocol_file.h"
 #include "app/inputs/protocol_inputs.h"
 #include "app/rig/operator_equipment.h"
+#include "app/session/crash_guard.h"
 #include "app/session/session_commands.h"
 #include "app/session/session_messages.h"
 #include "app/session/sitting_run.h"
@@ -42,8 +43,10 @@ int run_session_of(Experiment experiment, const RunOptions& options, const Prese
     if (options.resume && finish_manifest(options, place))
         return 0;
     const SessionPlan plan = plan_session(options, place, protocol, observer);
+    std::optional<CrashGuard> guard; // until the devices are closed
     SessionEquipment equipment(experiment, options, plan, again ? again->cache : cache_folder());
     SittingRecord record(experiment, options, place, plan, equipment, again);
+    guard.emplace(record.folder());
     const SessionResult result = run_sitting(protocol, options, plan, equipment, record, again);
     if (!record.close())
         say_unfinished_manifest();

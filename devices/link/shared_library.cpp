@@ -1,13 +1,37 @@
 #include "devices/link/shared_library.h"
 
 #include <cstdlib>
+#include <filesystem>
+#include <mutex>
 
 #include <dlfcn.h>
 #include <fmt/format.h>
+#include <link.h>
 
 #include "experiment/base/error.h"
 
 namespace overt {
+namespace {
+
+std::mutex loaded_mutex;
+std::vector<std::string> loaded; ///< for as long as the program runs, as the libraries are
+
+void note_loaded(void* handle) {
+    link_map* entry = nullptr;
+    if (dlinfo(handle, RTLD_DI_LINKMAP, &entry) != 0 || !entry || !entry->l_name)
+        return;
+    std::error_code unknown;
+    const std::filesystem::path file = std::filesystem::canonical(entry->l_name, unknown);
+    const std::scoped_lock lock(loaded_mutex);
+    loaded.push_back(unknown ? std::string(entry->l_name) : file.string());
+}
+
+} // namespace
+
+std::vector<std::string> loaded_vendor_libraries() {
+    const std::scoped_lock lock(loaded_mutex);
+    return loaded;
+}
 
 std::vector<std::string> library_candidates(const std::string& file, const VendorLibrary& library) {
     if (!file.empty())
@@ -29,6 +53,7 @@ SharedLibrary::SharedLibrary(const std::vector<std::string>& candidates, const s
         handle_ = dlopen(candidate.c_str(), RTLD_NOW | RTLD_LOCAL);
         if (handle_) {
             file_ = candidate;
+            note_loaded(handle_);
             return;
         }
         const char* const reason = dlerror();

@@ -13,6 +13,9 @@ namespace overt {
 /// environment names alone, if it is set; else its usual names, which the system's search path finds.
 std::vector<std::string> library_candidates(const std::string& file, const VendorLibrary& library);
 
+/// The files of all that SharedLibrary has loaded, as the system names them. From any thread.
+std::vector<std::string> loaded_vendor_libraries();
+
 /// Stays loaded until the program ends: such libraries have threads of their own, which an unloading would
 /// leave without code.
 class SharedLibrary {

@@ -19,7 +19,8 @@ constexpr std::pair<std::string_view, FaultSide> sides_of_events[] = {
     {tracker_fault_event, FaultSide::eye_tracker},      {calibration_failed_event, FaultSide::eye_tracker},
     {drift_check_failed_event, FaultSide::eye_tracker}, {display_box_lost_event, FaultSide::display},
     {display_fault_event, FaultSide::display},          {response_box_lost_event, FaultSide::response_device},
-    {machine_slept_event, FaultSide::machine},          {wall_clock_set_event, FaultSide::machine}};
+    {program_crashed_event, FaultSide::machine},        {machine_slept_event, FaultSide::machine},
+    {wall_clock_set_event, FaultSide::machine}};
 
 /// By what an attempt failed that was a device's doing (TrialFailure). What the eye tracker's events tell
 /// already is not told twice.

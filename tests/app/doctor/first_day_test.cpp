@@ -113,10 +113,9 @@ TEST_CASE("a response box tells light as a sensor does", "[unit]") {
     using namespace std::chrono_literals;
     std::deque<ButtonChange> changes;
     for (int i = 0; i < 4; ++i)
-        changes.push_back(
-            {.button = 3, .is_down = i % 2 == 0, .at = SessionTime(i * 50ms), .uncertainty = 1ms});
+        changes.push_back({3, i % 2 == 0, std::nullopt, SessionTime(i * 50ms), 1ms});
     changes[2].uncertainty = 3ms;
-    changes.push_back({.at = SessionTime(1s), .turn_steps = 2}); // a knob is no light
+    changes.push_back({0, false, std::nullopt, SessionTime(1s), 0ms, 2}); // a knob is no light
     BoxWords words;
     const auto box = [&] {
         return std::make_unique<ThreadedButtonBox>([&] { return std::make_unique<ToldBox>(changes); }, clock,

@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <csignal>
 #include <set>
 
+#include "app/session/crash_guard.h"
 #include "experiment/record/read/session_record.h"
 #include "tests/app/small_experiment.h"
 
@@ -77,6 +79,68 @@ TEST_CASE(
         CHECK_THAT(first.out + second.out, Contains("its file " + name + ".EDF"));
     }
     CHECK(experiment.overt({"verify", experiment.session().string()}).exit_code == 0);
+}
+
+TEST_CASE("a library that crashes leaves a closed record, is named, and the session goes on",
+          "[session][waits]") {
+    const std::string when = GENERATE("crashes_recording", "crashes_in_transfer", "crashes_closing");
+    CAPTURE(when);
+    const SmallExperiment experiment;
+    std::vector<std::string> crashing = eyelink;
+    crashing.push_back("STAND_IN_EYELINK_" + when + "=1");
+    crashing.push_back("OVERT_STATE=" + (experiment.folder().path() / "state").string());
+    const ProgramRun crashed = run_with("eyelink", experiment, {}, crashing);
+    INFO(crashed.out << crashed.err);
+    CHECK(crashed.exit_code == 128 + SIGSEGV);
+    const std::string library = std::filesystem::path(OVERT_STAND_IN_EYELINK).filename().string();
+    CHECK_THAT(crashed.err,
+               Contains("the program crashed: a segmentation fault in the vendor's library " + library));
+    CHECK_FALSE(std::filesystem::exists(experiment.session() / "session.sqlite-wal"));
+    const ProgramRun verified = experiment.overt({"verify", experiment.session().string(), "--json"});
+    INFO(verified.out);
+    CHECK(verified.exit_code == 0);
+    CHECK_THAT(verified.out, Contains("\"state\": \"closed\"") && Contains("\"notes\": []"));
+    CHECK_THAT(experiment.overt({"show", experiment.session().string()}).out,
+               Contains("program crashed: a segmentation fault"));
+    {
+        const SessionRecord record(experiment.session());
+        CHECK(record.closed_in_order());
+        CHECK(record.damages() == std::vector<std::string>{});
+        if (when == "crashes_recording") {
+            REQUIRE_FALSE(record.trials().empty());
+            CHECK(record.trials().back().status == TrialRecord::Status::interrupted);
+        }
+    }
+    std::vector<std::string> sound = eyelink;
+    sound.push_back(crashing.back());
+    const ProgramRun resumed = run_with("eyelink", experiment, {"--resume"}, sound);
+    INFO(resumed.out << resumed.err);
+    // A file that was on its way is noted, and told and offered when the host is next reached.
+    if (when == "crashes_in_transfer") {
+        const ProgramRun fetched = experiment.overt({"tracker", "fetch"}, sound);
+        INFO(fetched.out << fetched.err);
+        CHECK(fetched.exit_code == 0);
+        CHECK_THAT(fetched.out, Contains(".edf"));
+    }
+    // All trials were done before a crash at the end; then there is nothing to go on with.
+    CHECK(resumed.exit_code == (when == "crashes_recording" ? 0 : 2));
+    CHECK(SessionRecord(experiment.session()).is_complete());
+    CHECK(experiment.overt({"verify", experiment.session().string()}).exit_code == 0);
+}
+
+TEST_CASE("the library that was at work is the first one on the way to the fault", "[unit]") {
+    const std::string maps =
+        "1000-2000 r-xp 0 0:0 1 /usr/bin/overt\n3000-4000 r-xp 0 0:0 2 /lib/libc.so.6\n"
+        "5000-6000 r-xp 0 0:0 3 /opt/a maker/libeyelink_core.so\n"
+        "6000-7000 rw-p 0 0:0 3 /opt/a maker/libeyelink_core.so\n8000-9000 r-xp 0 0:0 0\n";
+    const std::vector<std::string> vendors{"/opt/a maker/libeyelink_core.so"};
+    CHECK(library_at_work(maps, {0x5001}, vendors) == vendors.front());
+    // In the C library, called by the vendor's; data of the vendor's are no caller.
+    CHECK(library_at_work(maps, {0x3001, 0x6100, 0x5fff, 0x1001}, vendors) == vendors.front());
+    CHECK(library_at_work(maps, {0x3001, 0x6100, 0x1001}, vendors) == "/lib/libc.so.6");
+    CHECK(library_at_work(maps, {0x0}, vendors).empty());
+    CHECK(library_at_work(maps, {0x7000}, {}).empty());
+    CHECK(library_at_work("nonsense", {}, vendors).empty());
 }
 
 TEST_CASE("a session with a Tobii is calibrated, recorded, verified and exported", "[session][waits]") {

@@ -46,6 +46,14 @@ double local_us() {
 }
 double host_us() { return std::fmod(local_us(), 1e12) + host_ahead_us; }
 
+/// As a library does that reads where nothing is.
+void crash_if_told(const char* when) {
+    if (number(when, 0) == 0)
+        return;
+    volatile int* const nowhere = nullptr;
+    *nowhere = 1;
+}
+
 template <class T> void put(int offset, T value) { std::memcpy(item + offset, &value, sizeof value); }
 
 void make_sample(std::int64_t half_ms, std::int64_t index) {
@@ -208,6 +216,7 @@ i16 open_eyelink_connection(i16 mode) {
 }
 void close_eyelink_connection() {
     said.emplace_back("closed");
+    crash_if_told("crashes_closing");
     link = 0;
 }
 i16 eyelink_is_connected() { return static_cast<i16>(number("broken", 0) != 0 ? 0 : link); }
@@ -361,6 +370,8 @@ i16 eyelink_get_next_data(void*) {
     const auto half_ms =
         static_cast<std::int64_t>(begun_us / 500.0) + given * static_cast<std::int64_t>(2000.0 / rate);
     make_sample(half_ms, given++);
+    if (given > 300)
+        crash_if_told("crashes_recording");
     return 200;
 }
 i16 eyelink_get_float_data(void* into) {
@@ -392,6 +403,7 @@ static std::int32_t receive(char* source, char* destination, void (*progress)(un
     for (unsigned i = 0; i < sent; ++i) {
         std::fputc(static_cast<int>(i % 251), file);
         if (i % 10'000 == 9'999) {
+            crash_if_told("crashes_in_transfer");
             // The library looks whether an operator breaks the transfer off, by whatever hooks it has.
             if (hooks.key || hooks2.key)
                 next_key();
