@@ -96,10 +96,11 @@ std::vector<AnswerLikenessRow> answer_likenesses(const AnswersBy& answers, const
                         .cut_to(0.0, 1.0);
         // Observers see a pair a few times: where they agree by chance, their shares do not tell how many
         // more answers would scatter.
-        const Interval of_answers = wilson_interval(row.together, row.trials, options.confidence);
-        if (row.share.interval)
-            row.share.interval = Interval{std::min(row.share.interval->low, of_answers.low),
-                                          std::max(row.share.interval->high, of_answers.high)};
+        const std::optional<Interval> of_answers =
+            wilson_interval(row.together, row.trials, options.confidence);
+        if (row.share.interval && of_answers)
+            row.share.interval = Interval{std::min(row.share.interval->low, of_answers->low),
+                                          std::max(row.share.interval->high, of_answers->high)};
     }
     return rows;
 }
