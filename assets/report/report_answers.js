@@ -272,7 +272,7 @@ function show_matches() {
       box.replaceChildren(frame.svg);
     });
   };
-  answer_part('answers_body', 'Matches', chooser('Match', kinds.map(r => `${answer_name(r.of)}, ${r.along}${r.column ? ` by ${r.column}` : ''}`), show), names, box,
+  answer_part('answers_body', 'Matches', chooser('Match', kinds.map(r => `${answer_name(r.of)}, ${r.along}${r.column ? ` by ${r.column}` : ''}`), show), drawn_later(names, box),
       table({name: 'match_lines', title: 'Lines of matches over references', rows: rows_shown(lines), columns: [
         ...answer_columns(lines), text_column('along', r => r.along), ...if_any(lines, text_column('within', r => r.column ? `${r.column} ${r.level}` : '')), number_column('slope', r => r.slope), number_column('intercept', r => r.intercept),
         ...if_any(lines, number_column('slope, errors in both', r => r.deming)), ...if_any(lines, number_column('constancy (Brunswik)', r => r.brunswik)), ...if_any(lines, number_column('constancy (Thouless)', r => r.thouless)), number_column('settings', r => r.settings), ...if_any(lines, number_column('planted slope', r => r.planted))],
@@ -296,7 +296,7 @@ function show_reliefs() {
       box.replaceChildren(frame.svg);
     });
   };
-  answer_part('answers_body', 'Reliefs of gauge settings', ...(drawn.length ? [chooser('Relief', drawn.map(r => `${r.of[0] || 'all'}, ${r.of[2]}, ${r.of[3]}`), show), box] : []),
+  answer_part('answers_body', 'Reliefs of gauge settings', ...(drawn.length ? [chooser('Relief', drawn.map(r => `${r.of[0] || 'all'}, ${r.of[2]}, ${r.of[3]}`), show), drawn_later(box)] : []),
       table({name: 'reliefs', title: 'Reliefs of gauge settings', rows, columns: [
         observer_column, text_column('answer', r => r.of[2]), text_column('shown', r => r.of[3]), number_column('points', r => r.points), number_column('settings', r => r.settings), number_column('from the true normal / deg', r => r.deviation),
         number_column('SD of repeats / deg', r => r.repeat), number_column('gain of attitudes', r => r.attitude_gain), ...if_any(rows, number_column('planted gain', r => r.planted)), number_column('gain of the relief', r => r.gain), number_column('r', r => r.r), number_column('gain, affine', r => r.affine_gain), number_column('shear x', r => r.x_shear), number_column('shear y', r => r.y_shear),

@@ -1,5 +1,9 @@
 // What grows or falls with a number, and what stays together where the odd one out is chosen.
 
+// Of what is drawn once the page is laid out a browser tells the size in the same frame only if it lies deeper
+// than what was told of before.
+const drawn_later = (...parts) => element('div', {}, ...parts);
+
 function show_trends() {
   const all = answers.trends.filter(r => of_all(r) && r.slope.v !== null);
   if (!all.length) return;
@@ -28,7 +32,7 @@ function show_trends() {
     });
   };
   const rows = answers.trends;
-  answer_part('answers_body', 'What goes with a number', chooser('Line', kinds.map(r => `${answer_name(r.of)}: ${r.measure} over ${r.along}${r.column ? ` by ${r.column}` : ''}`), show), names, box,
+  answer_part('answers_body', 'What goes with a number', chooser('Line', kinds.map(r => `${answer_name(r.of)}: ${r.measure} over ${r.along}${r.column ? ` by ${r.column}` : ''}`), show), drawn_later(names, box),
       table({name: 'answer_trends', title: 'Lines over numbers', rows: rows_shown(rows), columns: [
         ...answer_columns(rows), text_column('measure', r => r.measure), text_column('over', r => r.along), ...if_any(rows, text_column('within', r => (r.column ? `${r.column} ${r.level}` : ''))), number_column('slope', r => r.slope), number_column('intercept', r => r.intercept),
         number_column('answers', r => r.answers), number_column('observers', r => r.observers), ...if_any(rows, number_column('planted slope', r => r.planted))],
@@ -64,7 +68,7 @@ function show_likenesses() {
       box.replaceChildren(svg);
     });
   };
-  answer_part('answers_body', 'What stays together', chooser('Factor', factors.map(r => `${answer_name(r.of)}, ${r.factor}`), show), box, note,
+  answer_part('answers_body', 'What stays together', chooser('Factor', factors.map(r => `${answer_name(r.of)}, ${r.factor}`), show), drawn_later(box), note,
       table({name: 'answer_likenesses', title: 'What stays together', rows, columns: [
         ...answer_columns(rows).slice(1), text_column('factor', r => r.factor), text_column('a', r => r.a), text_column('b', r => r.b), share_column('together', r => r.share), number_column('by chance', r => r.chance), number_column('pairs', r => r.trials),
         ...if_any(rows, number_column('planted', r => r.planted))],

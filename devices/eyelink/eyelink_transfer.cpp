@@ -124,12 +124,7 @@ std::vector<std::string> EyelinkDriver::finish(const std::string& folder,
         is_file_open_ = false;
         while (!files_.empty()) {
             const std::string name = files_.front();
-            // Noted before: a library that crashes while it fetches leaves no time to do so.
-            std::vector<std::string> untold;
-            note_left(name, folder, untold);
-            if (fetch(name, folder, progress, said) && !settings_.notes.empty())
-                forget_left_on_host(settings_.notes,
-                                    {name, settings_.address, std::filesystem::absolute(folder)});
+            fetch(name, folder, progress, said);
             files_.erase(files_.begin());
         }
     } catch (const std::exception& error) {

@@ -46,7 +46,7 @@ std::string report_page(const StudyResults& results) {
     std::string script;
     for (const std::string_view part :
          {embedded::report_draw_js, embedded::report_table_js, embedded::report_views_js, embedded::report_js,
-          embedded::report_answers_js, embedded::report_trends_js, embedded::report_maps_js,
+          embedded::report_trends_js, embedded::report_answers_js, embedded::report_maps_js,
           embedded::report_trials_js, embedded::report_explorations_js, embedded::report_looking_js,
           embedded::report_areas_js, embedded::report_order_js, embedded::report_save_js})
         script += part;

@@ -115,13 +115,6 @@ TEST_CASE("a library that crashes leaves a closed record, is named, and the sess
     sound.push_back(crashing.back());
     const ProgramRun resumed = run_with("eyelink", experiment, {"--resume"}, sound);
     INFO(resumed.out << resumed.err);
-    // A file that was on its way is noted, and told and offered when the host is next reached.
-    if (when == "crashes_in_transfer") {
-        const ProgramRun fetched = experiment.overt({"tracker", "fetch"}, sound);
-        INFO(fetched.out << fetched.err);
-        CHECK(fetched.exit_code == 0);
-        CHECK_THAT(fetched.out, Contains(".edf"));
-    }
     // All trials were done before a crash at the end; then there is nothing to go on with.
     CHECK(resumed.exit_code == (when == "crashes_recording" ? 0 : 2));
     CHECK(SessionRecord(experiment.session()).is_complete());

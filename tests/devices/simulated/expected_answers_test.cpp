@@ -234,7 +234,7 @@ TEST_CASE("the odd one out is farthest from the others on average as in many tri
     for (std::size_t i = 0; i < 3; ++i)
         CHECK(expected.shares[i] == Approx(counts[i]).margin(0.025));
     // Of the levels 0, 1 and 3 it is the last, not the largest of any other three.
-    CHECK(expected.shares[2] > 0.7);
+    CHECK(expected.shares[2] > 0.6);
     CHECK(expected.shares[0] > expected.shares[1]);
 }
 

@@ -117,8 +117,11 @@ TEST_CASE("two stay together where neither is the odd one out", "[unit]") {
     const std::vector<StudyAnswer> answers{
         odd_one("P01", {"gold", "steel", "chalk"}, 2), odd_one("P01", {"chalk", "gold", "steel"}, 0),
         odd_one("P01", {"gold", "steel", "chalk"}, 0), odd_one("P02", {"gold", "steel", "chalk"}, 2),
-        odd_one("P02", {"gold", "gold", "chalk"}, 2),  odd_one("P02", {"gold", "steel", "chalk"}, -1)};
-    const std::vector<AnswerLikenessRow> rows = answer_likenesses(answers_by(answers), {});
+        odd_one("P02", {"gold", "gold", "chalk"}, 2),  odd_one("P02", {"gold", "steel", "chalk"}, -1),
+        odd_one("P03", {"gold", "steel", "chalk"}, 2)};
+    StudyOptions options;
+    options.resamples = 200;
+    const std::vector<AnswerLikenessRow> rows = answer_likenesses(answers_by(answers), options);
     CHECK(*likeness_of(rows, "P01", "gold", "steel").share.value == Approx(2.0 / 3.0));
     CHECK(likeness_of(rows, "P01", "gold", "steel").trials == 3);
     CHECK(likeness_of(rows, "P01", "chalk", "steel").together == 1);
@@ -128,8 +131,8 @@ TEST_CASE("two stay together where neither is the odd one out", "[unit]") {
     CHECK(likeness_of(rows, "P02", "chalk", "gold").trials == 3);
     // Observers count alike, however many trials they had; a missed answer is none.
     const AnswerLikenessRow& all = likeness_of(rows, "", "gold", "steel");
-    CHECK(*all.share.value == Approx((2.0 / 3.0 + 1.0) / 2.0));
-    CHECK(all.trials == 4);
+    CHECK(*all.share.value == Approx((2.0 / 3.0 + 1.0 + 1.0) / 3.0));
+    CHECK(all.trials == 5);
     CHECK(all.chance == Approx(1.0 / 3.0));
     REQUIRE(all.share.interval);
     CHECK(all.share.interval->high <= 1.0);
