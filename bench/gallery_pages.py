@@ -28,8 +28,8 @@ PAGES = ROOT / "docs" / "gallery"
 FIGURES = {
     "overt_2019": "figure4", "gloss_scaling": "scales_of_comparisons", "gloss_matching": "matches", "material_ratings": "ratings_and_numbers",
     "gauge_figure": "reliefs_of_gauge_settings", "surface_points": "figure4", "shape_recognition": "how_often_how_right_how_fast",
-    "mesh_saliency": "figure4", "active_exploration": "matches", "odd_one_out": "how_often_how_right_how_fast",
-    "material_search": "response_times", "delayed_match": "how_often_how_right_how_fast", "gaze_contingent": "figure4", "pictures": "figure4",
+    "mesh_saliency": "figure4", "active_exploration": "matches", "odd_one_out": "what_stays_together",
+    "material_search": "what_goes_with_a_number", "delayed_match": "how_often_how_right_how_fast", "gaze_contingent": "figure4", "pictures": "figure4",
     "which_is_glossier": "psychometric_functions"}
 
 

@@ -70,7 +70,7 @@ function show_likenesses() {
   };
   answer_part('answers_body', 'What stays together', chooser('Factor', factors.map(r => `${answer_name(r.of)}, ${r.factor}`), show), drawn_later(box), note,
       table({name: 'answer_likenesses', title: 'What stays together', rows, columns: [
-        ...answer_columns(rows).slice(1), text_column('factor', r => r.factor), text_column('a', r => r.a), text_column('b', r => r.b), share_column('together', r => r.share), number_column('by chance', r => r.chance), number_column('pairs', r => r.trials),
-        ...if_any(rows, number_column('planted', r => r.planted))],
-        note: `Numbers in per cent; in brackets the ${level} over observers. Single observers are in the table answer_likenesses beside the page.`}));
+        ...answer_columns(rows).slice(1), text_column('factor', r => r.factor), text_column('a', r => r.a), text_column('b', r => r.b), share_column('together', r => r.share), share_column('by chance', r => r.chance), number_column('pairs', r => r.trials),
+        ...if_any(rows, share_column('planted', r => r.planted))],
+        note: `In brackets the ${level} over observers. Single observers are in the table answer_likenesses beside the page.`}));
 }

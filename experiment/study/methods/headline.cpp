@@ -263,8 +263,8 @@ std::string likeness_sentence(const StudyAnswers& answers, const FirstAnswer& fi
     if (!most || most == least)
         return {};
     return fmt::format(
-        "of each {} {} and {} stay together most often, in {} of the trials that show both, {} "
-        "and {} least, in {}; by chance it were {:.3g} %, {}",
+        "of the levels of {}, {} and {} stay together most often, in {} of the trials that show both, {} "
+        "and {} least, in {}; by chance it would be {:.3g} %, {}",
         factor, most->a, most->b, with_interval(most->share, confidence, 100.0, " %"), least->a, least->b,
         with_interval(least->share, confidence, 100.0, " %"), 100.0 * most->chance, over(first.observers));
 }
