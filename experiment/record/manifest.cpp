@@ -149,9 +149,9 @@ std::vector<std::string> files_of_session(const fs::path& folder, bool with_sess
         }
         const std::string path = entry->path().lexically_relative(folder).generic_string();
         const std::string session_file = session_file_name;
-        if (type != fs::file_type::regular || path == manifest_file_name || path == session_file + "-wal" ||
-            path == session_file + "-shm" || path == session_file + "-journal" ||
-            (path == session_file && !with_session_file))
+        if (type != fs::file_type::regular || name.ends_with(partial_suffix) || path == manifest_file_name ||
+            path == session_file + "-wal" || path == session_file + "-shm" ||
+            path == session_file + "-journal" || (path == session_file && !with_session_file))
             continue;
         names.push_back(path);
     }

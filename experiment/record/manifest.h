@@ -47,9 +47,13 @@ SessionManifest manifest_from(const std::string& text, const std::filesystem::pa
 /// Throws RecordError if it is not there or damaged.
 SessionManifest read_manifest(const std::filesystem::path& folder);
 
+/// What the name of a file ends with that a transfer did not bring whole: it gets its own name, and its whole
+/// content, when it is fetched again.
+inline constexpr const char* partial_suffix = ".part";
+
 /// All files of a session's folder that a manifest names, with relative paths, sorted: not itself, no hidden
-/// file, no link, nothing that is no file, no folder of an export, nothing that belongs to session.sqlite;
-/// session.sqlite only if wanted.
+/// file, no link, nothing that is no file, no folder of an export, nothing that belongs to session.sqlite, no
+/// file that has come in part (partial_suffix); session.sqlite only if wanted.
 std::vector<std::string> files_of_session(const std::filesystem::path& folder, bool with_session_file);
 
 /// Writes the manifest of a folder that is being made: all files but session.sqlite, which is about to

@@ -177,6 +177,19 @@ TEST_CASE("files that are missing or shortened are damage, files that were added
     CHECK(names_file(verify_session(session), manifest_file_name));
 }
 
+TEST_CASE("a file that came in part is fetched again after the session, which is sound before and after",
+          "[unit]") {
+    const TemporaryFolder root;
+    const fs::path session = make_session(root.path(), example_header());
+    begin_manifest(session, example_header(), test_program);
+    std::ofstream(session / "P01A.edf.part") << "half";
+    write_whole_session(session);
+    CHECK(verify_session(session).is_sound());
+    fs::rename(session / "P01A.edf.part", session / "P01A.edf");
+    std::ofstream(session / "P01A.edf") << "half, and the other";
+    CHECK(verify_session(session).is_sound());
+}
+
 TEST_CASE("a session of a newer program is not taken for a damaged one", "[unit]") {
     const TemporaryFolder root;
     const fs::path session = make_whole_session(root.path());
