@@ -64,11 +64,9 @@ struct DrawnStep {
     friend auto operator<=>(const DrawnStep&, const DrawnStep&) = default;
 };
 
-/// Adds the drawn times of steps as levels of a factor, "blank_s", to answers whose trials have them: where a
-/// step takes a few times, each in several trials. Times that are drawn from a range are none. With several
-/// such steps of a kind, "blank_s_2" is the second.
-void add_drawn_times(std::vector<StudyAnswer>& answers,
-                     const std::map<std::pair<int, int>, std::vector<AttemptStep>>& steps) {
+} // namespace
+
+void add_drawn_times(std::vector<StudyAnswer>& answers, const StepsOfTrials& steps) {
     constexpr std::size_t most_levels = 6, least_trials = 2;
     std::map<DrawnStep, std::map<std::string, std::set<std::pair<int, int>>>> drawn; ///< trials by level
     std::map<DrawnStep, std::string> kinds;
@@ -99,8 +97,6 @@ void add_drawn_times(std::vector<StudyAnswer>& answers,
                 one.levels.emplace_back(name->second, fmt::format("{}", *known->second[i].drawn_s));
     }
 }
-
-} // namespace
 
 std::vector<AnsweredStimulus> answered_stimuli(const Factors& factors, std::span<const std::string> slots,
                                                const Trial& trial) {
@@ -140,7 +136,7 @@ std::vector<std::pair<std::string, std::string>> levels_of(const Trial& trial,
 std::vector<StudyAnswer> read_answers(std::span<const std::filesystem::path> sessions,
                                       std::span<const std::pair<std::string, std::string>> same_observer) {
     std::vector<StudyAnswer> answers;
-    std::map<std::pair<int, int>, std::vector<AttemptStep>> steps; ///< by session and trial
+    StepsOfTrials steps;
     for (std::size_t session = 0; session < sessions.size(); ++session) {
         const SessionRecord record(sessions[session]);
         const SessionHeader& header = record.header();

@@ -6,6 +6,10 @@ for (const level of ['error', 'warn']) console[level] = (...words) => seen.error
 
 window.addEventListener('load', () => setTimeout(() => {
   const by = id => document.getElementById(id);
+  // What stands where, before anything is chosen.
+  seen.sections = [...document.querySelectorAll('main > section')].map(section => section.id);
+  seen.links = [...document.querySelectorAll('nav a')].map(link => link.getAttribute('href').slice(1));
+  seen.parts = [...document.querySelectorAll('#answers_body > h3')].map(title => title.textContent);
   // The share of pixels that are not white, and a number that changes with the picture.
   const look = stage => {
     const canvas = by(stage).querySelector('canvas');

@@ -101,3 +101,17 @@ TEST_CASE("an answer that no step asks for, and a step without answers, are erro
               .lines() ==
           FoundLines{"15:37: \"a\" is a text, and cannot be given while it is not on the screen"});
 }
+
+TEST_CASE("the odd one out is one of three slots at least, and times grow with a factor of numbers",
+          "[unit]") {
+    const std::string odd = "kind = \"odd-one-out\"\n";
+    CHECK_THAT(findings_of(odd + "choices = [\"a\", \"b\", \"c\"]\nkeys = [\"1\", \"2\", \"3\"]\n").at(0),
+               Contains("one is odd among three slots or more"));
+    const std::string choice = "kind = \"choice\"\nchoices = [\"a\", \"b\"]\nkeys = [\"f\", \"j\"]\n";
+    CHECK_THAT(findings_of(choice + "simulated = { time_gain_s = 0.1 }\n").at(0),
+               Contains("nothing says with which factor times grow"));
+    CHECK_THAT(findings_of(choice + "simulated = { time_by = \"set_sise\" }\n").at(0),
+               Contains("there is no factor \"set_sise\""));
+    CHECK_THAT(findings_of(choice + "simulated = { time_by = \"material\" }\n").at(0),
+               Contains("are no numbers"));
+}

@@ -162,6 +162,31 @@ TEST_CASE("the report opens in a browser without errors, and each control change
     CHECK(seen["traces"]["said"].get<std::string>().starts_with("Each of the 4 trials"));
 }
 
+TEST_CASE("the page begins with what its main result is of", "[gl]") {
+    if (!has_program("chromium"))
+        OVERT_SKIP("no chromium here to open the report");
+    StudyResults study = test::made_up_study();
+    const auto order_of = [&](const std::string& measure) {
+        study.headline.measure = measure;
+        const nlohmann::ordered_json seen = seen_of(study, 1280);
+        CHECK(seen["links"] == seen["sections"]);
+        return seen;
+    };
+    const auto place = [](const nlohmann::ordered_json& names, const std::string& name) {
+        const auto known = names.get<std::vector<std::string>>();
+        REQUIRE(std::ranges::count(known, name) == 1);
+        return std::ranges::find(known, name) - known.begin();
+    };
+    nlohmann::ordered_json seen = order_of("times");
+    CHECK(seen["parts"][0] == "Response times");
+    CHECK(place(seen["sections"], "answers") == 1);
+    seen = order_of("areas");
+    CHECK(place(seen["sections"], "figure4") == 1);
+    CHECK(place(seen["sections"], "figure4") < place(seen["sections"], "maps"));
+    CHECK(place(seen["sections"], "light") < place(seen["sections"], "answers"));
+    CHECK(place(seen["sections"], "answers") < place(seen["sections"], "trials"));
+}
+
 TEST_CASE("the page's tables have a column for each factor, sort, filter, and save what they show", "[gl]") {
     if (!has_program("chromium"))
         OVERT_SKIP("no chromium here to open the report");
