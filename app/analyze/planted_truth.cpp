@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <set>
+#include <utility>
 
 #include "devices/simulated/gaze_plan.h"
 #include "devices/simulated/gaze_script.h"
@@ -65,26 +67,57 @@ class Plans {
     /// trial, as many as there are repeats; none if its object or its task is not known.
     std::vector<glm::dvec3> meant_places(const StudyTrial& trial, std::uint64_t seed, int repeats) const {
         std::vector<glm::dvec3> places;
+        for (int repeat = 0; repeat < repeats; ++repeat) {
+            const auto number = static_cast<std::uint64_t>(repeat);
+            for (const SurfacePoint& place :
+                 places_of_script(trial, seed, trial.number,
+                                  RandomStream(seed, "meant places", number).next_bits(), planned_end(trial)))
+                places.push_back(place.position);
+        }
+        return places;
+    }
+
+    /// Whether scripts follow from what a study tells of its trials: nothing that is answered guides gaze.
+    bool has_scripts() const {
+        return std::ranges::none_of(protocol_->tasks, [](const Task& task) {
+            return std::ranges::any_of(task.answers, [](const TaskAnswer& answer) {
+                return answer.truth.look_share || !answer.truth.look_area.empty();
+            });
+        });
+    }
+
+    /// The places, with their parts, at which the observer of this seed looked in the trial; none if its
+    /// object or its task is not known. It is the trial's only presentation.
+    std::vector<SurfacePoint> drawn_places(const StudyTrial& trial, std::uint64_t seed) const {
+        return places_of_script(trial, seed, trial.number - 1, seed, from_seconds(trial.presentation_s));
+    }
+
+  private:
+    /// Of the script that is drawn by `script_seed` and `number`, for a plan of the observer of `seed`.
+    std::vector<SurfacePoint> places_of_script(const StudyTrial& trial, std::uint64_t seed, int number,
+                                               std::uint64_t script_seed, SessionDuration end) const {
+        std::vector<SurfacePoint> places;
         const std::optional<Known> known = known_of(trial);
         const GazeTargets* const targets = known ? targets_[scene_.index_of(known->shown)].get() : nullptr;
         if (!targets)
             return places;
         const Stimulus& stimulus = known->shown.stimulus;
         GazeScript script(scene_, observer_);
-        const SessionDuration end = from_seconds(scene_.animation_of(stimulus.motion).duration_s);
-        for (int repeat = 0; repeat < repeats; ++repeat) {
-            script.compose(scene_, targets, turns_[static_cast<std::size_t>(stimulus.motion)], observer_,
-                           RandomStream(seed, "meant places", static_cast<std::uint64_t>(repeat)).next_bits(),
-                           trial.number, gaze_plan(scene_, seed, known->task, stimulus));
-            // The first was under way at the onset.
-            for (const ScriptedFixation& fixation : script.fixations())
-                if (fixation.target && fixation.begin > SessionDuration{} && fixation.begin < end)
-                    places.push_back(fixation.target->position);
-        }
+        script.compose(scene_, targets, turns_[static_cast<std::size_t>(stimulus.motion)], observer_,
+                       script_seed, number, gaze_plan(scene_, seed, known->task, stimulus));
+        // The first was under way at the onset.
+        for (const ScriptedFixation& fixation : script.fixations())
+            if (fixation.target && fixation.begin > SessionDuration{} && fixation.begin < end)
+                places.push_back(*fixation.target);
         return places;
     }
 
-  private:
+    SessionDuration planned_end(const StudyTrial& trial) const {
+        const std::optional<Known> known = known_of(trial);
+        return known ? from_seconds(scene_.animation_of(known->shown.stimulus.motion).duration_s)
+                     : SessionDuration{};
+    }
+
     struct Known {
         int task = 0;
         PlacedStimulus shown;
@@ -140,6 +173,51 @@ void add_planted_spreads(StudyResults& results, const Plans& plans, const Observ
     }
 }
 
+/// Sets AreaRow::drawn. Each trial shows one thing.
+void add_drawn_shares(StudyResults& results, const Plans& plans, const ObserverSeeds& seeds) {
+    std::vector<std::vector<SurfacePoint>> places(results.trials.size());
+    parallel_for(static_cast<int>(places.size()), [&](int t) {
+        const StudyTrial& trial = results.trials[static_cast<std::size_t>(t)];
+        const auto seed = seeds.find(trial.key("observer"));
+        if (!trial.excluded && seed != seeds.end())
+            places[static_cast<std::size_t>(t)] = plans.drawn_places(trial, seed->second);
+    });
+    for (AreaRow& row : results.area_rows) {
+        if (!row.planted)
+            continue;
+        struct Count {
+            double inside = 0.0, all = 0.0;
+        };
+        std::map<std::string, Count> observers;
+        for (std::size_t t = 0; t < places.size(); ++t) {
+            const StudyTrial& trial = results.trials[t];
+            const Areas& areas = results.objects[static_cast<std::size_t>(trial.object)].areas;
+            const std::optional<std::size_t> area = areas.find(row.area);
+            if (trial.excluded || !area || !is_of(trial, row.keys))
+                continue;
+            Count& count = observers[trial.key("observer")];
+            for (const SurfacePoint& place : places[t]) {
+                count.inside += areas.holds(*area, place.part);
+                count.all += 1.0;
+            }
+        }
+        std::erase_if(observers, [](const auto& one) { return one.second.all == 0.0; });
+        double sum = 0.0;
+        for (const auto& [label, count] : observers)
+            sum += count.inside / count.all;
+        if (!observers.empty())
+            row.drawn = sum / static_cast<double>(observers.size());
+    }
+}
+
+/// Whether no trial has more than one presentation.
+bool shows_one_thing(const StudyResults& results) {
+    std::set<std::pair<int, int>> seen;
+    return std::ranges::all_of(results.trials, [&](const StudyTrial& trial) {
+        return seen.emplace(trial.session, trial.number).second;
+    });
+}
+
 } // namespace
 
 void add_planted_truth(StudyResults& results, const Experiment& experiment, const ObserverSeeds& seeds) {
@@ -175,6 +253,8 @@ void add_planted_truth(StudyResults& results, const Experiment& experiment, cons
             sum += mean.sum / mean.count;
         row.planted = sum / static_cast<double>(observers.size());
     }
+    if (plans.has_scripts() && shows_one_thing(results))
+        add_drawn_shares(results, plans, seeds);
 }
 
 } // namespace overt

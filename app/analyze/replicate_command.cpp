@@ -294,17 +294,19 @@ void print(const StudyResults& results, const fs::path& analysis) {
                results.glance.counted, results.glance.fixations);
     for (const std::string& remark : results.remarks)
         fmt::print("note: {}\n", remark);
-    fmt::print("share of fixations on areas; corrected: with the tracker's error taken out\n"
-               "{:28} {:>8} {:>8} {:>10}   interval\n",
-               "", "planted", "found", "corrected");
+    fmt::print(
+        "share of fixations on areas; drawn: what chance made of the planted one in these very trials; "
+        "corrected: with the tracker's error taken out\n"
+        "{:28} {:>8} {:>8} {:>8} {:>10}   interval\n",
+        "", "planted", "drawn", "found", "corrected");
     for (const AreaRow& row : results.area_rows) {
         // The levels of single columns; the groups are in the tables.
         if (row.keys.size() > 1 || !row.by_count.value || !row.planted)
             continue;
-        fmt::print("{:28} {:8.3f} {:8.3f}",
+        fmt::print("{:28} {:8.3f} {:>8} {:8.3f}",
                    fmt::format("{}, {}", row.area,
                                row.keys.empty() ? "all" : row.keys[0].column + " " + row.keys[0].value),
-                   *row.planted, *row.by_count.value);
+                   *row.planted, row.drawn ? fmt::format("{:.3f}", *row.drawn) : "", *row.by_count.value);
         if (row.corrected.value)
             fmt::print(" {:10.3f}", *row.corrected.value);
         if (row.corrected.interval)

@@ -297,6 +297,7 @@ struct AreaRow {
     std::optional<double> pooled;            ///< all fixations together, as the paper has it
     std::optional<Interval> pooled_interval; ///< Wilson's, as if fixations were independent
     std::optional<double> planted; ///< of simulated observers: the fraction that they mean to look at
+    std::optional<double> drawn{}; ///< of these: what chance made of it in these very trials
     int observers = 0, trials = 0, fixations = 0;
     std::vector<double> of_observers{}; ///< their own fractions by count, those who have any
     // What shares there would be if gaze were spread evenly over the surface, and over what is seen of it:

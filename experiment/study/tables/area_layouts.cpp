@@ -19,6 +19,11 @@ void add_figure_columns(StudyLayout<AreaRow>& to, const StudyResults& results) {
     to.number("planted",
               "Of simulated observers whose seeds are known: the share that they mean for the area", "",
               &Row::planted);
+    to.number(
+        "drawn",
+        "Of these: the share of the places that they looked at in these very trials, which differs from "
+        "the planted one by chance; what an analysis without error would find",
+        "", &Row::drawn);
     to.number("pooled", "Share of all observers' fixations together, as the paper has it", "", &Row::pooled);
     to.number("pooled_low", "Lower end of Wilson's interval, as if fixations were independent", "",
               [](const Row& row) { return of_maybe(row.pooled_interval, &Interval::low); });

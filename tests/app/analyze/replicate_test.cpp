@@ -67,6 +67,9 @@ TEST_CASE("a simulated study has the truth that was planted beside what is found
         CAPTURE(task);
         CHECK(std::stod(cell(figures, "task", task, "planted")) == Approx(share));
         CHECK(std::abs(std::stod(cell(figures, "task", task, "by_count")) - share) < 0.35);
+        // Nothing is left to chance where all fixations are on heads, or none.
+        const double drawn = std::stod(cell(figures, "task", task, "drawn"));
+        CHECK((share == 0.5 ? drawn > 0.1 && drawn < 0.9 : drawn == share));
     }
     // Sessions that are there are not run again, and an analysis is not written over.
     const std::vector<std::filesystem::path> said{study / "sessions/observer_01.txt",
