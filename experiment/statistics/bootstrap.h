@@ -36,14 +36,26 @@ std::optional<Interval> bootstrap_interval(std::uint32_t count, const StatisticO
 /// it were known (Hesterberg, The American Statistician 69(4), 2015, 371-386). `count` >= 2.
 double expanded_confidence(double confidence, std::uint32_t count);
 
-/// The same of the mean of numbers; of fewer than six, Student's interval, since draws of these do not reach
-/// far enough.
-std::optional<Interval> bootstrap_interval_of_mean(std::span<const double> values,
-                                                   const BootstrapSettings& settings);
+/// The interval of a statistic that lies in a range with a least number, or a least and a largest: Student's
+/// of its logarithm, or of the logit of its place between these, with the standard error of the jackknife, so
+/// that it ends within the range; of 25 items and more the bootstrap. Nothing for fewer than three, or if the
+/// statistic has no value of all or without any. Where its value is at an end of the range, the interval is
+/// that end.
+///
+/// Of 3,000 studies each of 6 … 24 observers with shares, counts and durations that differed by 20 to 100 %
+/// between observers it held the mean in 93 to 96 % (in 90 to 91 % of log-normal numbers that differed by
+/// 100 %), the bootstrap in 88 to 96 % (86 to 91 %).
+std::optional<Interval> interval_in_range(std::uint32_t count, const StatisticOf& statistic,
+                                          const BootstrapSettings& settings, Interval range);
+
+/// That of the mean of numbers. Of numbers that can be anywhere the bootstrap; of fewer than ten Student's,
+/// since draws of so few do not reach far enough. Nothing for fewer than three.
+std::optional<Interval> interval_of_mean(std::span<const double> values, const BootstrapSettings& settings,
+                                         Interval range = any_number);
 
 /// The mean with that interval. Without values, absent for the `reason`.
 Estimate estimated_mean(std::span<const double> values, const BootstrapSettings& settings,
-                        const std::string& reason);
+                        const std::string& reason, Interval range = any_number);
 
 /// Student's interval about a number of n observers from the values that it has without each of them (the
 /// jackknife; Tukey 1958), for what is more than a mean: where observers depend on each other since all are

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -14,6 +15,12 @@ struct Interval {
     bool contains(double value) const { return value >= low && value <= high; }
     friend bool operator==(const Interval&, const Interval&) = default;
 };
+
+/// Where a number can be: anywhere; durations, counts and distances; shares.
+inline constexpr Interval any_number{-std::numeric_limits<double>::infinity(),
+                                     std::numeric_limits<double>::infinity()};
+inline constexpr Interval from_zero_on{0.0, std::numeric_limits<double>::infinity()};
+inline constexpr Interval zero_to_one{0.0, 1.0};
 
 /// Never holds what is no finite number. Without a value, `absent` says why in a few words that fit into a
 /// table's note ("no fixation was counted", "one observer only"); an interval can be absent by itself.
@@ -28,11 +35,11 @@ struct Estimate {
     static Estimate none(std::string reason) { return {{}, {}, std::move(reason)}; }
     /// With its interval cut off where the quantity cannot be, which makes it no less often right: a share
     /// lies from 0 to 1, a duration is not below 0.
-    Estimate cut_to(double low, double high) const {
+    Estimate cut_to(Interval range) const {
         Estimate cut = *this;
         if (cut.interval)
-            cut.interval =
-                Interval{std::clamp(interval->low, low, high), std::clamp(interval->high, low, high)};
+            cut.interval = Interval{std::clamp(interval->low, range.low, range.high),
+                                    std::clamp(interval->high, range.low, range.high)};
         return cut;
     }
 };

@@ -82,16 +82,15 @@ void add_looks(AreaRow& row, const StudyResults& results,
         if (sums.arrivals > 0)
             number.push_back(sums.first_arrival_number / sums.arrivals);
     }
-    row.dwell_s = estimated_mean(dwell, bootstrap, no_such_trial);
-    row.visits = estimated_mean(visits, bootstrap, no_such_trial);
-    row.visit_s = estimated_mean(visit, bootstrap, dwell.empty() ? no_such_trial : never_reached);
-    row.reached = estimated_mean(reached, bootstrap, no_such_trial);
-    if (row.reached.interval)
-        row.reached.interval = {std::max(row.reached.interval->low, 0.0),
-                                std::min(row.reached.interval->high, 1.0)};
-    row.first_arrival_s = estimated_mean(arrival, bootstrap, no_such_trial);
-    row.first_arrival_number =
-        estimated_mean(number, bootstrap, dwell.empty() ? no_such_trial : never_reached);
+    row.dwell_s = estimated_mean(dwell, bootstrap, no_such_trial, from_zero_on);
+    row.visits = estimated_mean(visits, bootstrap, no_such_trial, from_zero_on);
+    row.visit_s =
+        estimated_mean(visit, bootstrap, dwell.empty() ? no_such_trial : never_reached, from_zero_on);
+    row.reached = estimated_mean(reached, bootstrap, no_such_trial, zero_to_one);
+    row.first_arrival_s = estimated_mean(arrival, bootstrap, no_such_trial, from_zero_on);
+    // The first fixation there can be has the number 1.
+    row.first_arrival_number = estimated_mean(
+        number, bootstrap, dwell.empty() ? no_such_trial : never_reached, {1.0, from_zero_on.high});
 }
 
 } // namespace overt

@@ -28,14 +28,9 @@ struct AreaSum {
     std::optional<double> share() const { return all > 0.0 ? std::optional(inside / all) : std::nullopt; }
 };
 
-/// Intervals of means can reach beyond what a share can be.
 Estimate estimated_share(const std::vector<double>& shares, const StudyOptions& options,
                          const std::string& reason) {
-    Estimate estimate = estimated_mean(shares, options.bootstrap(), reason);
-    if (estimate.interval)
-        estimate.interval = {std::clamp(estimate.interval->low, 0.0, 1.0),
-                             std::clamp(estimate.interval->high, 0.0, 1.0)};
-    return estimate;
+    return estimated_mean(shares, options.bootstrap(), reason, zero_to_one);
 }
 
 const std::string no_error = "no validation tells the tracker's error, or there are too few fixations";

@@ -41,17 +41,18 @@ Measures measures_of(const Shows& shows) {
 
 void estimate(ExplorationSummaryRow& row, const std::vector<Measures>& each,
               const BootstrapSettings& bootstrap) {
-    const auto over = [&](const auto& value, const char* reason) {
+    const auto over = [&](const auto& value, const char* reason, Interval range = from_zero_on) {
         std::vector<double> values;
         for (const Measures& measures : each)
             if (const std::optional<double> one = value(measures))
                 values.push_back(*one);
-        return estimated_mean(values, bootstrap, reason);
+        return estimated_mean(values, bootstrap, reason, range);
     };
     row.path_deg = over([](const Measures& of) { return std::optional(of.path_deg); }, "no show");
     row.reversals = over([](const Measures& of) { return std::optional(of.reversals); }, "no show");
     row.poses = over([](const Measures& of) { return std::optional(of.poses); }, "no show");
-    row.turned_share = over([](const Measures& of) { return of.turned_share; }, "shown for no time");
+    row.turned_share =
+        over([](const Measures& of) { return of.turned_share; }, "shown for no time", zero_to_one);
     row.speed_deg_s = over([](const Measures& of) { return of.speed_deg_s; }, "never turned");
 }
 

@@ -34,11 +34,8 @@ struct FirstSums {
 };
 
 Estimate first_share(const std::vector<double>& shares, const StudyOptions& options) {
-    Estimate estimate =
-        estimated_mean(shares, options.bootstrap(), "no trial on an object with this area has so many");
-    if (estimate.interval)
-        estimate.interval = {std::max(estimate.interval->low, 0.0), std::min(estimate.interval->high, 1.0)};
-    return estimate;
+    return estimated_mean(shares, options.bootstrap(), "no trial on an object with this area has so many",
+                          zero_to_one);
 }
 
 } // namespace

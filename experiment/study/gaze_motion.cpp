@@ -63,7 +63,7 @@ GazeMotionRow motion_of(const StudyResults& results, const StudyGroup& group, co
     row.corrected_gain = estimated_mean(
         corrected, options.bootstrap(),
         gains.empty() ? absent : "the tracker's error is not known, or as large as the surface's way");
-    row.surface_speed_deg_s = estimated_mean(speeds, options.bootstrap(), absent);
+    row.surface_speed_deg_s = estimated_mean(speeds, options.bootstrap(), absent, from_zero_on);
     return row;
 }
 

@@ -42,7 +42,7 @@ DistributionRow distribution_of(const StudyResults& results, int group, int obje
     }
     const double mm2 = scale->mm_per_unit * scale->mm_per_unit;
     const double deg2 = mm2 / (scale->mm_per_deg * scale->mm_per_deg);
-    const std::optional<Interval> interval = bootstrap_interval(
+    const std::optional<Interval> interval = interval_in_range(
         static_cast<std::uint32_t>(of_observer.size()),
         [&](std::span<const std::uint32_t> drawn) -> std::optional<double> {
             std::vector<glm::dvec3> points;
@@ -51,7 +51,7 @@ DistributionRow distribution_of(const StudyResults& results, int group, int obje
             const std::optional<PointSpread> of_drawn = point_spread(points);
             return of_drawn ? std::optional(of_drawn->wss()) : std::nullopt;
         },
-        options.bootstrap());
+        options.bootstrap(), from_zero_on);
     row.wss_mm2 = Estimate::of(spread->wss() * mm2);
     row.wss_deg2 = Estimate::of(spread->wss() * deg2);
     if (interval) {

@@ -19,21 +19,20 @@ struct ScanpathNumber {
     const char* unit;
     std::optional<double> TrialScanpath::*of_trial;
     Estimate ScanpathRow::*of_row;
-    double least, most; ///< that it can be
+    Interval range; ///< in which it can be
 };
 
-constexpr double any_size = 1e300;
 constexpr std::array scanpath_numbers{
-    ScanpathNumber{"fixation_s", "s", &TrialScanpath::fixation_s, &ScanpathRow::fixation_s, 0.0, any_size},
-    ScanpathNumber{"step_mm", "mm", &TrialScanpath::step_mm, &ScanpathRow::step_mm, 0.0, any_size},
-    ScanpathNumber{"step_deg", "deg", &TrialScanpath::step_deg, &ScanpathRow::step_deg, 0.0, any_size},
-    ScanpathNumber{"way_mm", "mm", &TrialScanpath::way_mm, &ScanpathRow::way_mm, 0.0, any_size},
-    ScanpathNumber{"coverage", "", &TrialScanpath::coverage, &ScanpathRow::coverage, 0.0, 1.0},
-    ScanpathNumber{"effective_share", "", &TrialScanpath::entropy, &ScanpathRow::entropy, 0.0, 1.0},
-    ScanpathNumber{"recurrence", "", &TrialScanpath::recurrence, &ScanpathRow::recurrence, 0.0, 1.0},
-    ScanpathNumber{"determinism", "", &TrialScanpath::determinism, &ScanpathRow::determinism, 0.0, 1.0},
-    ScanpathNumber{"return_distance", "", &TrialScanpath::return_distance, &ScanpathRow::return_distance, 0.0,
-                   1.0},
+    ScanpathNumber{"fixation_s", "s", &TrialScanpath::fixation_s, &ScanpathRow::fixation_s, from_zero_on},
+    ScanpathNumber{"step_mm", "mm", &TrialScanpath::step_mm, &ScanpathRow::step_mm, from_zero_on},
+    ScanpathNumber{"step_deg", "deg", &TrialScanpath::step_deg, &ScanpathRow::step_deg, from_zero_on},
+    ScanpathNumber{"way_mm", "mm", &TrialScanpath::way_mm, &ScanpathRow::way_mm, from_zero_on},
+    ScanpathNumber{"coverage", "", &TrialScanpath::coverage, &ScanpathRow::coverage, zero_to_one},
+    ScanpathNumber{"effective_share", "", &TrialScanpath::entropy, &ScanpathRow::entropy, zero_to_one},
+    ScanpathNumber{"recurrence", "", &TrialScanpath::recurrence, &ScanpathRow::recurrence, zero_to_one},
+    ScanpathNumber{"determinism", "", &TrialScanpath::determinism, &ScanpathRow::determinism, zero_to_one},
+    ScanpathNumber{"return_distance", "", &TrialScanpath::return_distance, &ScanpathRow::return_distance,
+                   zero_to_one},
 };
 
 /// 2 to the entropy in bits of a map, over the area: 1 where it is even.
@@ -131,14 +130,11 @@ ScanpathRow scanpath_row(const StudyResults& results, const std::vector<TrialSca
         }
     }
     row.observers = static_cast<int>(counts.size());
-    row.fixations = estimated_mean(counts, options.bootstrap(), "there is no trial");
+    row.fixations = estimated_mean(counts, options.bootstrap(), "there is no trial", from_zero_on);
     for (std::size_t i = 0; i < scanpath_numbers.size(); ++i) {
         const ScanpathNumber& number = scanpath_numbers[i];
-        Estimate& estimate = row.*number.of_row;
-        estimate = estimated_mean(means[i], options.bootstrap(), "no trial has fixations that tell it");
-        if (estimate.interval)
-            estimate.interval = {std::max(estimate.interval->low, number.least),
-                                 std::min(estimate.interval->high, number.most)};
+        row.*number.of_row = estimated_mean(means[i], options.bootstrap(),
+                                            "no trial has fixations that tell it", number.range);
     }
     return row;
 }

@@ -150,12 +150,8 @@ double mean_of(const std::vector<double>& values) {
     return sum / static_cast<double>(values.size());
 }
 
-/// Intervals of means can reach beyond what a share can be.
 Estimate estimated_part(const std::vector<double>& shares, const StudyOptions& options) {
-    Estimate estimate = estimated_mean(shares, options.bootstrap(), "no trial with this area has a fixation");
-    if (estimate.interval)
-        estimate.interval = {std::max(estimate.interval->low, 0.0), std::min(estimate.interval->high, 1.0)};
-    return estimate;
+    return estimated_mean(shares, options.bootstrap(), "no trial with this area has a fixation", zero_to_one);
 }
 
 using RowsByTrial = std::map<std::tuple<int, std::string>, const ScreenAreaTrialRow*>;
@@ -206,10 +202,10 @@ std::optional<ScreenAreaRow> area_row(const StudyResults& results, const RowsByT
         row.share_by_chance = mean_of(chances);
     row.dwell_share = estimated_part(shares, options);
     row.reached = estimated_part(reached, options);
-    row.visits = estimated_mean(visits, options.bootstrap(), "no trial with this area has a fixation");
-    row.first_arrival_s = estimated_mean(arrivals, options.bootstrap(), "no fixation is in this area");
-    if (row.first_arrival_s.interval)
-        row.first_arrival_s.interval->low = std::max(row.first_arrival_s.interval->low, 0.0);
+    row.visits =
+        estimated_mean(visits, options.bootstrap(), "no trial with this area has a fixation", from_zero_on);
+    row.first_arrival_s =
+        estimated_mean(arrivals, options.bootstrap(), "no fixation is in this area", from_zero_on);
     return row;
 }
 

@@ -68,13 +68,6 @@ TransitionCounts counts_between(const StudyResults& results, const std::vector<P
     return counts;
 }
 
-Estimate within(Estimate estimate, double least, double most) {
-    if (estimate.interval)
-        estimate.interval = {std::max(estimate.interval->low, least),
-                             std::min(estimate.interval->high, most)};
-    return estimate;
-}
-
 } // namespace
 
 TransitionCount transitions_between(const StudyResults& results, int trial, const std::string& from,
@@ -113,12 +106,12 @@ std::vector<SurfaceTransitionRow> surface_transitions(const StudyResults& result
                     differences.push_back(probabilities.back() - chances.back());
                 }
                 row.observers = static_cast<int>(probabilities.size());
-                const auto mean = [&](const std::vector<double>& values) {
-                    return estimated_mean(values, options.bootstrap(), no_departure);
+                const auto mean = [&](const std::vector<double>& values, Interval range) {
+                    return estimated_mean(values, options.bootstrap(), no_departure, range);
                 };
-                row.probability = within(mean(probabilities), 0.0, 1.0);
-                row.chance = within(mean(chances), 0.0, 1.0);
-                row.over_chance = within(mean(differences), -1.0, 1.0);
+                row.probability = mean(probabilities, zero_to_one);
+                row.chance = mean(chances, zero_to_one);
+                row.over_chance = mean(differences, {-1.0, 1.0});
                 rows.push_back(std::move(row));
             }
         }

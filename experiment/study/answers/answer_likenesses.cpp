@@ -91,9 +91,8 @@ std::vector<AnswerLikenessRow> answer_likenesses(const AnswersBy& answers, const
         if (!row.of.observer.empty())
             continue;
         row.share = estimated_mean(
-                        of_observers[{row.of.task, row.of.answer, row.of.item, row.factor, {row.a, row.b}}],
-                        options.bootstrap(), "")
-                        .cut_to(0.0, 1.0);
+            of_observers[{row.of.task, row.of.answer, row.of.item, row.factor, {row.a, row.b}}],
+            options.bootstrap(), "", zero_to_one);
         // Observers see a pair a few times: where they agree by chance, their shares do not tell how many
         // more answers would scatter.
         const std::optional<Interval> of_answers =

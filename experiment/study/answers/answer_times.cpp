@@ -71,7 +71,7 @@ std::optional<AnswerTimeRow> time_row(const AnswerOf& of, const std::string& whi
             std::ranges::sort(own);
             medians.push_back(quantile_of_sorted(own, 0.5));
         }
-        row.median_s = estimated_mean(medians, options.bootstrap(), "no response times");
+        row.median_s = estimated_mean(medians, options.bootstrap(), "no response times", from_zero_on);
     }
     return row;
 }
@@ -157,7 +157,7 @@ std::vector<AnswerSpeedRow> answer_speeds(const AnswersBy& answers, const StudyO
                 row.trials += part.trials;
                 *row.mean_response_s += part.mean_s / static_cast<double>(observers.size());
             }
-            row.correct = estimated_mean(correct, options.bootstrap(), "");
+            row.correct = estimated_mean(correct, options.bootstrap(), "", zero_to_one);
         }
     rows.insert(rows.begin(), all.begin(), all.end());
     return rows;

@@ -131,8 +131,8 @@ AnswerTrendRow row_of_all(const std::vector<const AnswerTrendRow*>& own, const S
     row.slope = estimated_mean(slopes, options.bootstrap(), "");
     row.intercept = estimated_mean(intercepts, options.bootstrap(), "");
     for (const auto& [x, means] : at) {
-        const Estimate mean = estimated_mean(means, options.bootstrap(), "");
-        row.points.push_back({x, row.measure == share_correct ? mean.cut_to(0.0, 1.0) : mean});
+        const Interval range = row.measure == share_correct ? zero_to_one : any_number;
+        row.points.push_back({x, estimated_mean(means, options.bootstrap(), "", range)});
     }
     return row;
 }

@@ -127,7 +127,7 @@ std::string gauge_sentence(const StudyResults& results, const FirstAnswer& first
     for (const auto& [observer, sums] : observers)
         means.push_back(sums.first / sums.second);
     const Estimate mean =
-        estimated_mean(means, options.bootstrap(), "no setting has a normal beside it").cut_to(0.0, 180.0);
+        estimated_mean(means, options.bootstrap(), "no setting has a normal beside it", {0.0, 180.0});
     if (!mean.value)
         return {};
     return fmt::format("settings of {} lie {} from the surface's own normals in the mean, {}",
@@ -202,7 +202,7 @@ std::string share_sentence(const StudyResults& results, const FirstAnswer& first
     std::vector<double> shares;
     for (const auto& [observer, sums] : observers)
         shares.push_back(sums.first / sums.second);
-    const Estimate mean = estimated_mean(shares, options.bootstrap(), "nobody answered").cut_to(0.0, 1.0);
+    const Estimate mean = estimated_mean(shares, options.bootstrap(), "nobody answered", zero_to_one);
     if (!mean.value)
         return {};
     const std::string share = with_interval(mean, options.confidence, 100.0, " %");

@@ -118,9 +118,12 @@ void add_intervals(std::string& text, const StudyResults& results, const StudyOp
         return;
     }
     add_sentence(text, fmt::format("intervals are of {} % and over observers", as_set(percent)));
-    add_sentence(text, fmt::format("they are bootstraps (BCa) with {} draws, and of means of fewer than six "
-                                   "observers Student's",
-                                   as_count(options.resamples)));
+    add_sentence(text,
+                 fmt::format("of shares, durations, counts and other numbers with a least one they are "
+                             "Student's on the scale of logits or logarithms where there are fewer than 25 "
+                             "observers, of others where there are fewer than ten; else they are bootstraps "
+                             "(BCa) with {} draws",
+                             as_count(options.resamples)));
 }
 
 } // namespace

@@ -132,8 +132,7 @@ TEST_CASE("corrected head shares are those that were meant, whatever the error t
     for (int number = 0; number < count; ++number) {
         const auto found = studies.study(number, 8, error_deg);
         for (std::size_t task = 0; task < 4; ++task) {
-            corrected += bootstrap_interval_of_mean(found[task].corrected, {})
-                             ->contains(PlantedStudies::planted[task]);
+            corrected += interval_of_mean(found[task].corrected, {})->contains(PlantedStudies::planted[task]);
             bias[task] += (mean(found[task].corrected) - mean(found[task].meant)) / count;
             raw_bias[task] += (mean(found[task].raw) - mean(found[task].meant)) / count;
         }

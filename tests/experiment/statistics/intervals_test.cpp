@@ -103,24 +103,23 @@ TEST_CASE("a bootstrap over observers comes to the interval that scipy.stats.boo
     CHECK(expanded_confidence(0.95, 12) == exactly(0.9784867701663795));
     CHECK(expanded_confidence(0.95, 10) == exactly(0.9828987219483842));
     const BootstrapSettings settings{20000, 0.95, 5};
-    const Interval interval = *bootstrap_interval_of_mean(scores, settings);
+    const Interval interval = *interval_of_mean(scores, settings);
     CHECK(interval.low == Approx(0.4492).margin(0.004));
     CHECK(interval.high == Approx(0.7092).margin(0.004));
     Values skewed{-1.2, 0.3, 0.9, -0.4, 1.7, 0.1, -0.8, 0.6, 2.1, -0.3};
     for (double& value : skewed)
         value = std::exp(value);
-    const Interval of_skewed = *bootstrap_interval_of_mean(skewed, settings);
+    const Interval of_skewed = *interval_of_mean(skewed, settings);
     CHECK(of_skewed.low == Approx(0.977).margin(0.03));
     CHECK(of_skewed.high == Approx(5.034).margin(0.15));
 }
 
 TEST_CASE("a bootstrap repeats with its seed, and has no interval for fewer than three", "[unit]") {
     const BootstrapSettings settings{500, 0.95, 7};
-    CHECK(*bootstrap_interval_of_mean(scores, settings) == *bootstrap_interval_of_mean(scores, settings));
-    CHECK_FALSE(*bootstrap_interval_of_mean(scores, settings) ==
-                *bootstrap_interval_of_mean(scores, {500, 0.95, 8}));
-    CHECK_FALSE(bootstrap_interval_of_mean(Values{1.0, 2.0}, settings));
-    CHECK(*bootstrap_interval_of_mean(Values(5, 0.4), settings) == Interval{0.4, 0.4});
+    CHECK(*interval_of_mean(scores, settings) == *interval_of_mean(scores, settings));
+    CHECK_FALSE(*interval_of_mean(scores, settings) == *interval_of_mean(scores, {500, 0.95, 8}));
+    CHECK_FALSE(interval_of_mean(Values{1.0, 2.0}, settings));
+    CHECK(*interval_of_mean(Values(5, 0.4), settings) == Interval{0.4, 0.4});
     const Estimate none = estimated_mean({}, settings, "no fixation");
     CHECK_FALSE(none.value);
     CHECK(none.absent == "no fixation");
@@ -133,19 +132,80 @@ TEST_CASE("95 % intervals of twelve observers hold the truth about as often", "[
         Values values;
         for (int i = 0; i < 12; ++i)
             values.push_back(0.4 + 0.1 * random.normal());
-        held +=
-            bootstrap_interval_of_mean(values, {400, 0.95, static_cast<std::uint64_t>(study)})->contains(0.4);
+        held += interval_of_mean(values, {400, 0.95, static_cast<std::uint64_t>(study)})->contains(0.4);
     }
     // 272 or fewer of 300 at 95 % come about once in 800 times; without expansion 91 % hold it.
     CHECK(held > 272);
     CHECK(held < 297);
 }
 
-TEST_CASE("means of fewer than six have Student's interval", "[unit]") {
+TEST_CASE("means of fewer than ten have Student's interval", "[unit]") {
     // scipy.stats.t.
-    const Interval interval = *bootstrap_interval_of_mean(std::span(scores).first(5), {});
+    const Interval interval = *interval_of_mean(std::span(scores).first(5), {});
     CHECK(interval.low == exactly(0.4092554822552741));
     CHECK(interval.high == exactly(0.894744517744726));
+}
+
+TEST_CASE("means of numbers in a range have Student's interval on its scale", "[unit]") {
+    // m exp(-+ h / m) and the logistic of logit m -+ h / (m (1 - m)), with h = t of 2 degrees times the
+    // standard error of three numbers, reckoned in Python.
+    const Values few{0.1, 0.2, 0.6};
+    const Interval amount = *interval_of_mean(few, {}, from_zero_on);
+    CHECK(amount.low == exactly(0.03354805668080856));
+    CHECK(amount.high == exactly(2.682718729621237));
+    const Interval share = *interval_of_mean(few, {}, zero_to_one);
+    CHECK(share.low == Approx(0.018396677554076472).epsilon(1e-8));
+    CHECK(share.high == exactly(0.9074106917554914));
+    // The same of twice the numbers from 1 on, less 1.
+    const Interval above_one = *interval_of_mean(Values{1.2, 1.4, 2.2}, {}, {1.0, from_zero_on.high});
+    CHECK(above_one.low == Approx(1.0 + 2.0 * amount.low).epsilon(1e-12));
+    CHECK(above_one.high == Approx(1.0 + 2.0 * amount.high).epsilon(1e-12));
+    // Student's own would reach from -0.36 to 0.96.
+    CHECK(interval_of_mean(few, {})->low < 0.0);
+    // Of a mean the jackknife has the usual standard error.
+    const auto mean_of_drawn = [&](std::span<const std::uint32_t> drawn) -> std::optional<double> {
+        double sum = 0.0;
+        for (const std::uint32_t i : drawn)
+            sum += few[i];
+        return sum / static_cast<double>(drawn.size());
+    };
+    const Interval of_statistic = *interval_in_range(3, mean_of_drawn, {}, from_zero_on);
+    CHECK(of_statistic.low == Approx(amount.low).epsilon(1e-12));
+    CHECK(of_statistic.high == Approx(amount.high).epsilon(1e-12));
+    CHECK_FALSE(interval_in_range(2, mean_of_drawn, {}, from_zero_on));
+    CHECK_FALSE(interval_of_mean(std::span(few).first(2), {}, from_zero_on));
+    // At an end there is nothing to scatter; beyond it, it is cut.
+    CHECK(*interval_of_mean(Values(4, 0.0), {}, from_zero_on) == Interval{0.0, 0.0});
+    CHECK(*interval_of_mean(Values(4, 1.0), {}, zero_to_one) == Interval{1.0, 1.0});
+    const Interval beyond = *interval_of_mean(Values{-0.1, -0.2, 0.1}, {}, zero_to_one);
+    CHECK(beyond.low == 0.0);
+    CHECK(beyond.high > 0.0);
+    // Draws of many are cut as well.
+    Values many(30, -0.01);
+    many.front() = 0.2;
+    CHECK(interval_of_mean(many, {200, 0.95, 1}, from_zero_on)->low == 0.0);
+}
+
+TEST_CASE("95 % intervals of few observers' skewed numbers hold the truth about as often", "[unit]") {
+    constexpr int studies = 1000;
+    for (const int observers : {4, 6, 12}) {
+        int held = 0, held_by_student = 0;
+        for (int study = 0; study < studies; ++study) {
+            RandomStream random(12, "coverage in a range", static_cast<std::uint64_t>(study));
+            // Exponential: the mean and the standard deviation are 2 s.
+            Values values;
+            for (int i = 0; i < observers; ++i)
+                values.push_back(random.exponential(2.0));
+            const auto seed = static_cast<std::uint64_t>(study);
+            held += interval_of_mean(values, {100, 0.95, seed}, from_zero_on)->contains(2.0);
+            held_by_student += interval_of_mean(values, {100, 0.95, seed})->contains(2.0);
+        }
+        CAPTURE(observers, held, held_by_student);
+        // The standard error of 95 % is 0.7 %.
+        CHECK(held > 910);
+        CHECK(held < 972);
+        CHECK(held > held_by_student);
+    }
 }
 
 } // namespace

@@ -151,8 +151,8 @@ TEST_CASE("two stay together where neither is the odd one out", "[unit]") {
 }
 
 TEST_CASE("an interval is cut off where the quantity cannot be", "[unit]") {
-    const Estimate share = Estimate::of(0.7, Interval{0.3, 1.1}).cut_to(0.0, 1.0);
+    const Estimate share = Estimate::of(0.7, Interval{0.3, 1.1}).cut_to(zero_to_one);
     CHECK(*share.interval == Interval{0.3, 1.0});
     CHECK(*share.value == 0.7);
-    CHECK_FALSE(Estimate::none("nobody").cut_to(0.0, 1.0).interval);
+    CHECK_FALSE(Estimate::none("nobody").cut_to(zero_to_one).interval);
 }
