@@ -103,9 +103,11 @@ def variety(rows):
     return len({bytes(row[4 * x:4 * x + 3]) for row in rows[::9] for x in range(0, len(row) // 4, 9)})
 
 
-def screen_of(program, name, folder):
+def screen_of(program, name, folder, wait_s):
     """The richest of the pictures that a session has on its screen in the first seconds of its trials."""
     protocol = begun(program, name, folder, 'timing = "unproven"\nbox = "none"\n')
+    # A screen without the display's box shows modes of 16 bits as a pattern of pairs of pixels.
+    protocol.write_text(re.sub(r'^output = ".*"$', 'output = "native-8bit"', protocol.read_text(), flags=re.M))
     display = 90 + os.getpid() % 100
     server = subprocess.Popen(["Xvfb", f":{display}", "-screen", "0", "1920x1080x24", "-fbdir", str(folder)],
                               stderr=subprocess.DEVNULL)
@@ -113,9 +115,9 @@ def screen_of(program, name, folder):
     session = subprocess.Popen([program, "run", str(protocol), "--observer", "P01", "--simulate-observer", "1", "--context", "window", "--refresh-check", "0",
                                 "--sessions", str(folder / "screens")], env=os.environ | {"DISPLAY": f":{display}"},
                                stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, start_new_session=True)
-    best, most, until, since = None, 0, time.monotonic() + 150, time.monotonic()
+    best, most, until, since = None, 0, time.monotonic() + wait_s, time.monotonic()
     # Until nothing richer comes for a while.
-    while time.monotonic() < until and session.poll() is None and (most < 40 or time.monotonic() - since < 8):
+    while time.monotonic() < until and session.poll() is None and (most < 40 or time.monotonic() - since < 40):
         time.sleep(0.4)
         width, height, rows = pixels_of(folder / "Xvfb_screen0")
         seen = variety(rows)
@@ -166,6 +168,7 @@ def main():
     parser.add_argument("protocols", nargs="*", choices=[[], *FIGURES])
     parser.add_argument("--overt", default=str(ROOT / "build/release/app/overt"))
     parser.add_argument("--studies", type=lambda given: pathlib.Path(given).resolve())
+    parser.add_argument("--wait-s", type=float, default=400, help="how long a session may take until its first picture")
     parser.add_argument("--only", choices=["screen", "design", "figure"])
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as scratch:
@@ -177,7 +180,7 @@ def main():
             if options.only in (None, "screen"):
                 folder = pathlib.Path(scratch) / name
                 folder.mkdir()
-                screen_of(options.overt, name, folder)
+                screen_of(options.overt, name, folder, options.wait_s)
             if options.only in (None, "figure"):
                 figure_of(options.overt, name, studies)
             print(name, file=sys.stderr)

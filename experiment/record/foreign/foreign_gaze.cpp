@@ -82,6 +82,7 @@ GazeFileReader::GazeFileReader(const std::filesystem::path& file, const GazeColu
     mark_value_ = table_.require_named(columns.mark_value, "marks' values");
     trial_ = table_.require_named(columns.trial, "trials");
     kind_ = table_.require_named(columns.kind, "kinds of rows");
+    fine_time_ = table_.require_named(columns.fine_time, "the tracker's clock");
 }
 
 std::optional<GazeFileReader::EyeAt> GazeFileReader::eye_at(const GazeColumns::OfEye& eye,
@@ -102,8 +103,42 @@ bool GazeFileReader::is_valid(std::string_view cell) const {
     if (!columns_.valid.empty())
         return cell == columns_.valid;
     if (const std::optional<double> number = number_in_cell(cell))
-        return *number >= columns_.least_validity;
+        return columns_.greatest_validity ? *number <= *columns_.greatest_validity
+                                          : *number >= columns_.least_validity;
     return cell == "Valid" || cell == "valid" || cell == "True" || cell == "true" || cell == "yes";
+}
+
+TrackerTime GazeFileReader::sample_time(TrackerTime at) {
+    const std::optional<double> fine = number_in_cell(table_.cell(fine_time_));
+    if (!fine)
+        return at;
+    // The mean of at most so many samples: rounding to ms leaves some 10 us, and clocks that drift are
+    // followed.
+    constexpr int most = 1000;
+    // Farther apart than rounding ever is: the tracker's clock was set.
+    constexpr double set_anew_us = 10'000.0;
+    const double shift = static_cast<double>(at.time_since_epoch().count()) - *fine;
+    if (samples_in_shift_ == 0 || std::abs(shift - fine_shift_us_) > set_anew_us) {
+        samples_in_shift_ = 0;
+        fine_shift_us_ = shift;
+    }
+    samples_in_shift_ = std::min(samples_in_shift_ + 1, most);
+    fine_shift_us_ += (shift - fine_shift_us_) / samples_in_shift_;
+    return TrackerTime{TrackerClock::duration(std::llround(*fine + fine_shift_us_))};
+}
+
+bool GazeFileReader::is_of_sample() const {
+    if (kind_)
+        return table_.cell(*kind_) == columns_.samples_word;
+    // A mark may have a row of its own, in which the columns of gaze are empty, and lost gaze has its
+    // validity.
+    if (!mark_ || is_missing_cell(table_.cell(*mark_)))
+        return true;
+    for (const std::optional<EyeAt>& eye : {left_, right_, single_})
+        if (eye && (!eye->validity || !is_missing_cell(table_.cell(*eye->validity)) ||
+                    !is_missing_cell(table_.cell(eye->x))))
+            return true;
+    return false;
 }
 
 ScreenPoint GazeFileReader::on_screen(double x, double y) const {
@@ -179,17 +214,18 @@ bool GazeFileReader::read_row() {
         return true;
     }
     add_marks(at);
-    if (kind_ && table_.cell(*kind_) != columns_.samples_word)
+    if (!is_of_sample())
         return true;
+    const TrackerTime sampled = sample_time(at);
     if (left_)
-        add_sample(at, Eye::left, *left_);
+        add_sample(sampled, Eye::left, *left_);
     if (right_)
-        add_sample(at, Eye::right, *right_);
+        add_sample(sampled, Eye::right, *right_);
     if (single_) {
         const std::optional<Eye> eye =
             eye_ ? eye_in_cell(table_.cell(*eye_)) : std::optional(columns_.single_eye);
         if (eye)
-            add_sample(at, *eye, *single_);
+            add_sample(sampled, *eye, *single_);
         else
             left_out(
                 fmt::format("{} is \"{}\", and no eye (left or right)", columns_.eye, table_.cell(*eye_)));

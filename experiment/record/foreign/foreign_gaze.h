@@ -51,6 +51,9 @@ class GazeFileReader {
     };
     std::optional<EyeAt> eye_at(const GazeColumns::OfEye& eye, const char* which) const;
     bool read_row();
+    /// Of the row's sample: `at`, or the finer clock's time where there is one.
+    TrackerTime sample_time(TrackerTime at);
+    bool is_of_sample() const;
     void add_sample(TrackerTime at, Eye eye, const EyeAt& columns);
     void add_marks(TrackerTime at);
     bool is_valid(std::string_view cell) const;
@@ -64,7 +67,9 @@ class GazeFileReader {
     RowReport report_;
     std::size_t time_;
     std::optional<EyeAt> left_, right_, single_;
-    std::optional<std::size_t> eye_, mark_, mark_value_, trial_, kind_;
+    std::optional<std::size_t> eye_, mark_, mark_value_, trial_, kind_, fine_time_;
+    double fine_shift_us_ = 0.0; ///< of the finer clock to `time`, in the mean of the samples before
+    int samples_in_shift_ = 0;
     std::string last_mark_, last_trial_;
     std::size_t decimals_ = 0; ///< of times, the most so far
     std::deque<ForeignItem> ready_;

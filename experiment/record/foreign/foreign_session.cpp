@@ -74,20 +74,20 @@ class Namer {
     }
 
     int task(const LoggedTrial& logged) const {
+        std::vector<std::string> ids;
+        for (const RecordedTask& task : header_.tasks)
+            ids.push_back(task.id);
         const auto word = logged.words.find("task");
         if (word == logged.words.end()) {
-            if (header_.tasks.size() > 1)
-                throw InputError(fmt::format(
-                    "{}: nothing says which task it was: name the column, --trial-columns task=NAME",
-                    logged.place));
+            if (ids.size() > 1)
+                throw InputError(fmt::format("{}: nothing says which task it was: name the column, "
+                                             "--trial-columns task=NAME; the protocol has {}",
+                                             logged.place, fmt::join(ids, ", ")));
             return 0;
         }
         for (std::size_t i = 0; i < header_.tasks.size(); ++i)
             if (header_.tasks[i].id == word->second || header_.tasks[i].question == word->second)
                 return static_cast<int>(i);
-        std::vector<std::string> ids;
-        for (const RecordedTask& task : header_.tasks)
-            ids.push_back(task.id);
         throw InputError(fmt::format("{}: the protocol has no task \"{}\"; it has {}", logged.place,
                                      word->second, fmt::join(ids, ", ")));
     }

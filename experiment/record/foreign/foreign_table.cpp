@@ -102,7 +102,15 @@ std::size_t ForeignTable::require(const std::string& name, std::string_view what
     if (const auto found = find(name))
         return *found;
     throw InputError(fmt::format("{}: has no column \"{}\" for {}; its columns are: {}", file_.string(), name,
-                                 what, fmt::join(columns_, ", ")));
+                                 what, columns_in_words()));
+}
+
+std::string ForeignTable::columns_in_words() const {
+    constexpr std::size_t shown = 40;
+    const std::size_t count = std::min(shown, columns_.size());
+    const std::string names = fmt::format(
+        "{}", fmt::join(columns_.begin(), columns_.begin() + static_cast<std::ptrdiff_t>(count), ", "));
+    return columns_.size() > count ? fmt::format("{} and {} more", names, columns_.size() - count) : names;
 }
 
 std::string ForeignTable::place() const { return fmt::format("{}:{}", file_.string(), row_line_); }

@@ -24,6 +24,8 @@ class ForeignTable {
 
     const std::filesystem::path& file() const { return file_; }
     const std::vector<std::string>& columns() const { return columns_; }
+    /// The names of the columns for a message: the first 40.
+    std::string columns_in_words() const;
     const std::vector<std::string>& comments() const { return comments_; }
 
     /// The column of this name; else the only one of this name with a unit behind it in brackets: "TIME" is

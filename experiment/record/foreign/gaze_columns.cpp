@@ -14,6 +14,19 @@ namespace fs = std::filesystem;
 namespace overt {
 namespace {
 
+/// A name as the table has it: newer exports of Tobii have the same quantity in several spaces, and say
+/// behind the name which: "[DACS px]" is pixels of the display, "[MCS norm]" shares of the picture.
+std::string in_display_px(const ForeignTable& table, const std::string& name) {
+    for (const char* space : {" [DACS px]", " [ADCS px]", " (ADCSpx)"})
+        if (table.find(name + space))
+            return name + space;
+    return name;
+}
+
+std::string if_there(const ForeignTable& table, const std::string& name) {
+    return table.has(name) ? name : std::string();
+}
+
 GazeColumns tobii_columns(const ForeignTable& table) {
     GazeColumns columns;
     columns.program = "Tobii Pro Lab";
@@ -22,27 +35,54 @@ GazeColumns tobii_columns(const ForeignTable& table) {
         columns.time_unit = table.columns()[*at].find("[ms]") != std::string::npos ? "ms"
                             : table.columns()[*at].find("s]") != std::string::npos ? "us"
                                                                                    : "";
+    // Recordings are in whole ms, unless asked otherwise; the tracker's own clock is in us.
+    if (columns.time_unit == "ms")
+        columns.fine_time = if_there(table, "Eyetracker timestamp");
     const auto eye = [&](const std::string& which) {
-        return GazeColumns::OfEye{"Gaze point " + which + " X", "Gaze point " + which + " Y",
-                                  table.has("Pupil diameter " + which) ? "Pupil diameter " + which : "",
-                                  table.has("Validity " + which) ? "Validity " + which : ""};
+        return GazeColumns::OfEye{in_display_px(table, "Gaze point " + which + " X"),
+                                  in_display_px(table, "Gaze point " + which + " Y"),
+                                  if_there(table, "Pupil diameter " + which),
+                                  if_there(table, "Validity " + which)};
     };
-    if (table.has("Gaze point left X"))
+    if (table.has(in_display_px(table, "Gaze point left X")))
         columns.left = eye("left");
-    if (table.has("Gaze point right X"))
+    if (table.has(in_display_px(table, "Gaze point right X")))
         columns.right = eye("right");
     if (!columns.left.is_there() && !columns.right.is_there())
-        columns.single = {"Gaze point X", "Gaze point Y", "", ""};
+        columns.single = {in_display_px(table, "Gaze point X"), in_display_px(table, "Gaze point Y"), "", ""};
     if (table.has("Sensor")) {
         columns.kind = "Sensor";
         columns.samples_word = "Eye Tracker";
     }
-    if (table.has("Event"))
-        columns.mark = "Event";
-    if (table.has("Event value"))
-        columns.mark_value = "Event value";
-    if (table.has("Presented Stimulus name"))
-        columns.trial = "Presented Stimulus name";
+    columns.mark = if_there(table, "Event");
+    columns.mark_value = if_there(table, "Event value");
+    columns.trial = if_there(table, "Presented Stimulus name");
+    return columns;
+}
+
+/// Tobii Studio, which Pro Lab replaced. Its codes of validity go from 0, certainly this eye, to 4, not
+/// found; its makers advise to use 0 and 1 alone.
+GazeColumns tobii_studio_columns(const ForeignTable& table) {
+    GazeColumns columns;
+    columns.program = "Tobii Studio";
+    columns.time = "RecordingTimestamp";
+    columns.time_unit = "ms";
+    columns.fine_time = if_there(table, "EyeTrackerTimestamp");
+    columns.greatest_validity = 1.0;
+    const auto eye = [&](const std::string& which) -> GazeColumns::OfEye {
+        const std::string x = in_display_px(table, "GazePoint" + which + "X");
+        if (!table.has(x))
+            return {};
+        return {x, in_display_px(table, "GazePoint" + which + "Y"), if_there(table, "Pupil" + which),
+                if_there(table, "Validity" + which)};
+    };
+    columns.left = eye("Left");
+    columns.right = eye("Right");
+    if (!columns.left.is_there() && !columns.right.is_there())
+        columns.single = {in_display_px(table, "GazePointX"), in_display_px(table, "GazePointY"), "", ""};
+    columns.mark = if_there(table, "StudioEvent");
+    columns.mark_value = if_there(table, "StudioEventData");
+    columns.trial = if_there(table, "MediaName");
     return columns;
 }
 
@@ -129,6 +169,7 @@ GazeColumns smi_columns(const ForeignTable& table) {
     };
     columns.left = eye("L");
     columns.right = eye("R");
+    columns.trial = if_there(table, "Stimulus"); // of BeGaze
     return columns;
 }
 
@@ -210,9 +251,15 @@ GazeColumns known_gaze_columns(const fs::path& file, bool takes_any_gaze) {
     if (name.ends_with(physio_ending) || name.ends_with(events_ending))
         return bids_columns(file, name.ends_with(events_ending));
     const ForeignTable table(file);
+    const auto has_any_in_px = [&](std::initializer_list<const char*> names) {
+        return std::ranges::any_of(names,
+                                   [&](const char* of) { return table.has(in_display_px(table, of)); });
+    };
     if (table.has("Recording timestamp") &&
-        (table.has("Gaze point left X") || table.has("Gaze point right X") || table.has("Gaze point X")))
+        has_any_in_px({"Gaze point left X", "Gaze point right X", "Gaze point X"}))
         return tobii_columns(table);
+    if (table.has("RecordingTimestamp") && has_any_in_px({"GazePointLeftX", "GazePointRightX", "GazePointX"}))
+        return tobii_studio_columns(table);
     if (table.has("TIME") && (table.has("BPOGX") || table.has("LPOGX")))
         return gazepoint_columns(table);
     if (table.has("gaze_timestamp") && table.has("x_norm"))
@@ -224,9 +271,9 @@ GazeColumns known_gaze_columns(const fs::path& file, bool takes_any_gaze) {
     if (table.has("Type") && table.has("Time") && (table.has("L POR X") || table.has("R POR X")))
         return smi_columns(table);
     throw InputError(fmt::format("{}: is a table of no program that is known by its columns (Tobii Pro Lab, "
-                                 "Gazepoint, Pupil, SMI, BIDS): say "
+                                 "Tobii Studio, Gazepoint, Pupil, SMI, BIDS): say "
                                  "which columns are which, --columns time=NAME,x=NAME,y=NAME; it has {}",
-                                 file.string(), fmt::join(table.columns(), ", ")));
+                                 file.string(), table.columns_in_words()));
 }
 
 GazeColumns gaze_columns_of(const std::vector<std::string>& words) {

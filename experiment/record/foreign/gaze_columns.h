@@ -23,6 +23,9 @@ struct GazeColumns {
     std::string program; ///< that wrote the table, as the record names its tracker
     std::string time;
     std::string time_unit; ///< "s", "ms", "us" or "ns"; empty: found by the spacing of the samples
+    /// Of samples, in us: the tracker's own clock, where `time`, which marks share, is coarser. Samples keep
+    /// its spacing, and lie on `time` in the mean. Empty: `time` alone.
+    std::string fine_time = {};
     OfEye left, right;
     OfEye single; ///< of one eye, or of both as one
     Eye single_eye = Eye::right;
@@ -32,10 +35,12 @@ struct GazeColumns {
     bool y_goes_up = false;
     std::string valid; ///< the word of a valid sample; empty: "valid", "true", or least_validity and more
     double least_validity = 0.5; ///< of validities and confidences that are numbers
-    bool zero_is_lost = false;   ///< a place of 0, 0 is lost gaze
-    std::string mark;            ///< whose cells, where they are not empty, are marks
-    std::string mark_value;      ///< of marks whose name alone says little: is put behind it, after a blank
-    std::string trial;           ///< whose changes begin trials
+    /// Of validities that are codes from 0, the best, up; then `least_validity` says nothing.
+    std::optional<double> greatest_validity = {};
+    bool zero_is_lost = false; ///< a place of 0, 0 is lost gaze
+    std::string mark;          ///< whose cells, where they are not empty, are marks
+    std::string mark_value;    ///< of marks whose name alone says little: is put behind it, after a blank
+    std::string trial;         ///< whose changes begin trials
     /// Rows of samples have `samples_word` in this column, and rows of messages `messages_word`, whose text
     /// is in their fourth cell.
     std::string kind, samples_word, messages_word;
@@ -51,10 +56,10 @@ struct GazeColumns {
 /// unit, valid, least_validity, y_up. Throws InputError.
 GazeColumns gaze_columns_of(const std::vector<std::string>& words);
 
-/// The columns of a file by the names that it has: of Tobii Pro Lab, Gazepoint Analysis, Pupil Player
-/// (surfaces and annotations), SMI's IDF Converter, and BIDS (physio, physioevents). Throws InputError, with
-/// the remedy, for a file whose program nobody knows, and for places that are not gaze on a screen (Pupil's
-/// gaze_positions.csv), unless `takes_any_gaze`.
+/// The columns of a file by the names that it has: of Tobii Pro Lab and Studio, Gazepoint Analysis, Pupil
+/// Player (surfaces and annotations), SMI's IDF Converter, and BIDS (physio, physioevents). Throws
+/// InputError, with the remedy, for a file whose program nobody knows, and for places that are not gaze on a
+/// screen (Pupil's gaze_positions.csv), unless `takes_any_gaze`.
 GazeColumns known_gaze_columns(const std::filesystem::path& file, bool takes_any_gaze);
 
 } // namespace overt

@@ -101,3 +101,79 @@ TEST_CASE("places are put onto the screen by their unit and their corner", "[uni
     CHECK_FALSE(place("unit=px,zero_is_lost=yes", "0", "0"));
     CHECK_FALSE(place("unit=px,least_validity=2", "1", "1"));
 }
+
+TEST_CASE("of Tobii's spaces of coordinates that of the display is taken, and its tracker's clock",
+          "[unit]") {
+    const test::TemporaryFolder folder;
+    // The tracker's clock lies 1000.4 ms behind: whole ms of the recording are cut, not rounded.
+    std::string text =
+        "Recording timestamp [ms]\tSensor\tEyetracker timestamp [\u03bcs]\tEvent\t"
+        "Gaze point left X [DACS px]\tGaze point left Y [DACS px]\tGaze point left X [DACS mm]\t"
+        "Gaze point left X [MCS norm]\tGaze point left Y [MCS norm]\t"
+        "Pupil diameter left [mm]\tValidity left\n"
+        "0\t\t\tRecordingStart\t\t\t\t\t\t\t\n";
+    for (int i = 0; i < 3000; ++i) {
+        const int fine_us = 500'000 + 3333 * i, coarse_ms = (fine_us + 1'000'400) / 1000;
+        text += std::to_string(coarse_ms) + "\tEye Tracker\t" + std::to_string(fine_us) +
+                (i == 5 ? "\t\t\t\t\t\t\t\tInvalid\n" : "\t\t537\t362\t147,6\t0,28\t0,34\t2,925\tValid\n");
+    }
+    const ForeignGaze gaze({foreign_file(folder, "t.tsv", text)}, std::nullopt, ScreenGeometry(), false);
+    const GazeSurvey survey = gaze.survey({});
+    CHECK(survey.columns.program == "Tobii Pro Lab");
+    CHECK(survey.rows_left_out == 0);
+    CHECK(survey.samples == 3000);
+    CHECK(survey.without_gaze == 1);
+    CHECK_FALSE(survey.has_right);
+    CHECK(survey.rate_hz == Approx(1e6 / 3333).epsilon(1e-4));
+    REQUIRE(survey.marks.size() == 1);
+    CHECK(survey.marks[0].text == "RecordingStart");
+    std::vector<GazeSample> samples;
+    gaze.read([&](const ForeignItem& item) {
+        if (item.sample)
+            samples.push_back(*item.sample);
+    });
+    CHECK(samples[0].gaze->x_px == 537.0);
+    CHECK(samples[0].gaze->y_px == 362.0);
+    CHECK(samples[0].pupil_area == Approx(2.925));
+    // Cut milliseconds lie 0.5 ms early in the mean; what is left of their steps is a few microseconds.
+    for (std::size_t i = 2000; i < samples.size(); ++i) {
+        const double truth_us = 1'500'400.0 + 3333.0 * static_cast<double>(i);
+        const double error_us = static_cast<double>(samples[i].sampled_at.time_since_epoch().count()) - truth_us;
+        CHECK(error_us == Approx(-500.0).margin(30.0));
+    }
+}
+
+TEST_CASE("Tobii Studio's codes of validity are 0 and 1 for gaze, and its marks stand beside samples",
+          "[unit]") {
+    const test::TemporaryFolder folder;
+    std::string text =
+        "RecordingTimestamp\tMediaName\tStudioEvent\tStudioEventData\tGazePointLeftX (ADCSpx)\t"
+        "GazePointLeftY (ADCSpx)\tPupilLeft\tValidityLeft\n"
+        "0\tvase.png\tImageStart\tvase.png\t\t\t\t\n";
+    for (int code = 0; code <= 4; ++code)
+        text += std::to_string(8 + 8 * code) + "\tvase.png\t\t\t100\t50\t3,1\t" + std::to_string(code) + "\n";
+    const ForeignGaze gaze({foreign_file(folder, "s.tsv", text)}, std::nullopt, ScreenGeometry(), false);
+    const GazeSurvey survey = gaze.survey({});
+    CHECK(survey.columns.program == "Tobii Studio");
+    CHECK(survey.samples == 5); // the mark's row is no lost sample
+    CHECK(survey.without_gaze == 3);
+    REQUIRE(survey.marks.size() == 2);
+    CHECK(survey.marks[0].text == "ImageStart vase.png");
+    CHECK(survey.marks[1].is_trial);
+    CHECK(survey.marks[1].text == "vase.png");
+}
+
+TEST_CASE("BeGaze's rows say what was shown", "[unit]") {
+    const test::TemporaryFolder folder;
+    std::string text = "## BeGaze\nTime\tType\tTrial\tL POR X [px]\tL POR Y [px]\tStimulus\n"
+                       "70590724309\tMSG\t1\t# Message: vase.bmp\n";
+    for (int i = 0; i < 3; ++i)
+        text += std::to_string(70590726108 + 4000 * i) + "\tSMP\t1\t858.16\t516.11\tvase.bmp\n";
+    const GazeSurvey survey =
+        ForeignGaze({foreign_file(folder, "b.txt", text)}, std::nullopt, ScreenGeometry(), false).survey({});
+    CHECK(survey.rate_hz == Approx(250.0));
+    REQUIRE(survey.marks.size() == 2);
+    CHECK(survey.marks[0].text == "vase.bmp");
+    CHECK_FALSE(survey.marks[0].is_trial);
+    CHECK(survey.marks[1].is_trial);
+}
