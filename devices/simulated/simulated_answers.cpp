@@ -265,12 +265,9 @@ SimulatedAnswers::Intended SimulatedAnswers::answer(const AnswerOffer& offer, co
         given.attitude = lean_of(offer, truth, what);
         given.is_missing = given.is_missing || !given.attitude;
     } else if (offer.kind == "point") {
-        const ScreenGeometry screen =
-            slot_geometry(protocol_, protocol_.slots[static_cast<std::size_t>(trial.shown(0).slot)]);
-        const ScreenPoint middle = screen.screen_from_image(0.5 * glm::dvec2(screen.image_px));
-        const double sd = screen.image_px.y / 8.0;
-        given.right_px = middle.x_px - screen.centre().x_px + sd * what.normal();
-        given.down_px = middle.y_px - screen.centre().y_px + sd * what.normal();
+        constexpr double miss_px = 4.0;
+        given.right_px = miss_px * what.normal();
+        given.down_px = miss_px * what.normal();
     } else if (!offer.values.empty() && offer.numbers.empty()) {
         // Choices go round over the keys: what is meant is one of those that are written in the protocol.
         const std::vector<std::string> values =

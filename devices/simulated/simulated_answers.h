@@ -29,8 +29,8 @@ class SimulatedAnswers {
         SessionDuration after{};           ///< the window opened
         int choice = 0;                    ///< index into the offer's values
         std::optional<double> number = {}; ///< of scales and numbers
-        /// Of a point, from the middle of the screen: normally distributed about the middle of the first
-        /// image that is shown, with an eighth of its height for standard deviation.
+        /// Of a point, by how much the pointer misses the place that is looked at: a normal number each, with
+        /// a standard deviation of 4 pixels.
         double right_px = 0.0, down_px = 0.0;
         /// Of a gauge: gain x the surface's own rise in depth + shear + noise x normal, as AnswerTruth has
         /// them.

@@ -94,12 +94,12 @@ void SimulatedKeys::point_at(double right_px, double down_px, SessionDuration af
     input.right_px = right_px;
     input.down_px = down_px;
     input.kind = ObserverInput::Kind::pointer_moved;
-    planned_.push_back({input, after});
+    planned_.push_back({input, after, true});
     input.button = 1;
     input.kind = ObserverInput::Kind::pointer_down;
-    planned_.push_back({input, after});
+    planned_.push_back({input, after, true});
     input.kind = ObserverInput::Kind::pointer_up;
-    planned_.push_back({input, after + key_held});
+    planned_.push_back({input, after + key_held, true});
 }
 
 /// From the middle, where the first press has the marker come up.
@@ -195,8 +195,14 @@ std::optional<ObserverInput> SimulatedKeys::next(SessionTime now) noexcept {
                           const std::optional<SessionTime>& since) -> std::optional<ObserverInput> {
         if (!since || next >= from.size() || *since + from[next].after > now)
             return std::nullopt;
-        ObserverInput input = from[next].input;
-        input.at = *since + from[next++].after;
+        const PlannedInput& planned = from[next++];
+        ObserverInput input = planned.input;
+        input.at = *since + planned.after;
+        if (planned.is_from_gaze && gaze_px_) {
+            const glm::dvec2 gaze = gaze_px_(input.at);
+            input.right_px += gaze.x;
+            input.down_px += gaze.y;
+        }
         return input;
     };
     if (release_ && release_->at <= now)

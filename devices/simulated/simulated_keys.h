@@ -1,10 +1,14 @@
 /// The keys by which a simulated observer answers.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
+
+#include <glm/glm.hpp>
 
 #include "devices/simulated/simulated_answers.h"
 #include "experiment/ports/observer_input.h"
@@ -15,6 +19,9 @@ namespace overt {
 /// throw nothing.
 class SimulatedKeys {
   public:
+    /// Where the eye points, in pixels to the right of and below the middle of the screen: clicks on places
+    /// go there. Without it they go to the middle. Must neither throw nor allocate.
+    void let_gaze_guide(std::function<glm::dvec2(SessionTime)> gaze_px) { gaze_px_ = std::move(gaze_px); }
     /// A key that is down by then is let go nevertheless, when that was planned.
     void clear() noexcept;
     /// Presses for these offers in turn, in place of all others, as clear() has it; they come after the
@@ -28,7 +35,8 @@ class SimulatedKeys {
   private:
     struct PlannedInput {
         ObserverInput input;
-        SessionDuration after{}; ///< the window opened, or inputs were awaited
+        SessionDuration after{};   ///< the window opened, or inputs were awaited
+        bool is_from_gaze = false; ///< its place counts from where the eye points then
     };
     void press(std::vector<PlannedInput>& to, std::string_view key, SessionDuration after);
     void lean(const AnswerOffer& offer, const Attitude& attitude, SessionDuration& after);
@@ -43,6 +51,7 @@ class SimulatedKeys {
 
     std::vector<PlannedInput> early_, planned_;
     std::size_t next_early_ = 0, next_ = 0;
+    std::function<glm::dvec2(SessionTime)> gaze_px_;
     std::optional<ObserverInput> release_;
     std::optional<SessionTime> awaited_, opened_;
 };

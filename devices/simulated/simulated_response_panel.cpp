@@ -25,6 +25,10 @@ SimulatedResponsePanel::SimulatedResponsePanel(const Clock& clock, const Simulat
     : clock_(&clock), observer_(&observer), answers_(answers) {
     for (const ScriptedOperatorKey& key : script)
         operators_.push_back({.scripted = key});
+    keys_.let_gaze_guide([observer = observer_](SessionTime at) {
+        const ScreenPoint gaze = observer->gaze_at(at).place, middle = observer->scene().screen.centre();
+        return glm::dvec2(gaze.x_px - middle.x_px, gaze.y_px - middle.y_px);
+    });
 }
 
 void SimulatedResponsePanel::await(Awaited what, SessionTime since, const Trial* trial) {

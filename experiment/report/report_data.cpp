@@ -5,6 +5,7 @@
 #include "experiment/report/report_answers.h"
 #include "experiment/report/report_areas.h"
 #include "experiment/report/report_explorations.h"
+#include "experiment/report/report_points.h"
 #include "experiment/report/report_json.h"
 #include "experiment/report/report_maps.h"
 #include "experiment/report/report_page.h"
@@ -200,6 +201,7 @@ nlohmann::ordered_json report_data(const StudyResults& results) {
               {"measure", results.headline.measure}}},
             {"answers", report_answers(results)},
             {"explorations", report_explorations(results.explorations)},
+            {"points", report_points(results)},
             {"answer_maps", std::move(maps.answer_maps)},
             {"knows_stimuli", knows_stimuli(results)},
             {"parameters", parameters},

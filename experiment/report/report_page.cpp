@@ -47,8 +47,9 @@ std::string report_page(const StudyResults& results) {
     for (const std::string_view part :
          {embedded::report_draw_js, embedded::report_table_js, embedded::report_views_js, embedded::report_js,
           embedded::report_trends_js, embedded::report_answers_js, embedded::report_maps_js,
-          embedded::report_trials_js, embedded::report_explorations_js, embedded::report_looking_js,
-          embedded::report_areas_js, embedded::report_order_js, embedded::report_save_js})
+          embedded::report_trials_js, embedded::report_explorations_js, embedded::report_points_js,
+          embedded::report_looking_js, embedded::report_areas_js, embedded::report_order_js,
+          embedded::report_save_js})
         script += part;
     put_in_place(page, "{{SCRIPT}}", script);
     put_in_place(page, "{{DATA}}", within_script(data));

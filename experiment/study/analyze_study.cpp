@@ -18,6 +18,7 @@
 #include "experiment/study/area_shares.h"
 #include "experiment/study/difference_maps.h"
 #include "experiment/study/error_budget.h"
+#include "experiment/study/answered_points.h"
 #include "experiment/study/explorations.h"
 #include "experiment/study/factor_effects.h"
 #include "experiment/study/first_fixations.h"
@@ -272,6 +273,7 @@ StudyResults analyze_study(ReadStudy study, const StudyOptions& options, const S
     reckon_explorations(results.explorations, options.bootstrap());
     if (knows_stimuli(results))
         reckon_on_surfaces(study, options, progress);
+    reckon_points(results, options);
     results.headline = study_headline(results, options);
     results.reporting = reporting_items(results, options);
     results.methods = methods_text(results, options);

@@ -1,11 +1,13 @@
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <set>
 #include <tuple>
 
 #include <fmt/format.h>
 
+#include "experiment/base/text_number.h"
 #include "experiment/fits/difference_scaling.h"
 #include "experiment/fits/pair_scaling.h"
 #include "experiment/statistics/distributions.h"
@@ -51,61 +53,109 @@ Interval about(double value, double se, double confidence) {
     return {value - half, value + half};
 }
 
-void add_pair_scales(std::vector<AnswerScaleRow>& rows, const AnswerOf& of,
-                     const std::vector<const StudyAnswer*>& given, const StudyOptions& options) {
-    std::map<std::string, std::vector<const StudyAnswer*>> by_factor;
-    for (const StudyAnswer* one : given)
-        if (!one->is_missed && (one->value == one->shown[0].slot || one->value == one->shown[1].slot))
-            if (const auto factor = only_difference(one->shown[0], one->shown[1]))
-                by_factor[*factor].push_back(one);
-    for (const auto& [factor, pairs] : by_factor) {
-        // Numbers rise in the tables, words stand in the order of the alphabet.
-        std::set<std::pair<double, std::string>> levels;
-        for (const StudyAnswer* one : pairs)
-            for (const AnsweredStimulus* shown : {&one->shown[0], &one->shown[1]})
-                levels.emplace(shown->number(factor).value_or(0.0), level_in(*shown, factor));
-        std::vector<std::string> items;
-        for (const auto& [number, level] : levels)
-            items.push_back(level);
-        std::map<std::pair<std::size_t, std::size_t>, PairCount> counts;
-        const auto item = [&](const AnsweredStimulus& shown) {
-            return static_cast<std::size_t>(std::ranges::find(items, level_in(shown, factor)) -
-                                            items.begin());
-        };
-        for (const StudyAnswer* one : pairs) {
-            const std::size_t first = item(one->shown[0]), second = item(one->shown[1]);
-            PairCount& count = counts.try_emplace({first, second}, PairCount{first, second}).first->second;
-            count.trials += 1.0;
-            count.first += one->value == one->shown[0].slot ? 1.0 : 0.0;
-        }
-        if (items.size() < 3)
+/// One judgement of which of two items has more of something.
+struct JudgedPair {
+    std::string first, second;
+    double first_number = 0.0, second_number = 0.0; ///< by which items are ordered; words: 0
+    bool is_first = false;                          ///< it was chosen
+};
+
+void add_scale_of_pairs(std::vector<AnswerScaleRow>& rows, const AnswerOf& of, const std::string& factor,
+                        const std::vector<JudgedPair>& pairs, const StudyOptions& options) {
+    // Numbers rise in the tables, words stand in the order of the alphabet.
+    std::set<std::pair<double, std::string>> levels;
+    for (const JudgedPair& pair : pairs) {
+        levels.emplace(pair.first_number, pair.first);
+        levels.emplace(pair.second_number, pair.second);
+    }
+    std::vector<std::string> items;
+    for (const auto& [number, level] : levels)
+        items.push_back(level);
+    if (items.size() < 3)
+        return;
+    std::map<std::string, std::size_t> index;
+    for (std::size_t i = 0; i < items.size(); ++i)
+        index[items[i]] = i;
+    std::map<std::pair<std::size_t, std::size_t>, PairCount> counts;
+    for (const JudgedPair& pair : pairs) {
+        const std::size_t first = index[pair.first], second = index[pair.second];
+        PairCount& count = counts.try_emplace({first, second}, PairCount{first, second}).first->second;
+        count.trials += 1.0;
+        count.first += pair.is_first ? 1.0 : 0.0;
+    }
+    std::vector<PairCount> all;
+    for (const auto& [key, count] : counts)
+        all.push_back(count);
+    for (const auto& [model, name] : {std::pair(PairModel::bradley_terry, "Bradley-Terry"),
+                                      std::pair(PairModel::thurstone, "Thurstone Case V")}) {
+        const std::optional<PairScale> scale = fit_pairs(all, items.size(), model, true);
+        if (!scale)
             continue;
-        std::vector<PairCount> all;
-        for (const auto& [key, count] : counts)
-            all.push_back(count);
-        for (const auto& [model, name] : {std::pair(PairModel::bradley_terry, "Bradley-Terry"),
-                                          std::pair(PairModel::thurstone, "Thurstone Case V")}) {
-            const std::optional<PairScale> scale = fit_pairs(all, items.size(), model, true);
-            if (!scale)
-                continue;
-            for (std::size_t i = 0; i < items.size(); ++i) {
-                AnswerScaleRow& row = rows.emplace_back();
-                row.of = of;
-                row.method = name;
-                row.factor = factor;
-                row.level = items[i];
-                row.value = Estimate::of(scale->centred[i],
-                                         about(scale->centred[i], scale->centred_se[i], options.confidence));
-                row.se = scale->centred_se[i];
-                // What the iteration leaves of an effect that is 0 by symmetry is none.
-                row.first_slot = scale->side;
-                if (row.first_slot && std::abs(*row.first_slot) < least_first_slot)
-                    row.first_slot = 0.0;
-                row.trials = static_cast<int>(pairs.size());
-                row.is_penalised = scale->is_penalised;
-            }
+        for (std::size_t i = 0; i < items.size(); ++i) {
+            AnswerScaleRow& row = rows.emplace_back();
+            row.of = of;
+            row.method = name;
+            row.factor = factor;
+            row.level = items[i];
+            row.value = Estimate::of(scale->centred[i],
+                                     about(scale->centred[i], scale->centred_se[i], options.confidence));
+            row.se = scale->centred_se[i];
+            // What the iteration leaves of an effect that is 0 by symmetry is none.
+            row.first_slot = scale->side;
+            if (row.first_slot && std::abs(*row.first_slot) < least_first_slot)
+                row.first_slot = 0.0;
+            row.trials = static_cast<int>(pairs.size());
+            row.is_penalised = scale->is_penalised;
         }
     }
+}
+
+/// Of stimuli in two slots that differ in one factor.
+void add_pair_scales(std::vector<AnswerScaleRow>& rows, const AnswerOf& of,
+                     const std::vector<const StudyAnswer*>& given, const StudyOptions& options) {
+    std::map<std::string, std::vector<JudgedPair>> by_factor;
+    for (const StudyAnswer* one : given) {
+        const AnsweredStimulus &first = one->shown[0], &second = one->shown[1];
+        if (one->is_missed || (one->value != first.slot && one->value != second.slot))
+            continue;
+        if (const auto factor = only_difference(first, second))
+            by_factor[*factor].push_back({level_in(first, *factor), level_in(second, *factor),
+                                          first.number(*factor).value_or(0.0),
+                                          second.number(*factor).value_or(0.0), one->value == first.slot});
+    }
+    for (const auto& [factor, pairs] : by_factor)
+        add_scale_of_pairs(rows, of, factor, pairs, options);
+}
+
+/// The list that a place on a surface is of, "seen" of "seen.12"; empty: it is the name of no such place.
+std::string list_of_place(const std::string& level) {
+    const std::size_t dot = level.rfind('.');
+    return dot == std::string::npos || !number_in<int>(std::string_view(level).substr(dot + 1))
+               ? std::string()
+               : level.substr(0, dot);
+}
+
+/// Of two marked places of one list, where the answer is the id of a mark.
+void add_place_scales(std::vector<AnswerScaleRow>& rows, const AnswerOf& of,
+                      const std::vector<const StudyAnswer*>& given, const StudyOptions& options) {
+    std::map<std::string, std::vector<JudgedPair>> by_list;
+    for (const StudyAnswer* one : given) {
+        const std::string list = one->is_missed ? std::string() : list_of_place(one->level(one->value));
+        if (list.empty())
+            continue;
+        std::vector<std::pair<std::string, std::string>> marks;
+        std::ranges::copy_if(one->levels, std::back_inserter(marks),
+                             [&](const auto& level) { return list_of_place(level.second) == list; });
+        if (marks.size() == 2 && marks[0].second != marks[1].second)
+            by_list[list].push_back({marks[0].second, marks[1].second,
+                                     static_cast<double>(*number_in<int>(
+                                         std::string_view(marks[0].second).substr(list.size() + 1))),
+                                     static_cast<double>(*number_in<int>(
+                                         std::string_view(marks[1].second).substr(list.size() + 1))),
+                                     one->value == marks[0].first});
+    }
+    for (const auto& [list, pairs] : by_list)
+        add_scale_of_pairs(rows, of, list, pairs, options);
 }
 
 /// Of pairs that can differ in several factors of numbers at once: what each level of each adds to the
@@ -268,6 +318,7 @@ void add_difference_scales(std::vector<AnswerScaleRow>& rows, const AnswerOf& of
 std::vector<AnswerScaleRow> answer_scales(const AnswersBy& answers, const StudyOptions& options) {
     std::vector<AnswerScaleRow> rows;
     for (const auto& [of, given] : answers) {
+        add_place_scales(rows, of, given, options);
         const std::size_t slots = given.front()->shown.size();
         if (!std::ranges::all_of(given, [&](const StudyAnswer* one) { return one->shown.size() == slots; }))
             continue;

@@ -135,6 +135,22 @@ std::string gauge_sentence(const StudyResults& results, const FirstAnswer& first
                        over(static_cast<int>(means.size())));
 }
 
+/// How far places that were pointed at lie apart.
+std::string point_sentence(const StudyResults& results, const FirstAnswer& first, double confidence) {
+    const auto row = std::ranges::find_if(results.points.spreads, [&](const PointSpreadRow& one) {
+        return one.of.observer.empty() && one.of.task == first.of.task && one.of.answer == first.of.answer &&
+               one.between_mm.value;
+    });
+    if (row == results.points.spreads.end())
+        return {};
+    std::string words =
+        fmt::format("places of {} by different observers lie {} apart in the mean", named_answer(first.of),
+                    with_interval(row->between_mm, confidence, 1.0, " mm"));
+    if (row->chance_mm)
+        words += fmt::format(", where chance gives {:.3g} mm", *row->chance_mm);
+    return fmt::format("{}, {}", words, over(row->observers));
+}
+
 /// The difference of two levels that is surest, over all items of a scale; else the mean of the first.
 std::string rating_sentence(const StudyAnswers& answers, const FirstAnswer& first, double confidence) {
     const auto is_of_scale = [&](const AnswerOf& of) {
@@ -285,6 +301,7 @@ MainResult main_result(const StudyResults& results, const StudyOptions& options)
                                      {"scales", noise_sentence(answers, first)},
                                      {"trends", trend_sentence(answers, first, options.confidence)},
                                      {"reliefs", gauge_sentence(results, first, options)},
+                                     {"points", point_sentence(results, first, options.confidence)},
                                      {"ratings", rating_sentence(answers, first, options.confidence)},
                                      {"choices", share_sentence(results, first, options)}})
             if (!found.clause.empty())

@@ -17,11 +17,12 @@
 #include "experiment/record/preview_file.h"
 #include "experiment/study/read/answer_reader.h"
 #include "experiment/study/read/area_evidence.h"
-#include "experiment/study/read/exposure.h"
 #include "experiment/study/read/exploration_reader.h"
+#include "experiment/study/read/exposure.h"
 #include "experiment/study/read/gauge_reader.h"
 #include "experiment/study/read/gaze_quality.h"
 #include "experiment/study/read/open_sessions.h"
+#include "experiment/study/read/point_reader.h"
 #include "experiment/study/read/trial_screen_areas.h"
 
 namespace overt {
@@ -46,6 +47,7 @@ class StudyReader {
             const SurfaceLookup* lookup = load_surface(object);
             find_exposure(object, lookup);
             read_trials(object, lookup);
+            read_points(object, lookup);
             add_evidence(object);
         }
         collect();
@@ -72,7 +74,9 @@ class StudyReader {
             open_[i].rest();
         }
         for (int object = 0; object < static_cast<int>(study_.surfaces.size()); ++object) {
-            find_exposure(object, load_surface(object));
+            const SurfaceLookup* lookup = load_surface(object);
+            find_exposure(object, lookup);
+            read_points(object, lookup);
             add_evidence(object);
         }
         collect();
@@ -90,6 +94,17 @@ class StudyReader {
         results().answers.given = read_answers(sessions, options_.same_observer);
         results().reliefs.settings = read_gauge_settings(sessions, options_.same_observer);
         results().explorations.shows = read_explorations(sessions, options_.same_observer);
+        results().points.given = points_.rows();
+    }
+
+    void read_points(int index, const SurfaceLookup* lookup) {
+        for (std::size_t session = 0; session < open_.size(); ++session) {
+            for (const TrialRecord& trial : open_[session].presentations)
+                if (is_of(session, trial, index))
+                    points_.read(open_[session], static_cast<int>(session),
+                                 results().sessions[session].observer, trial, index, lookup);
+            open_[session].rest();
+        }
     }
 
     void begin_reading() {
@@ -526,6 +541,7 @@ class StudyReader {
     std::vector<std::pair<std::size_t, ViewedObject>> shown_in_;
     std::vector<ReadSession> read_; ///< by session
     ReadStudy study_;
+    PointReader points_;
 };
 
 } // namespace

@@ -26,6 +26,7 @@
 #include "experiment/statistics/paired_evidence.h"
 #include "experiment/study/results/answer_rows.h"
 #include "experiment/study/results/exploration_rows.h"
+#include "experiment/study/results/point_rows.h"
 #include "experiment/study/results/looking_rows.h"
 #include "experiment/study/results/relief_rows.h"
 #include "experiment/study/results/screen_area_rows.h"
@@ -555,6 +556,7 @@ struct StudyResults {
     StudyAnswers answers;                      ///< of [[task.answer]]
     StudyReliefs reliefs;                      ///< of gauges
     StudyExplorations explorations;            ///< of objects that observers turned
+    StudyPoints points;                        ///< that were answers
     std::vector<StudyQuality> session_quality; ///< by session
     std::vector<ReportingItem> reporting;
     std::vector<MethodsParagraph> methods;

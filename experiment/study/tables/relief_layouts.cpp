@@ -6,8 +6,6 @@ namespace overt {
 
 namespace {
 
-constexpr const char* mesh_unit = "unit of the mesh: mm, unless its own is not known";
-
 template <class Row> void add_relief_of(StudyLayout<Row>& to) {
     to.text("observer", "Label of the observer; all: all together",
             [](const Row& row) { return row.of.observer.empty() ? std::string("all") : row.of.observer; });

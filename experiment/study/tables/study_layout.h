@@ -13,6 +13,8 @@
 namespace overt {
 
 inline constexpr int usual_decimals = 6, density_decimals = 9;
+/// Of places on a mesh.
+inline constexpr const char* mesh_unit = "unit of the mesh: mm, unless its own is not known";
 
 /// A table whose columns are added one by one, from left to right. A value is a member of the row, or a
 /// function of it.

@@ -1,5 +1,6 @@
 #include "experiment/study/tables/study_tables.h"
 #include "experiment/study/tables/exploration_layouts.h"
+#include "experiment/study/tables/point_layouts.h"
 
 #include <algorithm>
 
@@ -119,6 +120,10 @@ template <class Visit> void for_each_table(const StudyResults& results, const Vi
     all(reliefs_layout(), results.reliefs.reliefs, false);
     all(exploration_shows_layout(results), results.explorations.shows, false);
     all(explorations_layout(), results.explorations.summaries, false);
+    all(answered_points_layout(results), results.points.given, false);
+    all(point_spreads_layout(results), results.points.spreads, false);
+    all(point_areas_layout(results), results.points.areas, false);
+    all(point_pairs_layout(results), results.points.pairs, false);
     all(reporting_layout(), results.reporting, true);
 }
 

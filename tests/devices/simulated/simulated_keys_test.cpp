@@ -84,3 +84,27 @@ TEST_CASE("after the last screen a key that is down is let go, and nothing else 
     keys.clear();
     CHECK(until(keys, down + 120s).empty());
 }
+
+TEST_CASE("clicks on places go to where the eye points then, but for a few pixels", "[unit]") {
+    const Protocol protocol = asked();
+    const SimulatedAnswers answers(protocol, 3);
+    AnswerOffer offer;
+    offer.id = "where";
+    offer.kind = "point";
+    SimulatedKeys keys;
+    SessionTime asked_at{};
+    keys.let_gaze_guide([&](SessionTime at) {
+        asked_at = at;
+        return glm::dvec2(200.0, -100.0);
+    });
+    keys.plan(answers, {offer}, {});
+    keys.awaited(SessionTime(1s));
+    keys.window_opened(SessionTime(2s));
+    const std::vector<ObserverInput> inputs = until(keys, SessionTime(60s));
+    REQUIRE(inputs.size() == 3);
+    CHECK(inputs[1].kind == ObserverInput::Kind::pointer_down);
+    CHECK(inputs[1].right_px == Approx(200.0).margin(20.0));
+    CHECK(inputs[1].down_px == Approx(-100.0).margin(20.0));
+    CHECK(inputs[1].right_px != 200.0);
+    CHECK(asked_at == inputs[2].at);
+}

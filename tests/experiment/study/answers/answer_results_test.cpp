@@ -125,6 +125,38 @@ TEST_CASE("pairs and triads give back the scale of a made-up observer", "[unit]"
     }
 }
 
+TEST_CASE("choices between two marked places give a scale of the places of a list", "[unit]") {
+    RandomStream random(5, "places");
+    const std::vector<double> worth{-1.0, 0.0, 0.4, 1.2};
+    std::vector<StudyAnswer> answers;
+    for (int trial = 0; trial < 1200; ++trial) {
+        const std::size_t first = random.below(4), second = (first + 1 + random.below(3)) % 4;
+        const double share = 1.0 / (1.0 + std::exp(worth[second] - worth[first]));
+        StudyAnswer& one = answers.emplace_back(
+            choice_of(trial % 2 ? "P01" : "P02", {{}}, random.uniform() < share ? "red" : "green"));
+        // Places 9 to 12: in the order of their numbers, not of the alphabet. The list's name has a dot.
+        one.levels = {{"red", fmt::format("se.en.{}", 9 + first)},
+                      {"green", fmt::format("se.en.{}", 9 + second)},
+                      {"light", "a.1"}};
+    }
+    answers.push_back(choice_of("P01", {{}}, ""));
+    answers.push_back(choice_of("P01", {{}}, "neither"));
+    StudyAnswers study;
+    study.given = answers;
+    reckon_answers(study, quick_options());
+    std::vector<AnswerScaleRow> scale;
+    std::ranges::copy_if(study.scales, std::back_inserter(scale), [](const AnswerScaleRow& row) {
+        return row.method == "Bradley-Terry" && row.of.observer.empty();
+    });
+    REQUIRE(scale.size() == 4);
+    for (std::size_t i = 0; i < 4; ++i) {
+        CHECK(scale[i].factor == "se.en");
+        CHECK(scale[i].level == fmt::format("se.en.{}", 9 + i));
+        CHECK(scale[i].trials == 1200);
+        CHECK(scale[i].value.value.value() == Approx(worth[i] - 0.15).margin(0.25));
+    }
+}
+
 TEST_CASE("ratings have means by level, and over observers of their means", "[unit]") {
     std::vector<StudyAnswer> answers;
     for (const auto& [observer, level, rating] : {std::tuple("P01", 0.1, 1.0), std::tuple("P01", 0.1, 3.0),
