@@ -3,8 +3,8 @@
 #   source("readers/overt.R"); source("readers/main_figure.R")
 #   main_figure("analysis", "figure.pdf")      # or .svg, .png
 #
-# Which figure it is goes by what the study measured: a scale, matches, reliefs, ratings, answer times by set size, a
-# psychometric function, correct answers, else shares of gaze on areas. Base R alone. Copy it and change it.
+# Which figure it is goes by what the study measured: what stays together, places that were pointed at, a scale, matches,
+# reliefs, times by set size, ratings, a psychometric function, correct answers, else shares of gaze on areas. Base R alone. Copy it and change it.
 
 of_all <- function(rows) rows[rows$observer %in% "all", , drop = FALSE]
 
@@ -42,6 +42,32 @@ figure_of_chosen <- function(rows) {
 }
 
 figures <- list(
+  # How often two stay together where the odd one out is chosen.
+  answer_likenesses = function(rows, study) {
+    rows <- of_all(rows)
+    rows <- rows[rows$answer == rows$answer[1] & rows$factor == rows$factor[1], ]
+    levels <- sort(unique(c(rows$a, rows$b)))
+    shares <- matrix(NA, length(levels), length(levels))
+    shares[cbind(match(rows$a, levels), match(rows$b, levels))] <- rows$share
+    shares[cbind(match(rows$b, levels), match(rows$a, levels))] <- rows$share
+    room <- max(3, 0.5 * max(nchar(levels)))
+    par(mar = c(room, room, 1.5, 0.5))
+    image(seq_along(levels), seq_along(levels), shares[, rev(seq_along(levels)), drop = FALSE], zlim = c(0, 1), col = hcl.colors(64, "cividis"), axes = FALSE, xlab = "", ylab = "")
+    axis(1, seq_along(levels), levels, las = 2, tick = FALSE)
+    axis(2, seq_along(levels), rev(levels), las = 1, tick = FALSE)
+    known <- which(!is.na(shares), arr.ind = TRUE)
+    text(known[, 1], length(levels) + 1 - known[, 2], round(100 * shares[known]), col = ifelse(shares[known] > 0.5, "black", "white"), cex = 0.8)
+    mtext("stay together, % of the trials that show both", cex = 1)
+  },
+  # Places that were pointed at, from the front: z is up.
+  answered_points = function(rows, study) {
+    rows <- rows[!is.na(rows$x) & rows$on_object == rows$on_object[1], ]
+    if (nrow(rows) == 0) return(FALSE)
+    answers <- sort(unique(rows$answer))
+    par(mar = c(3, 3.2, 0.5, 0.5))
+    plot(rows$x, rows$z, asp = 1, xlab = "x", ylab = "z", bty = "l", pch = match(rows$answer, answers))
+    legend("topleft", legend = answers, pch = seq_along(answers), bty = "n")
+  },
   answer_scales = function(rows, study) {
     rows <- of_all(rows)
     rows <- rows[rows$method == rows$method[1] & rows$factor == rows$factor[1], ]
@@ -58,26 +84,26 @@ figures <- list(
     rows <- if (any(rows$observer == "all")) of_all(rows) else rows
     figure_of_rows(paste(rows$object, rows$material), rows$attitude_gain, rows$attitude_gain_low, rows$attitude_gain_high, "gain of the attitudes that were set", rows$planted)
   },
+  # Response times over the set size; of a search with its target apart from that without. Other numbers have other figures.
+  answer_trends = function(rows, study) {
+    rows <- of_all(rows)
+    rows <- rows[grepl("time", rows$measure) & rows$along == "set_size", ]
+    rows <- if (any(rows$within %in% "target")) rows[rows$within %in% "target", ] else rows[is.na(rows$within), ]
+    if (nrow(rows) == 0) return(FALSE)
+    points <- of_all(study$table("answer_trend_points"))
+    points <- points[points$measure == rows$measure[1] & points$along == rows$along[1] & points$within %in% rows$within & points$within_level %in% rows$within_level, ]
+    par(mar = c(3, 3.2, 0.5, 0.5))
+    plot(points$x, points$mean, ylim = range(points$mean, points$mean_low, points$mean_high, na.rm = TRUE), xlab = rows$along[1], ylab = rows$measure[1], bty = "l", pch = 18 + match(points$within_level, rows$within_level))
+    segments(points$x, points$mean_low, points$x, points$mean_high)
+    for (i in seq_len(nrow(rows))) lines(range(points$x), rows$intercept[i] + rows$slope[i] * range(points$x), lty = i)
+    if (!anyNA(rows$within)) legend("topleft", legend = rows$within_level, pch = 18 + seq_len(nrow(rows)), lty = seq_len(nrow(rows)), bty = "n")
+  },
   ratings = function(rows, study) {
     rows <- of_all(rows)
     rows <- rows[is.na(rows$factor), ]
     figure_of_rows(ifelse(is.na(rows$item), rows$answer, rows$item), rows$mean, rows$mean_low, rows$mean_high, "mean rating", rows$planted)
   },
-  answer_trials = function(rows, study) {
-    if (is.null(rows$set_size)) return(figure_of_chosen(rows))
-    rows <- rows[!is.na(rows$response_s) & rows$is_correct %in% 1, ]
-    medians <- aggregate(response_s ~ set_size + target, rows, median)
-    medians$set_size <- as.numeric(medians$set_size)
-    par(mar = c(3, 3.2, 0.5, 0.5))
-    plot(medians$set_size, medians$response_s, type = "n", xlab = "set size", ylab = "median time of correct answers / s", bty = "l")
-    kinds <- unique(medians$target)
-    for (i in seq_along(kinds)) {
-      mine <- medians[medians$target == kinds[i], ]
-      mine <- mine[order(mine$set_size), ]
-      lines(mine$set_size, mine$response_s, type = "b", pch = 18 + i, lty = i)
-    }
-    legend("topleft", legend = kinds, pch = 18 + seq_along(kinds), lty = seq_along(kinds), bty = "n")
-  },
+  answer_trials = function(rows, study) figure_of_chosen(rows),
   psychometric_functions = function(rows, study) {
     rows <- of_all(rows)
     f <- rows[is.na(rows$within), ][1, ]

@@ -4,8 +4,8 @@
     from main_figure import main_figure
     main_figure("analysis", "figure.pdf")  # or .svg, .png
 
-Which figure it is goes by what the study measured: a scale, matches, reliefs, ratings, answer times by set size, a
-psychometric function, correct answers, else shares of gaze on areas. Needs overt.py, pandas and matplotlib. Copy it and
+Which figure it is goes by what the study measured: what stays together, places that were pointed at, a scale, matches,
+reliefs, times by set size, ratings, a psychometric function, correct answers, else shares of gaze on areas. Needs overt.py, pandas and matplotlib. Copy it and
 change it.
 """
 import pathlib
@@ -85,15 +85,53 @@ def of_chosen(axes, rows):
                       "chosen, of the times that it was shown")
 
 
-def of_answer_trials(axes, rows, study):
-    if "set_size" not in rows.columns:
-        return of_chosen(axes, rows)
-    rows = rows[rows["response_s"].notna() & (rows["is_correct"] == 1)]
-    medians = rows.assign(set_size=pandas.to_numeric(rows["set_size"])).groupby(["target", "set_size"])["response_s"].median()
-    for number, (kind, mine) in enumerate(medians.groupby(level=0)):
-        axes.plot(mine.index.get_level_values(1), mine, "os^"[number % 3] + "-", label=kind, markersize=4, linewidth=1)
-    axes.set(xlabel="set size", ylabel="median time of correct answers / s")
+def of_likenesses(axes, rows, study):
+    """How often two stay together where the odd one out is chosen, as a matrix."""
+    rows = of_all(rows)
+    rows = rows[(rows["answer"] == rows["answer"].iloc[0]) & (rows["factor"] == rows["factor"].iloc[0])]
+    levels = sorted(set(rows["a"]) | set(rows["b"]))
+    shares = np.full((len(levels), len(levels)), np.nan)
+    for _, row in rows.iterrows():
+        i, j = levels.index(row["a"]), levels.index(row["b"])
+        shares[i, j] = shares[j, i] = row["share"]
+    image = axes.imshow(shares, cmap="cividis", vmin=0, vmax=1)
+    axes.set_xticks(range(len(levels)), levels, rotation=90)
+    axes.set_yticks(range(len(levels)), levels)
+    axes.figure.colorbar(image, label="share that stays together")
+
+
+def of_points(axes, rows, study):
+    """Places that were pointed at, from the front: z is up."""
+    rows = rows[rows["x"].notna() & (rows["on_object"] == rows["on_object"].iloc[0])]
+    if rows.empty:
+        return False
+    for number, (answer, mine) in enumerate(rows.groupby("answer")):
+        axes.plot(mine["x"], mine["z"], "os^"[number % 3], label=answer, markersize=4, fillstyle="none")
+    axes.set(xlabel="x", ylabel="z", aspect="equal", adjustable="datalim")
     return axes.legend(frameon=False)
+
+
+def of_trends(axes, rows, study):
+    """Response times over a number; of a search with its target apart from that without. Other numbers have other figures."""
+    rows = of_all(rows)
+    rows = rows[rows["measure"].str.contains("time") & (rows["along"] == "set_size")]
+    rows = rows[rows["within"] == "target"] if (rows["within"] == "target").any() else rows[rows["within"].isna()]
+    if rows.empty:
+        return False
+    points = of_all(study.table("answer_trend_points"))
+    for number, (_, row) in enumerate(rows.iterrows()):
+        same = (points["measure"] == row["measure"]) & (points["along"] == row["along"]) & (points["within"].fillna("") == (row["within"] if pandas.notna(row["within"]) else ""))
+        mine = points[same & (points["within_level"].fillna("") == (row["within_level"] if pandas.notna(row["within_level"]) else ""))]
+        line = axes.plot(mine["x"], mine["mean"], "os^"[number % 3], label=row["within_level"], markersize=4)[0]
+        axes.vlines(mine["x"], mine["mean_low"], mine["mean_high"], color=line.get_color())
+        ends = np.array([mine["x"].min(), mine["x"].max()])
+        axes.plot(ends, row["intercept"] + row["slope"] * ends, color=line.get_color(), linewidth=1)
+    axes.set(xlabel=rows["along"].iloc[0], ylabel=rows["measure"].iloc[0])
+    return axes.legend(frameon=False) if rows["within"].notna().any() else None
+
+
+def of_answer_trials(axes, rows, study):
+    return of_chosen(axes, rows)
 
 
 def of_functions(axes, rows, study):
@@ -129,7 +167,8 @@ def of_areas(axes, rows, study):
     drawn_rows(axes, rows["area"], rows["by_count"], rows["by_count_low"], rows["by_count_high"], "share of fixations on the area")
 
 
-FIGURES = {"answer_scales": of_scales, "matches": of_matches, "reliefs": of_reliefs, "ratings": of_ratings, "answer_trials": of_answer_trials,
+FIGURES = {"answer_likenesses": of_likenesses, "answered_points": of_points, "answer_scales": of_scales, "matches": of_matches, "reliefs": of_reliefs, "answer_trends": of_trends, "ratings": of_ratings,
+           "answer_trials": of_answer_trials,
            "psychometric_functions": of_functions, "answers": of_correct, "answer_choices": of_choices, "areas": of_areas}
 
 

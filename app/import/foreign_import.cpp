@@ -19,6 +19,7 @@
 #include "experiment/base/json_text.h"
 #include "experiment/base/whole_file.h"
 #include "experiment/record/foreign/foreign_session.h"
+#include "experiment/record/read/import_source.h"
 #include "experiment/record/session_schema.h"
 #include "render/gl/headless_context.h"
 
@@ -60,19 +61,18 @@ std::vector<AskedAnswer> asked_answers(const Protocol& protocol) {
 
 std::string source_text(const ForeignImportOptions& options, const ForeignGaze& gaze,
                         const GazeSurvey& survey, const TrialLog& log) {
-    std::string text = fmt::format("gaze of {}", survey.columns.program);
-    const auto add = [&](const std::filesystem::path& file) {
-        text += fmt::format("; {} (SHA-256 {})", file.filename().string(), hash_of_file(file));
+    const auto named = [](const std::filesystem::path& file) {
+        return fmt::format("; {} (SHA-256 {})", file.filename().string(), hash_of_file(file));
     };
+    std::string of_gaze, of_trials;
     for (const auto& file : gaze.files())
-        add(file);
-    if (!options.trials.empty()) {
-        text += log.program.empty() ? "; trials" : fmt::format("; trials of {}", log.program);
-        add(options.trials);
-    }
+        of_gaze += named(file);
+    if (!options.trials.empty())
+        of_trials += named(options.trials);
     if (!options.frames.empty())
-        add(options.frames);
-    return text;
+        (options.trials.empty() ? of_gaze : of_trials) += named(options.frames);
+    return import_source_text({survey.columns.program, log.program, {}}, of_gaze, of_trials,
+                              !options.trials.empty());
 }
 
 struct Imported {

@@ -7,8 +7,10 @@ const drawn_later = (...parts) => element('div', {}, ...parts);
 function show_trends() {
   const all = answers.trends.filter(r => of_all(r) && r.slope.v !== null);
   if (!all.length) return;
-  // Times first: that a line is told of them is most often what they were taken for.
-  const is_time = r => r.measure.includes('time'), order = all.filter(is_time).concat(all.filter(r => !is_time(r)));
+  // Times first: that a line is told of them is most often what they were taken for; and of a search with its target apart from
+  // that without, as the page's first sentence has it.
+  const is_time = r => r.measure.includes('time'), place = r => (is_time(r) ? 0 : 2) + (r.column === 'target' ? 0 : 1);
+  const order = all.map((r, i) => [place(r), i, r]).sort((a, b) => a[0] - b[0] || a[1] - b[1]).map(([, , r]) => r);
   const kinds = unique(order, r => [...r.of.slice(1), r.measure, r.along, r.column].join('\t')), box = element('div', {class: 'chart'}), names = element('div');
   const show = index => {
     const wanted = kinds[index], mine = all.filter(r => same_answer(r, wanted) && r.measure === wanted.measure && r.along === wanted.along && r.column === wanted.column);

@@ -13,12 +13,12 @@
 #include "experiment/base/counted.h"
 #include "experiment/base/parallel.h"
 #include "experiment/study/answer_gaze.h"
+#include "experiment/study/answered_points.h"
 #include "experiment/study/answers/answer_results.h"
 #include "experiment/study/area_pairs.h"
 #include "experiment/study/area_shares.h"
 #include "experiment/study/difference_maps.h"
 #include "experiment/study/error_budget.h"
-#include "experiment/study/answered_points.h"
 #include "experiment/study/explorations.h"
 #include "experiment/study/factor_effects.h"
 #include "experiment/study/first_fixations.h"
@@ -113,6 +113,17 @@ void glance_at(StudyResults& results, const ExclusionRules& rules) {
             "areas such "
             "as a head. Take shares by duration.",
             *rate));
+    const auto foreign = std::ranges::count_if(
+        results.sessions, [](const StudySession& session) { return session.setup.presenter.has_value(); });
+    if (foreign > 0)
+        remarks.push_back(fmt::format("{} presented by another program, and gaze was imported: which "
+                                      "refreshes were missed is not known, nor "
+                                      "how exactly gaze was measured; places on moving objects are as good "
+                                      "as the log of onsets and the "
+                                      "latency that the protocol gives.",
+                                      foreign == std::ssize(results.sessions) ? "All sessions were"
+                                      : foreign == 1                          ? "One session was"
+                                                     : fmt::format("{} sessions were", foreign)));
     if (glance.any_simulated)
         remarks.push_back(
             fmt::format("The gaze of {} sessions is that of simulated observers.",

@@ -2,6 +2,7 @@
 
 #include "experiment/clock_map.h"
 #include "experiment/record/foreign/foreign_session.h"
+#include "experiment/record/read/import_source.h"
 #include "experiment/record/write/row_writer.h"
 
 namespace overt {
@@ -97,9 +98,9 @@ ForeignCounts write_foreign_rows(const std::filesystem::path& session_file, cons
                                  const ForeignPlan& plan, const ForeignGaze& gaze,
                                  const std::vector<AskedAnswer>& asked, const std::string& source_text) {
     RowWriter writer(session_file, sitting);
-    writer.write(EventRow{SessionTime(), -1, "gaze imported", source_text});
+    writer.write(EventRow{SessionTime(), -1, std::string(gaze_imported_event), source_text});
     for (const std::string& remark : plan.remarks)
-        writer.write(EventRow{SessionTime(), -1, "gaze imported", remark});
+        writer.write(EventRow{SessionTime(), -1, std::string(gaze_imported_event), remark});
     for (const ClockPair& pair : plan.clocks.pairs)
         writer.write(pair);
     const ClockMap clock_map(plan.clocks.pairs);

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiment/events/recording_events.h"
+#include "experiment/record/read/import_source.h"
 #include "experiment/record/gaze_rows.h"
 #include "experiment/record/read/session_record.h"
 #include "experiment/record/read/settings_words.h"
@@ -265,7 +266,7 @@ SessionRecord::EventOrigin SessionRecord::event_origin(int sitting) const {
 
 SessionRecord::EventOrigin SessionRecord::find_event_origin(int sitting) const {
     using From = EventOrigin::From;
-    const bool is_imported = gaze_source(sitting).has_value();
+    const bool is_imported = gaze_source(sitting).has_value(), is_foreign = import_source(*this).has_value();
     const auto has_rows = [&](const char* sql) {
         Query row(database(), sql);
         row.bind(1, sitting);
@@ -278,7 +279,7 @@ SessionRecord::EventOrigin SessionRecord::find_event_origin(int sitting) const {
             return {From::reading, {}};
         if (has_table(database(), "event_detection"))
             if (const auto detection = read_event_detection(database(), sitting))
-                return {is_imported ? From::reading : From::recording, *detection};
+                return {is_imported || is_foreign ? From::reading : From::recording, *detection};
         if (has_table(database(), "gaze_event") &&
             has_rows("SELECT EXISTS (SELECT * FROM gaze_event JOIN trial USING (trial_id) WHERE sitting = ? "
                      "AND kind IN ('fixation', 'saccade', 'blink'))"))

@@ -104,6 +104,13 @@ std::string answers_text(const StudyResults& results, const StudyOptions& option
                      "(after Koenderink, van Doorn & Kappers, 1992; Wijntjes, 2012); its depth is compared "
                      "with the true one by regression, with and without shears (Belhumeur, Kriegman & "
                      "Yuille, 1999)");
+    if (std::ranges::any_of(results.points.spreads,
+                            [](const PointSpreadRow& row) { return row.between_mm.value.has_value(); }))
+        add_sentence(text,
+                     "places that were pointed at were found on the surface by the frame that was lit "
+                     "then; the mean distance of two observers' places, straight through space, has the "
+                     "interval of the jackknife over observers (Arvesen, 1969), and is compared with "
+                     "that of places drawn evenly from the object's pictures");
     if (std::ranges::any_of(results.answer_maps, [](const DifferenceMap& map) { return map.absent.empty(); }))
         add_sentence(text, "where gaze before one answer differs from gaze before another was tested on the "
                            "surface by clusters within observers");

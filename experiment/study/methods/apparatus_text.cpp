@@ -47,7 +47,7 @@ bool lit_pictures(const StudySession& session) {
 
 std::string light_clause(const StudySession& session) {
     const DisplaySetup& display = session.setup.display;
-    if (!lit_pictures(session))
+    if (!lit_pictures(session) && !session.setup.presenter)
         return {};
     if (!display.light)
         return "the luminance of the display is not on record";
@@ -58,6 +58,12 @@ std::string light_clause(const StudySession& session) {
 
 std::string timing_clause(const StudySession& session) {
     const DisplaySetup& display = session.setup.display;
+    if (session.setup.presenter)
+        return fmt::format(
+            "when pictures were lit is what the imported log and the protocol say: how many refreshes "
+            "were missed is not known, and light is taken to have come {} ms after an onset{}",
+            as_set(display.latency_ms),
+            display.latency_ms != 0.0 ? "" : ", since nobody knows how long it took");
     if (!lit_pictures(session))
         return {};
     // Nobody measures exactly 0.
@@ -107,6 +113,10 @@ std::string gaze_clause(const StudySession& session) {
 
 std::string program_clause(const StudySession& session) {
     const std::string& version = session.setup.program_version;
+    if (const std::optional<std::string>& presenter = session.setup.presenter)
+        return fmt::format("pictures were presented by {}, and gaze and trials were imported into overt{}",
+                           presenter->empty() ? "another program, which is not on record" : *presenter,
+                           version.empty() ? ", in a version that is not on record" : " " + version);
     return fmt::format("{} by overt{}",
                        session.setup.gaze.origin == GazeOrigin::imported ? "the recording was imported"
                                                                          : "presentation and recording were",

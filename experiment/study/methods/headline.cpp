@@ -349,6 +349,11 @@ std::vector<ShownFactor> shown_factors(const StudyResults& results) {
         for (const AnsweredStimulus& shown : one.shown) {
             for (const auto& [name, level] : shown.levels)
                 add(name, level);
+            // Of the trial's own, such as a set size, what is no stimulus's.
+            for (const auto& [name, level] : one.levels)
+                if (std::ranges::find(shown.levels, name, &std::pair<std::string, std::string>::first) ==
+                    shown.levels.end())
+                    add(name, level);
             ++things;
         }
     if (results.answers.given.empty())

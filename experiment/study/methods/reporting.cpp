@@ -83,6 +83,10 @@ std::string questions_of(const StudyResults& results) {
 
 std::string program_of(const StudySession& session) {
     const std::string& version = session.setup.program_version;
+    if (const std::optional<std::string>& presenter = session.setup.presenter)
+        return fmt::format("presented by {}, imported into overt {}",
+                           presenter->empty() ? "a program that is not on record" : *presenter,
+                           version.empty() ? "(version not on record)" : version);
     return version.empty() ? std::string() : fmt::format("overt {}", version);
 }
 

@@ -10,6 +10,7 @@
 #include "experiment/base/plain_text.h"
 #include "experiment/motion_words.h"
 #include "experiment/record/no_stimulus.h"
+#include "experiment/record/read/import_source.h"
 
 namespace overt {
 
@@ -184,6 +185,10 @@ SessionSetup setup_of(const SessionRecord& record) {
     setup.gaze = gaze_of(record, source);
     if (source)
         setup.imported_file = source->file;
+    if (const std::optional<ImportSource> foreign = import_source(record)) {
+        setup.presenter = foreign->presenter;
+        setup.gaze.origin = GazeOrigin::imported;
+    }
     setup.display = display_of(header);
     if (!knows_no_stimulus(header)) {
         setup.stimuli = stimuli_of(header);

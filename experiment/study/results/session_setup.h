@@ -87,7 +87,10 @@ struct NamedThing {
 
 struct SessionSetup {
     GazeSetup gaze;
-    std::string imported_file; ///< its name; empty: the session is not imported
+    std::string imported_file; ///< of a recording without a protocol, its name; empty: it is none
+    /// Another program presented, by this name, as far as its log tells it; nothing: this one did, or nobody
+    /// knows of any stimulus.
+    std::optional<std::string> presenter = {};
     DisplaySetup display;
     StimulusSetup stimuli;
     std::vector<NamedThing> materials, tasks; ///< of the protocol; titles and questions without marks

@@ -506,8 +506,8 @@ struct StudyHeadline {
     std::string sample;   ///< N, and who and what was left out
     std::string result;   ///< the main one, with its interval
     /// What the result is of, by which the report is in order: "curves", "matches", "scales", "trends",
-    /// "likenesses", "reliefs", "ratings", "choices", "areas"; empty: there is no result.
-    std::string measure;
+    /// "likenesses", "reliefs", "points", "ratings", "choices", "areas"; empty: there is no result.
+    std::string measure = {};
 };
 
 struct StudyResults {

@@ -188,6 +188,8 @@ std::string study_json(const StudyResults& results) {
                                     {"trials", session.trials}});
         if (!session.setup.imported_file.empty())
             json["sessions"].back()["imported_file"] = session.setup.imported_file;
+        if (session.setup.presenter)
+            json["sessions"].back()["presented_by"] = *session.setup.presenter;
     }
     for (const StudyParameter& parameter : results.parameters)
         json["parameters"].push_back({{"name", parameter.name},

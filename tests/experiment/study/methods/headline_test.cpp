@@ -165,3 +165,24 @@ TEST_CASE("a share in the headline does not leave 0 to 100 per cent", "[unit]") 
     const std::string result = study_headline(results, options).result;
     CHECK_THAT(result, Contains("66.7 %") && Contains("to 100 %)"));
 }
+
+TEST_CASE("what differs has factors of the trials' own, and places that were pointed at are a main result",
+          "[unit]") {
+    StudyResults results = study_of_pairs();
+    for (std::size_t i = 0; i < results.answers.given.size(); ++i)
+        results.answers.given[i].levels = {{"set_size", i % 2 ? "4" : "8"}, {"light", "hall"}};
+    CHECK(study_headline(results, {}).design ==
+          "6 trials with 2 stimuli each; what differs is roughness (3 levels) and set_size (2 levels).");
+    for (StudyAnswer& one : results.answers.given)
+        one.kind = "point";
+    PointSpreadRow& row = results.points.spreads.emplace_back();
+    row.of = {"", "glossier", "which", 0};
+    row.observers = 5;
+    row.between_mm = Estimate::of(42.0, Interval{30.0, 54.0});
+    row.chance_mm = 140.0;
+    const StudyHeadline headline = study_headline(results, {});
+    CHECK(headline.measure == "points");
+    CHECK_THAT(headline.result,
+               Contains("42 mm (95 % interval 30 to 54 mm) apart in the mean, where chance gives "
+                        "140 mm, over 5 observers"));
+}

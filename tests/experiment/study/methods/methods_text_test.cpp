@@ -210,6 +210,26 @@ TEST_CASE("methods call each source of gaze by its name, and count the sessions 
     CHECK_THAT(of_all({GazeOrigin::imported, "EyeLink CL", "", 500.0}),
                Contains("Gaze of the right eye was imported from a recording, at 500 Hz, of an eye tracker, "
                         "EyeLink CL."));
+    // Another program presented.
+    for (StudySession& session : study.results.sessions)
+        session.setup.presenter = "PsychoPy";
+    CHECK_THAT(
+        study.text("Apparatus"),
+        Contains("When pictures were lit is what the imported log and the protocol say: how many refreshes "
+                 "were missed is not known, and light is taken to have come 3.5 ms after an onset.") &&
+            Contains("Pictures were presented by PsychoPy, and gaze and trials were imported into overt") &&
+            !Contains("vertical blank"));
+    for (StudySession& session : study.results.sessions) {
+        session.setup.presenter = "";
+        session.setup.display.latency_ms = 0.0;
+    }
+    CHECK_THAT(study.text("Apparatus"),
+               Contains("0 ms after an onset, since nobody knows how long it took.") &&
+                   Contains("presented by another program, which is not on record"));
+    for (StudySession& session : study.results.sessions) {
+        session.setup.presenter.reset();
+        session.setup.display.latency_ms = 3.5;
+    }
     // The display of another session was another one.
     study.results.sessions[1].setup.display.refresh_hz = 60.0;
     study.results.sessions[0].setup.display.timing = "unproven";
