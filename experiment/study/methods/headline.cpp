@@ -31,14 +31,16 @@ std::string with_interval(const Estimate& of, double confidence, double scale = 
 
 std::string over(int observers) { return fmt::format("over {}", as_counted(observers, "observer")); }
 
-/// The first answer of the data of which there is a result, with the number of its observers.
+/// An answer of which there may be a result, with the number of its observers.
 struct FirstAnswer {
     AnswerOf of;
     int observers = 0;
     bool is_judged = false; ///< right or wrong
 };
 
-std::vector<FirstAnswer> answers_in_order(const StudyAnswers& answers) {
+/// In the order of the protocol's tasks, since that of trials is drawn; of a task as the data have them.
+std::vector<FirstAnswer> answers_in_order(const StudyResults& results) {
+    const StudyAnswers& answers = results.answers;
     std::vector<FirstAnswer> found;
     std::map<AnswerOf, std::set<std::string>> observers;
     for (const StudyAnswer& one : answers.given) {
@@ -50,6 +52,10 @@ std::vector<FirstAnswer> answers_in_order(const StudyAnswers& answers) {
         observers[of].insert(one.observer);
         known->observers = static_cast<int>(observers[of].size());
     }
+    const std::vector<NamedThing> tasks = tasks_asked(results);
+    std::ranges::stable_sort(found, {}, [&](const FirstAnswer& one) {
+        return std::ranges::find(tasks, one.of.task, &NamedThing::id) - tasks.begin();
+    });
     return found;
 }
 
@@ -292,7 +298,7 @@ struct MainResult {
 
 MainResult main_result(const StudyResults& results, const StudyOptions& options) {
     const StudyAnswers& answers = results.answers;
-    for (const FirstAnswer& first : answers_in_order(answers))
+    for (const FirstAnswer& first : answers_in_order(results))
         for (MainResult& found :
              std::vector<MainResult>{{"curves", curve_sentence(answers, first, options.confidence)},
                                      {"matches", match_sentence(answers, first, options.confidence)},
