@@ -18,7 +18,9 @@
 #include <ucontext.h>
 #include <unistd.h>
 
+#include "app/cli/own_folders.h"
 #include "app/rig/display_box_session.h"
+#include "devices/eyelink/left_on_host.h"
 #include "devices/link/shared_library.h"
 #include "experiment/base/error.h"
 #include "experiment/record/manifest.h"
@@ -187,6 +189,19 @@ bool close_records(const std::filesystem::path& session, const std::string& what
     return was_open;
 }
 
+/// Of the eye tracker's files that were on their way into the session's folder.
+void tell_of_files_on_the_host(const std::filesystem::path& session) {
+    try {
+        for (const LeftOnHost& left : read_left_on_host(state_folder()))
+            if (left.folder == session)
+                fmt::print(stderr,
+                           "The EyeLink's file {}.EDF is on its host; overt tracker fetch brings it.\n",
+                           left.name);
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "overt: {}\n", error.what());
+    }
+}
+
 } // namespace
 
 CrashGuard::CrashGuard(const std::filesystem::path& session) {
@@ -275,6 +290,7 @@ int close_crashed_session(const std::vector<std::string>& given) {
                    given[1]);
     else
         fmt::print(stderr, "The record had been closed before, and is whole: {}\n", given[1]);
+    tell_of_files_on_the_host(given[1]);
     switch_back_what_was_left();
     std::fflush(nullptr);
     // As a crash ends, but without the memory of a program that is another by now.

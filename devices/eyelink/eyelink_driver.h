@@ -75,6 +75,8 @@ class EyelinkDriver final : public TrackerDriver {
                const EyeTracker::FileProgress& progress, std::vector<std::string>& said);
     void note_left(const std::string& name, const std::filesystem::path& folder,
                    std::vector<std::string>& said) noexcept;
+    void forget_left(const std::string& name, const std::filesystem::path& folder,
+                     std::vector<std::string>& said) noexcept;
     void close() noexcept;
 
     EyelinkSettings settings_;

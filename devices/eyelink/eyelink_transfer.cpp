@@ -45,6 +45,17 @@ void EyelinkDriver::note_left(const std::string& name, const std::filesystem::pa
     }
 }
 
+void EyelinkDriver::forget_left(const std::string& name, const std::filesystem::path& folder,
+                                std::vector<std::string>& said) noexcept {
+    if (settings_.notes.empty())
+        return;
+    try {
+        forget_left_on_host(settings_.notes, {name, settings_.address, std::filesystem::absolute(folder)});
+    } catch (const std::exception& error) {
+        said.emplace_back(error.what());
+    }
+}
+
 std::vector<LeftOnHost> EyelinkDriver::left_files() const {
     std::vector<LeftOnHost> left;
     if (!settings_.notes.empty() && !settings_.is_dummy)
@@ -111,6 +122,10 @@ std::vector<std::string> EyelinkDriver::finish(const std::string& folder,
         close();
         return said;
     }
+    // Noted before: a library that crashes in a transfer, or a program that is killed, leaves no time for it.
+    std::vector<std::string> untold;
+    for (const std::string& name : files_)
+        note_left(name, folder, untold);
     stop();
     try {
         if (library_->eyelink_is_connected() != 1) {
@@ -124,7 +139,8 @@ std::vector<std::string> EyelinkDriver::finish(const std::string& folder,
         is_file_open_ = false;
         while (!files_.empty()) {
             const std::string name = files_.front();
-            fetch(name, folder, progress, said);
+            if (fetch(name, folder, progress, said))
+                forget_left(name, folder, said);
             files_.erase(files_.begin());
         }
     } catch (const std::exception& error) {

@@ -422,6 +422,20 @@ TEST_CASE("an EyeLink's file that stayed on its host is offered at the next star
     CHECK(fetching.fetch_left_files({}).empty());
 }
 
+TEST_CASE("an EyeLink's file is noted as left on its host until it has come", "[unit]") {
+    DriverBench bench;
+    const TemporaryFolder folder, notes;
+    bench.settings.notes = notes.path();
+    EyelinkDriver driver(bench.settings, bench.clock);
+    driver.connect(bench.wish);
+    CHECK(read_left_on_host(notes.path()).empty());
+    std::set<std::size_t> noted; // a library that crashed now would leave so many
+    driver.finish(folder.path().string(),
+                  [&](std::int64_t, std::int64_t) { noted.insert(read_left_on_host(notes.path()).size()); });
+    CHECK(noted == std::set<std::size_t>{1});
+    CHECK(read_left_on_host(notes.path()).empty());
+}
+
 TEST_CASE("an EyeLink without a tracker records nothing and waits for nothing", "[unit]") {
     DriverBench bench;
     bench.settings.is_dummy = true;
