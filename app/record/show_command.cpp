@@ -16,8 +16,8 @@
 #include "experiment/base/json_text.h"
 #include "experiment/base/path_inside.h"
 #include "experiment/base/whole_file.h"
-#include "experiment/ports/event_kinds.h"
 #include "experiment/record/preview_file.h"
+#include "experiment/record/read/rig_pages.h"
 #include "experiment/record/read/sample_join.h"
 #include "experiment/record/read/session_faults.h"
 #include "experiment/record/session_directory.h"
@@ -45,16 +45,6 @@ bool is_shown(const Factor& factor) {
     return factor.source == Factor::Source::column ||
            (factor.source == Factor::Source::list &&
             (factor.levels.size() > 1 || stimulus_lists[factor.list].is_always_named));
-}
-
-/// What was proved on the rig of each sitting, by the page that its record names.
-std::vector<std::pair<int, std::string>> rig_pages(const SessionRecord& record) {
-    std::vector<std::pair<int, std::string>> pages;
-    record.read_events([&](const RecordedEvent& event) {
-        if (event.kind == rig_page_event)
-            pages.emplace_back(event.sitting, event.detail);
-    });
-    return pages;
 }
 
 nlohmann::ordered_json session_json(const SessionRecord& record) {
@@ -119,7 +109,7 @@ nlohmann::ordered_json session_json(const SessionRecord& record) {
              !further.empty())
         json["further_trackers"] = further;
     json["rig_pages"] = nlohmann::ordered_json::array();
-    for (const auto& [sitting, page] : rig_pages(record))
+    for (const auto& [sitting, page] : rig_pages_of(record))
         json["rig_pages"].push_back({{"sitting", sitting}, {"page", page}});
     json["display_boxes"] = nlohmann::ordered_json::array();
     for (const auto& [sitting, box] : record.display_boxes()) {
@@ -184,7 +174,7 @@ void print_session(const SessionRecord& record) {
                    further_record(record.directory(), id).string());
     for (const auto& [sitting, box] : record.display_boxes())
         fmt::print("display box in sitting {}: {}\n", sitting, describe(box));
-    for (const auto& [sitting, page] : rig_pages(record))
+    for (const auto& [sitting, page] : rig_pages_of(record))
         fmt::print("page of the rig in sitting {}: {}\n", sitting, page);
     const Factors factors = factors_of(header);
     std::string names;

@@ -7,6 +7,7 @@
 #include "experiment/base/counted.h"
 #include "experiment/base/error.h"
 #include "experiment/base/json_text.h"
+#include "experiment/record/read/rig_pages.h"
 #include "experiment/record/session_directory.h"
 #include "experiment/record/verify/verification.h"
 
@@ -14,11 +15,20 @@ namespace overt {
 
 namespace {
 
+/// What the session stood on. Nothing of records that are damaged, and of those that name no rig.
+std::vector<NamedRigPage> rig_pages_in(const std::filesystem::path& session, const Verification& found) {
+    if (!found.is_sound())
+        return {};
+    return rig_pages_of(SessionRecord(session));
+}
+
 void print(const std::filesystem::path& session, const Verification& found) {
     for (const Damage& damage : found.damages)
         fmt::print("damaged: {}\n", to_text(damage));
     for (const std::string& note : found.notes)
         fmt::print("note: {}\n", note);
+    for (const auto& [sitting, page] : rig_pages_in(session, found))
+        fmt::print("page of the rig in sitting {}: {}\n", sitting, page);
     const std::string state = found.state == Verification::State::closed ? ""
                               : found.state == Verification::State::running
                                   ? ", and running"
@@ -47,9 +57,13 @@ nlohmann::ordered_json to_json(const std::filesystem::path& session, const Verif
         item["what"] = damage.what;
         damages.push_back(std::move(item));
     }
-    return {{"session", session.string()},   {"sound", found.is_sound()}, {"state", name_of(found.state)},
-            {"seals", found.seals},          {"files", found.files},      {"bytes", found.bytes},
-            {"damages", std::move(damages)}, {"notes", found.notes}};
+    auto rig_pages = nlohmann::ordered_json::array();
+    for (const auto& [sitting, page] : rig_pages_in(session, found))
+        rig_pages.push_back({{"sitting", sitting}, {"page", page}});
+    return {
+        {"session", session.string()},   {"sound", found.is_sound()}, {"state", name_of(found.state)},
+        {"seals", found.seals},          {"files", found.files},      {"bytes", found.bytes},
+        {"damages", std::move(damages)}, {"notes", found.notes},      {"rig_pages", std::move(rig_pages)}};
 }
 
 /// Each session and the records of its further trackers.

@@ -55,6 +55,8 @@ std::string timing_of(const StudySession& session) {
     return {};
 }
 
+const std::string& rig_of(const StudySession& session) { return session.setup.rig; }
+
 std::string light_of(const StudySession& session) {
     const std::optional<DisplaySetup::Light>& light = session.setup.display.light;
     return light ? fmt::format("white of {} cd/m2, measured with {} on {}",
@@ -170,6 +172,8 @@ std::vector<ReportingItem> reporting_items(const StudyResults& results, const St
                 "time was virtual, or the sessions do not say what proves their times");
     of_sessions("3 setup and geometry", "light of the display", light_of,
                 "the display was not characterised: give its luminance");
+    of_sessions("3 setup and geometry", "what was proved on the rig", rig_of,
+                "no session names a page of its rig: overt doctor --first-day keeps one");
     add("4 recording environment", "room and its light", {}, "describe both");
     add("5 instructions", "questions asked", questions_of(results), "say what observers were asked");
     add("6 data quality", "calibration", calibrations_in_words(results),

@@ -11,6 +11,7 @@
 #include "experiment/motion_words.h"
 #include "experiment/record/no_stimulus.h"
 #include "experiment/record/read/import_source.h"
+#include "experiment/record/read/rig_pages.h"
 
 namespace overt {
 
@@ -176,6 +177,16 @@ std::vector<SessionSetup::Calibrations> calibrations_of(const SessionRecord& rec
     return all;
 }
 
+/// Of several sittings that name different pages, each once.
+std::string rig_of(const SessionRecord& record) {
+    std::set<std::string> told;
+    std::string all;
+    for (const NamedRigPage& named : rig_pages_of(record))
+        if (told.insert(named.page).second)
+            all += (all.empty() ? "" : " / ") + named.page;
+    return all;
+}
+
 } // namespace
 
 SessionSetup setup_of(const SessionRecord& record) {
@@ -200,6 +211,7 @@ SessionSetup setup_of(const SessionRecord& record) {
     setup.calibrations = calibrations_of(record);
     for (SessionSetup::Calibrations& one : setup.calibrations)
         one.is_simulated = setup.gaze.is_simulated();
+    setup.rig = rig_of(record);
     setup.program_version = header.program.version;
     return setup;
 }

@@ -103,6 +103,7 @@ struct SessionSetup {
         friend bool operator==(const Calibrations&, const Calibrations&) = default;
     };
     std::vector<Calibrations> calibrations;
+    std::string rig; ///< what was proved on it, by the page that the record names; empty: it names none
     std::string program_version; ///< of overt, which ran or imported it
 };
 
