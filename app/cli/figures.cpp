@@ -8,11 +8,11 @@
 namespace overt {
 
 BenchFigure at_most(std::string figure, double value, std::string unit, double bound) {
-    return {std::move(figure), value, std::move(unit), fmt::format("<= {}", bound), value <= bound};
+    return {std::move(figure), value, std::move(unit), fmt::format("<= {:.9g}", bound), value <= bound};
 }
 
 BenchFigure at_least(std::string figure, double value, std::string unit, double bound) {
-    return {std::move(figure), value, std::move(unit), fmt::format(">= {}", bound), value >= bound};
+    return {std::move(figure), value, std::move(unit), fmt::format(">= {:.9g}", bound), value >= bound};
 }
 
 bool all_hold(const BenchFigures& figures) {

@@ -24,6 +24,9 @@ namespace {
 /// Long enough for any screen to reach its light, and for delays of some refreshes to be told apart.
 constexpr int refreshes_of_light = 6;
 
+/// So much before its vertical blank light is looked for.
+constexpr int refreshes_too_early = 2;
+
 /// Of the side of the screen that is shorter, where no protocol says how large the square is.
 constexpr int share_of_square = 6;
 
@@ -174,6 +177,8 @@ MeasuredLight measure_light(const DoctorOptions& options, const SensorOpener& op
     clock.wait_until(clock.now() + std::chrono::milliseconds(200));
     const double scan_ms =
         1e3 * screen.geometry.image_origin_px.y / (screen.geometry.screen_px.y * screen.display.refresh_hz);
+    // Where nothing proves the times, light may come before what is told as its vertical blank.
+    const double earliest_ms = -1e3 * refreshes_too_early / screen.display.refresh_hz;
     return {std::string(name_of(flip.source)),
             std::string(name_of(screen.display.output)),
             display.is_real(),
@@ -182,7 +187,7 @@ MeasuredLight measure_light(const DoctorOptions& options, const SensorOpener& op
             identity,
             static_cast<int>(changes.size()),
             scan_ms,
-            sensor ? compare_light(changes, sensor->edges()) : LightLatency()};
+            sensor ? compare_light(changes, sensor->edges(), earliest_ms) : LightLatency()};
 }
 
 int run_photodiode_doctor(const DoctorOptions& options) {

@@ -121,22 +121,27 @@ RigStep measure_light_latency(const FirstDay& day) {
             fmt::format("{} changes of a square were shown, and the sensor saw none.", light.changes),
             "see that the sensor looks at the square, and repeat this step");
     const double told_ms = day.protocol.display.latency_ms;
+    const bool comes_too_early = found.mean_ms < -most_latency_error_ms;
     RigStep step = judged(
         {at_most("changes that the sensor did not see", found.unseen, "", 0.0),
          at_most("edges without a change", found.unasked, "", 0.0),
+         at_least("light after the vertical blank, mean", found.mean_ms, "ms", -most_latency_error_ms),
          at_most("standard deviation from vertical blank to light", found.sd_ms, "ms", 1.0),
          at_most("distance of the first row's light from [display] latency_ms",
                  light.is_real ? std::abs(light.first_row_ms() - told_ms) : 0.0, "ms", most_latency_error_ms),
          {std::string(mean_light_figure), found.mean_ms, "ms"},
          {"latency of the screen's first row", light.first_row_ms(), "ms"},
          {"changes shown", static_cast<double>(light.changes), ""}},
-        fmt::format(
-            "The light comes {:.2f} ms after the vertical blank ({:.2f} … {:.2f} ms), by the times of "
-            "{}.",
-            found.mean_ms, found.lowest_ms, found.highest_ms, light.source),
-        fmt::format("write [display] latency_ms = {:.2f}, if that is what fails; where edges are missed or "
-                    "come too often, move the sensor and darken the room",
-                    light.first_row_ms()));
+        fmt::format("The light comes {:.2f} ms after what is told as the vertical blank ({:.2f} … {:.2f} "
+                    "ms), by the times of "
+                    "{}.",
+                    found.mean_ms, found.lowest_ms, found.highest_ms, light.source),
+        comes_too_early
+            ? std::string("no light comes before the vertical blank that shows it, so the times of this "
+                          "screen are wrong: mend what the step screen says, and repeat this one")
+            : fmt::format("write [display] latency_ms = {:.2f}, if that is what fails; where edges are "
+                          "missed or come too often, move the sensor and darken the room",
+                          light.first_row_ms()));
     add_screen_facts(step.facts, light.graphics, light.monitor ? &*light.monitor : nullptr);
     if (light.display_box)
         add_box_fact(step.facts, light.display_box->product, light.display_box->serial_number);

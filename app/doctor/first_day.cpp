@@ -117,14 +117,19 @@ enum class Answer { begin, leave_open, end };
 Answer ask_before(const FirstDayStep& step, bool asks) {
     if (!asks || isatty(STDIN_FILENO) == 0)
         return Answer::begin;
-    fmt::print("Enter: begin   s: leave it open   q: go on another day > ");
-    std::fflush(stdout);
-    std::string line;
-    if (!std::getline(std::cin, line) || line == "q")
-        return Answer::end;
-    if (line == "s")
-        fmt::print("{} stays open\n", step.name);
-    return line == "s" ? Answer::leave_open : Answer::begin;
+    for (;;) {
+        fmt::print("Enter: begin   s: leave it open   q: go on another day > ");
+        std::fflush(stdout);
+        std::string line;
+        if (!std::getline(std::cin, line) || line == "q")
+            return Answer::end;
+        if (line.empty())
+            return Answer::begin;
+        if (line == "s") {
+            fmt::print("{} stays open\n", step.name);
+            return Answer::leave_open;
+        }
+    }
 }
 
 /// Devices that are not there prove nothing, and refusals are failures.

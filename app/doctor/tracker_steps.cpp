@@ -114,7 +114,7 @@ RigStep measure_accuracy(const FirstDay& day) {
     figures.push_back(at_most("targets that were not seen", static_cast<double>(unseen), "", 0.0));
     RigStep step = judged(
         std::move(figures),
-        fmt::format("{}; at known targets gaze is off by {:.2f} deg in the mean and {:.2f} "
+        fmt::format("Calibration: {}; at known targets gaze is off by {:.2f} deg in the mean and {:.2f} "
                     "deg at most.",
                     tried.calibration->method, validation.mean_error.value, validation.max_error.value),
         "see that tracker, screen and chair stand as in sessions and that [display] has the "

@@ -79,10 +79,13 @@ RigStep measure_trials(const FirstDay& day) {
     BenchFigures figures{
         at_least("trials that were completed", completed, "", wished),
         at_most("damaged places in the record", static_cast<double>(verified.damages.size()), "", 0.0),
-        at_most("missed refreshes",
-                shown > 0 ? 100.0 * static_cast<double>(missed) / static_cast<double>(shown) : 100.0, "%",
-                most_missed_percent),
         {"refreshes shown", static_cast<double>(shown), ""}};
+    const bool is_unproven = record.header().display.is_timing_unproven();
+    if (!is_unproven)
+        figures.push_back(
+            at_most("missed refreshes",
+                    shown > 0 ? 100.0 * static_cast<double>(missed) / static_cast<double>(shown) : 100.0, "%",
+                    most_missed_percent));
     if (with_gaze > 0)
         figures.push_back({"samples with gaze, mean of trials", 100.0 * gaze / with_gaze, "%"});
     RigStep step =
@@ -91,10 +94,10 @@ RigStep measure_trials(const FirstDay& day) {
                            code == 0 ? "" : "; the session was broken off"),
                "see overt show of the session in the folder sessions beside this page, mend what it "
                "says, and repeat this step");
-    if (record.header().display.is_timing_unproven() && step.verdict == StepVerdict::proved) {
+    if (is_unproven && step.verdict == StepVerdict::proved) {
         step.verdict = StepVerdict::not_proved;
         step.finding += " The protocol claims no proof of times ([display] timing = \"unproven\"), so that "
-                        "missed refreshes were counted by times that nothing proves.";
+                        "how many refreshes were missed is not known.";
         step.remedy = "write timing = \"proven\" once the step screen is proved";
     }
     if (day.is_headless())

@@ -55,7 +55,8 @@ void add_screen_facts(RigFacts& facts, const GlDescription& graphics, const Moni
 }
 
 void add_model_fact(RigFacts& facts, const TrackerDescription& tracker) {
-    facts.push_back({model_fact, tracker.model.substr(0, tracker.model.find(", its "))});
+    if (!tracker.model.empty())
+        facts.push_back({model_fact, tracker.model.substr(0, tracker.model.find(", its "))});
 }
 
 void add_box_fact(RigFacts& facts, const std::string& product, const std::string& serial_number) {

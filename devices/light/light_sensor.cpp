@@ -14,11 +14,11 @@ namespace {
 constexpr SessionDuration listening = std::chrono::milliseconds(50);
 
 /// When the change that ends this one's time begins: the next of its kind, or never.
-SessionTime next_of_its_kind(std::span<const LightEdge> changes, std::size_t i) {
+std::optional<SessionTime> next_of_its_kind(std::span<const LightEdge> changes, std::size_t i) {
     for (std::size_t k = i + 1; k < changes.size(); ++k)
         if (changes[k].is_light == changes[i].is_light)
             return changes[k].at;
-    return SessionTime::max();
+    return std::nullopt;
 }
 
 } // namespace
@@ -65,12 +65,13 @@ LightLatency compare_light(std::span<const LightEdge> changes, std::span<const L
     LightLatency found;
     std::vector<double>& delays_ms = found.delays_ms;
     for (std::size_t i = 0; i < changes.size(); ++i) {
-        const SessionTime from = changes[i].at + from_seconds(1e-3 * earliest_ms);
-        const SessionTime until = next_of_its_kind(changes, i);
+        const SessionDuration earliest = from_seconds(1e-3 * earliest_ms);
+        const SessionTime from = changes[i].at + earliest;
+        const std::optional<SessionTime> next = next_of_its_kind(changes, i);
         const auto edge = std::ranges::find_if(edges, [&](const LightEdge& seen) {
             return seen.is_light == changes[i].is_light && seen.at >= from;
         });
-        if (edge == edges.end() || edge->at >= until) {
+        if (edge == edges.end() || (next && edge->at >= *next + earliest)) {
             ++found.unseen;
             continue;
         }

@@ -75,8 +75,9 @@ struct LightLatency {
     std::vector<double> delays_ms = {}; ///< of those matched, in their order
 };
 
-/// Each change is matched with the first edge of its kind from `earliest_ms` after it (a sensor may be
-/// stamped better than the display) until the next change of its kind. Both in the order of time.
+/// Each change is matched with the first edge of its kind from `earliest_ms` after it until as long before or
+/// after the next change of its kind. Below 0, edges that come before their change are found (a sensor may be
+/// stamped better than the display, and a display's times may be wrong). Both in the order of time.
 LightLatency compare_light(std::span<const LightEdge> changes, std::span<const LightEdge> edges,
                            double earliest_ms = -2.0);
 

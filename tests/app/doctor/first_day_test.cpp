@@ -1,8 +1,11 @@
 /// A lab's first day with its hardware, rehearsed: what is simulated proves nothing, nothing is lost, and
 /// sessions name the page.
 #include <algorithm>
+#include <cstdlib>
 #include <deque>
 #include <fstream>
+#include <mutex>
+#include <utility>
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -14,6 +17,8 @@
 #include "devices/host/clocks.h"
 #include "experiment/base/error.h"
 #include "tests/app/small_experiment.h"
+#include "tests/devices/link/terminal_device.h"
+#include "tests/support/hurried_observer.h"
 
 using namespace overt;
 using namespace overt::test;
@@ -101,6 +106,10 @@ TEST_CASE("what is simulated is never proved, and what misses a bound failed", "
 
 TEST_CASE("the page that is read names each verdict and hides no character", "[unit]") {
     const std::string html = rig_page_html(small_page());
+    CHECK_THAT(html, Contains("What is proved on this rig, 2026-11-27, 09:00 UTC") && Contains("at most 6"));
+    // Each step is found from the top.
+    for (const RigStep& step : small_page().steps)
+        CHECK_THAT(html, Contains("<a href=\"#" + step.name + "\">"));
     CHECK_THAT(html, Contains("5 ms &lt;late> &amp; &quot;well&quot;"));
     const auto place = [&](const char* text) { return html.find(text); };
     CHECK(place("id=\"markers\"") > place("<section id=\"failed\""));
@@ -206,6 +215,8 @@ TEST_CASE("a first day is rehearsed, broken off, gone on with, and named in sess
                                      "--simulate-observer",
                                      "5"};
         all.insert(all.end(), more.begin(), more.end());
+        for (std::string& option : hurried(1))
+            all.push_back(std::move(option));
         const ProgramRun done = experiment.overt(all, environment);
         INFO(done.err);
         REQUIRE(done.exit_code == 0);
@@ -219,7 +230,9 @@ TEST_CASE("a first day is rehearsed, broken off, gone on with, and named in sess
                              Contains("not proved: bytes") && !Contains("ANOTHER RIG"));
     CHECK_THAT(shown(2),
                Contains("THE PAGE IS OF ANOTHER RIG: the eye tracker was simulated at 1000 Hz, is none"));
-    CHECK(experiment.overt({"verify", experiment.session(2).string()}).exit_code == 0);
+    const ProgramRun verified = experiment.overt({"verify", experiment.session(2).string()});
+    CHECK(verified.exit_code == 0);
+    CHECK_THAT(verified.out, Contains("page of the rig in sitting 1: begun " + whole.begun_utc));
 
     // Another rig: what depends on what changed is open again, and another day keeps the earlier page.
     const std::string text = text_of(experiment.protocol());
@@ -233,6 +246,87 @@ TEST_CASE("a first day is rehearsed, broken off, gone on with, and named in sess
     for (const auto& entry : std::filesystem::directory_iterator(state / "rig"))
         kept += entry.path().filename().string().starts_with("rig_") ? 1 : 0;
     CHECK(kept == 2);
+}
+
+TEST_CASE("at a terminal each step waits until it is begun, left open, or the day ended", "[session]") {
+    const SmallExperiment experiment;
+    const std::filesystem::path state = experiment.folder().path() / "state",
+                                said = experiment.folder().path() / "said";
+    // Another word is none of these, and asked about again.
+    const std::string command =
+        fmt::format("printf 'what\\ns\\ns\\n\\nq\\n' | OVERT_STATE={} OVERT_CACHE={} script -qec '{} doctor "
+                    "{} --first-day "
+                    "--context osmesa --sensor simulated --seconds 0.2' /dev/null > {}",
+                    state.string(), experiment.cache().string(), OVERT_PROGRAM,
+                    experiment.protocol().string(), said.string());
+    REQUIRE(std::system(command.c_str()) == 0);
+    const std::string words = text_of(said);
+    INFO(words);
+    const std::string prompt = "q: go on another day >";
+    int asked = 0;
+    for (std::size_t at = words.find(prompt); at != std::string::npos; at = words.find(prompt, at + 1))
+        ++asked;
+    CHECK(asked == 5);
+    CHECK_THAT(words, Contains("bytes stays open") && Contains("screen stays open"));
+    const RigPage page = rig_page_from(text_of(rig_page_file(state / "rig")), "rig.json");
+    for (const RigStep& step : page.steps)
+        CHECK((step.verdict == StepVerdict::open) == (step.name != "light"));
+}
+
+TEST_CASE("the edges of a serial output are compared with those that a sensor at its lines tells",
+          "[session][waits]") {
+    Terminal output, sensor;
+    std::mutex mutex;
+    std::string seen; // by the sensor, and not told yet
+    int ups = 0;
+    bool is_deaf = false; // to every third edge up
+    const TerminalDevice lines(output.master(), [&](std::string_view bytes, double) {
+        const std::scoped_lock lock(mutex);
+        for (const char byte : bytes)
+            if (byte == 0 || !is_deaf || ++ups % 3 != 0)
+                seen += byte == 0 ? '0' : '1';
+        return std::string();
+    });
+    const TerminalDevice teller(
+        sensor.master(), [](std::string_view, double) { return std::string(); },
+        [&](double) {
+            const std::scoped_lock lock(mutex);
+            return std::exchange(seen, {});
+        });
+    const SmallExperiment experiment(fmt::format(
+        "{}\n[[marker_output]]\nid = \"eeg\"\naddress = \"{}\"\npulse_ms = 20\ncodes = [\"onset 10\"]\n",
+        small_protocol, output.path()));
+    const std::filesystem::path state = experiment.folder().path() / "state";
+    const auto markers = [&](std::vector<std::string> more) {
+        std::vector<std::string> all{"doctor",    experiment.protocol().string(),
+                                     "--json",    "--first-day",
+                                     "--step",    "markers",
+                                     "--seconds", "0.5"};
+        all.insert(all.end(), more.begin(), more.end());
+        const ProgramRun run = experiment.overt(all, {"OVERT_STATE=" + state.string()});
+        INFO(run.out << run.err);
+        const RigPage page = rig_page_from(run.out, "rig.json");
+        return *std::ranges::find(page.steps, "markers", &RigStep::name);
+    };
+    const RigStep unseen = markers({});
+    CHECK(unseen.verdict == StepVerdict::not_proved);
+    CHECK_THAT(unseen.finding, Contains("No edge was seen of \"eeg\" (no sensor)"));
+
+    const RigStep good = markers({"--marker-sensor", sensor.path()});
+    CAPTURE(good.finding);
+    // A machine that is too busy answers late, and that is what the step is there to tell.
+    CHECK(good.verdict != StepVerdict::not_proved);
+    CHECK_THAT(good.finding, Contains("each of 20 edges came"));
+    CHECK(
+        std::ranges::find(good.figures, "\"eeg\": edges that nothing raised", &BenchFigure::figure)->value ==
+        0.0);
+
+    is_deaf = true;
+    const RigStep lossy = markers({"--marker-sensor", sensor.path()});
+    CHECK(lossy.verdict == StepVerdict::failed);
+    CHECK(std::ranges::find(lossy.figures, "\"eeg\": edges that the sensor did not see", &BenchFigure::figure)
+              ->holds == false);
+    CHECK_FALSE(lossy.remedy.empty());
 }
 
 TEST_CASE("a step that misses a bound fails the day, and wrong input is refused", "[session]") {

@@ -53,3 +53,18 @@ TEST_CASE("changes that no edge follows and edges that nobody asked for are coun
     CHECK(found.unasked == 1);
     CHECK(compare_light(changes, {}).unseen == 10);
 }
+
+TEST_CASE("light that comes before its change is told as such where it is looked for", "[unit]") {
+    const std::vector<LightEdge> changes = alternating(10);
+    SimulatedLightSensor sensor(-16.0, 0.0, 1);
+    for (const LightEdge& change : changes)
+        sensor.shown(change);
+    const LightLatency found = compare_light(changes, sensor.edges(), -33.0);
+    CHECK(found.matched == 10);
+    CHECK(found.unseen == 0);
+    CHECK(found.unasked == 0);
+    CHECK(found.mean_ms == Approx(-16.0));
+    // Each edge is one change's: the last of a kind that went unseen does not get the next one's.
+    const std::vector<LightEdge> edges = sensor.edges();
+    CHECK(compare_light(changes, std::span(edges).subspan(2), -33.0).unseen == 2);
+}
