@@ -2,6 +2,7 @@
 #include "tests/app/replay/replayed_session.h"
 
 #include "tests/app/session/interrupted_run.h"
+#include "tests/support/hurried_observer.h"
 
 using namespace overt;
 using namespace overt::test;
@@ -10,7 +11,9 @@ namespace fs = std::filesystem;
 
 TEST_CASE("of a session in real time all is made again that does not come from devices", "[session][waits]") {
     const SmallExperiment experiment(Cache::own);
-    REQUIRE(experiment.overt(run_arguments(experiment, "P01", {"--trials", "2"})).exit_code == 0);
+    std::vector<std::string> options = hurried(2);
+    options.insert(options.end(), {"--trials", "2"});
+    REQUIRE(experiment.overt(run_arguments(experiment, "P01", options)).exit_code == 0);
     fs::remove_all(experiment.cache());
     const ProgramRun run = replay(experiment);
     INFO(run.out << run.err);
@@ -31,7 +34,8 @@ TEST_CASE("of a session in real time all is made again that does not come from d
         {"UPDATE schedule SET task = (task + 1) % 2 WHERE trial = 1",
          "table schedule, trial 2, task: recorded "},
         {"UPDATE stimulus SET frames_sha256 = lower(hex(zeroblob(32))) WHERE object = 0 AND material = 1",
-         "table stimulus, object 0, material 1, light 0, motion 0, view 0, background 0, frames_sha256: recorded "
+         "table stimulus, object 0, material 1, light 0, motion 0, view 0, background 0, frames_sha256: "
+         "recorded "
          "000"},
         {"UPDATE object SET axis_x = axis_x + 1 WHERE object = 1",
          "table object, object 1, axis_x: recorded "},

@@ -11,6 +11,7 @@
 #include "experiment/record/read/session_record.h"
 #include "tests/app/small_experiment.h"
 #include "tests/devices/link/terminal_device.h"
+#include "tests/support/hurried_observer.h"
 #include "tests/support/running_program.h"
 #include "tests/support/tsv_file.h"
 
@@ -143,13 +144,27 @@ refresh_codes = ["60 4"]
 }
 
 /// Runs two trials, calling `meanwhile` every few milliseconds.
-int run_two_trials(const SmallExperiment& experiment, const std::filesystem::path& said,
+int run_two_trials(const SmallExperiment& experiment, const std::filesystem::path& said, bool box_answers,
                    const std::function<void()>& meanwhile) {
-    RunningProgram program({"run", experiment.protocol().string(), "--simulate-observer", "5", "--observer",
-                            "P01", "--context", "osmesa", "--seed", "7", "--trials", "2", "--library",
-                            std::string("lsl=") + OVERT_FAKE_LIBLSL, "--sessions",
-                            experiment.sessions().string()},
-                           {"OVERT_CACHE=" + experiment.cache().string()}, said);
+    std::vector<std::string> options{"run",
+                                     experiment.protocol().string(),
+                                     "--simulate-observer",
+                                     "5",
+                                     "--observer",
+                                     "P01",
+                                     "--context",
+                                     "osmesa",
+                                     "--seed",
+                                     "7",
+                                     "--trials",
+                                     "2",
+                                     "--library",
+                                     std::string("lsl=") + OVERT_FAKE_LIBLSL,
+                                     "--sessions",
+                                     experiment.sessions().string()};
+    for (std::string& option : hurried(2, {.response_screens = !box_answers}))
+        options.push_back(std::move(option));
+    RunningProgram program(options, {"OVERT_CACHE=" + experiment.cache().string()}, said);
     while (program.is_running()) {
         meanwhile();
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
@@ -164,7 +179,7 @@ TEST_CASE("a box answers and a cable is told, and both are in the record and in 
     CedrusBox cedrus;
     const SmallExperiment experiment(protocol_with(cedrus));
     const std::filesystem::path said = experiment.folder().path() / "said";
-    const int code = run_two_trials(experiment, said, [] {});
+    const int code = run_two_trials(experiment, said, true, [] {});
     INFO(text_of(said));
     REQUIRE(code == 0);
 
@@ -264,7 +279,7 @@ TEST_CASE("a box and a cable that are unplugged in a trial are data, and the ses
     const SmallExperiment experiment(protocol_with(cedrus));
     const std::filesystem::path said = experiment.folder().path() / "said";
     bool is_gone = false;
-    const int code = run_two_trials(experiment, said, [&] {
+    const int code = run_two_trials(experiment, said, false, [&] {
         const std::vector<int> codes = cedrus.codes();
         if (!is_gone && std::ranges::any_of(codes, [](int one) { return one % matt_adds == onset_code; })) {
             cedrus.unplug_box();

@@ -8,6 +8,7 @@
 #include "devices/operator/operator_socket.h"
 #include "tests/app/session/exported_tables.h"
 #include "tests/app/session/interrupted_run.h"
+#include "tests/support/hurried_observer.h"
 
 using namespace overt;
 using namespace overt::test;
@@ -130,7 +131,9 @@ TEST_CASE("commands from the view do what the operator's keys do, and stand in t
           "[session][waits]") {
     const SmallExperiment experiment;
     // In real time, so that a command meets the trial that it is for.
-    WatchedRun run(experiment, {"--trials", "3"});
+    std::vector<std::string> options = hurried(3, {.task_screens = false});
+    options.insert(options.end(), {"--trials", "3"});
+    WatchedRun run(experiment, options);
     run.go_on();
     OperatorClient client(run.socket);
     struct stat there {};

@@ -10,6 +10,7 @@
 #include "app/session/crash_guard.h"
 #include "experiment/record/read/session_record.h"
 #include "tests/app/small_experiment.h"
+#include "tests/support/hurried_observer.h"
 
 using namespace overt;
 using namespace overt::test;
@@ -41,6 +42,8 @@ ProgramRun run_with(const std::string& tracker, const SmallExperiment& experimen
                                  "--simulate-observer",
                                  "5"};
     all.insert(all.end(), arguments.begin(), arguments.end());
+    for (std::string& option : hurried(2))
+        all.push_back(std::move(option));
     return experiment.overt(all, std::move(environment));
 }
 
@@ -115,6 +118,14 @@ TEST_CASE("a library that crashes leaves a closed record, is named, and the sess
     sound.push_back(crashing.back());
     const ProgramRun resumed = run_with("eyelink", experiment, {"--resume"}, sound);
     INFO(resumed.out << resumed.err);
+    // A file that was on its way is noted, and comes when the host is next reached.
+    if (when == "crashes_in_transfer") {
+        CHECK_THAT(crashed.err, Contains("overt tracker fetch brings it"));
+        const ProgramRun fetched = experiment.overt({"tracker", "fetch"}, sound);
+        INFO(fetched.out << fetched.err);
+        CHECK(fetched.exit_code == 0);
+        CHECK_THAT(fetched.out, Contains(".edf, 100000 bytes"));
+    }
     // All trials were done before a crash at the end; then there is nothing to go on with.
     CHECK(resumed.exit_code == (when == "crashes_recording" ? 0 : 2));
     CHECK(SessionRecord(experiment.session()).is_complete());
