@@ -32,6 +32,7 @@ TEST_CASE("what an article has to report is named item by item, with its value o
         trial.quality.lost = 20.0;
         trial.excluded = accuracy > 1.0;
     }
+    results.sessions.front().setup.rig = "begun 2026-11-27T09:00:00Z; proved: light";
     results.glance.observers = 2;
     results.glance.sessions = 3;
     results.glance.trials = 4;
@@ -44,6 +45,8 @@ TEST_CASE("what an article has to report is named item by item, with its value o
     CHECK(item_of(items, "accuracy (mean error of the validation)").value ==
           "0.400 deg (median over 3 presentations; 0.300 to 0.500 deg)");
     CHECK(item_of(items, "data loss, blinks apart").value == "2.00 % (the same in 3 presentations)");
+    CHECK(item_of(items, "what was proved on the rig").value ==
+          "begun 2026-11-27T09:00:00Z; proved: light (1 session)");
     CHECK(item_of(items, "trials").value ==
           "1 of 4 presentations excluded; rules: a validation with a mean error above 1 deg");
     CHECK(item_of(items, "participants").value ==
