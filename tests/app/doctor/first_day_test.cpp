@@ -279,12 +279,16 @@ TEST_CASE("the edges of a serial output are compared with those that a sensor at
     std::mutex mutex;
     std::string seen; // by the sensor, and not told yet
     int ups = 0;
-    bool is_deaf = false; // to every third edge up
+    bool is_up = false, is_deaf = false; // to every third edge up
     const TerminalDevice lines(output.master(), [&](std::string_view bytes, double) {
         const std::scoped_lock lock(mutex);
-        for (const char byte : bytes)
-            if (byte == 0 || !is_deaf || ++ups % 3 != 0)
-                seen += byte == 0 ? '0' : '1';
+        for (const char byte : bytes) {
+            if (is_up == (byte != 0))
+                continue; // no edge
+            is_up = byte != 0;
+            if (!is_up || !is_deaf || ++ups % 3 != 0)
+                seen += is_up ? '1' : '0';
+        }
         return std::string();
     });
     const TerminalDevice teller(
