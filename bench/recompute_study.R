@@ -5,7 +5,7 @@
 #
 # ANALYSIS is a folder that `overt analyze` wrote. It needs the package jsonlite. Recomputed are the shares of
 # areas, differences between levels with their p, Holm's corrections, effect sizes, Bayes factors and tests of
-# equivalence, WSS, measures of trials between levels (dwell, first arrival and others that trials tell), where the
+# equivalence, WSS, intervals that are not drawn of shares and WSS, measures of trials between levels (dwell, first arrival and others that trials tell), where the
 # first fixations go, and the effects of factors. Intervals that are drawn (bootstraps), distances along the surface and
 # metrics of maps are not.
 # Ends with status 1 if a number is farther off than its table's rounding, or a p than chance allows.
@@ -68,6 +68,27 @@ evidence_of <- function(d) {
 wss <- function(f) if (nrow(f) < 2) NA else sum(apply(f[, c("x_mm", "y_mm", "z_mm")], 2, var))
 on_area <- function(f, area) vapply(strsplit(ifelse(is.na(f$part), "", f$part), " "), function(parts) area %in% parts, logical(1))
 
+# Student's interval of the mean of fewer than 25 observers on the scale of logits (shares) or logarithms, by the delta
+# method: "Intervals and chance" of docs/methods.md.
+confidence <- as.numeric(parameter("confidence"))
+interval_of <- function(value, se, n, is_share) {
+  if (n < 3 || n >= 25) return(c(NA, NA))
+  half <- qt(0.5 + confidence / 2, n - 1) * se
+  if (is_share) {
+    if (value <= 0 || value >= 1) return(c(NA, NA))
+    plogis(qlogis(value) + c(-1, 1) * half / (value * (1 - value)))
+  } else if (value > 0) value * exp(c(-1, 1) * half / value) else c(NA, NA)
+}
+mean_interval <- function(values, is_share) {
+  values <- values[!is.na(values)]
+  interval_of(mean(values), sd(values) / sqrt(length(values)), length(values), is_share)
+}
+hold_interval <- function(what, ours, low, high, tolerance) {
+  told <- !is.na(ours[, 1])
+  hold(paste0(what, "_low"), ours[told, 1], low[told], tolerance)
+  hold(paste0(what, "_high"), ours[told, 2], high[told], tolerance)
+}
+
 # Rows of a table stand for the trials with their keys; "all" takes any.
 of_keys <- function(data, row, columns) {
   for (column in columns) if (row[[column]] != "all") data <- data[data[[column]] == row[[column]], ]
@@ -80,16 +101,19 @@ if (file.exists(file.path(folder, "areas.csv"))) {
   columns <- intersect(by, names(areas))
   ours <- t(vapply(seq_len(nrow(areas)), function(i) {
     f <- of_keys(fixations, areas[i, ], columns)
-    if (nrow(f) == 0) return(rep(NA_real_, 3))
+    if (nrow(f) == 0) return(rep(NA_real_, 7))
     inside <- on_area(f, areas$area[i])
     observers <- split(seq_len(nrow(f)), f$observer)
-    c(mean(vapply(observers, function(o) mean(inside[o]), 1)),
-      mean(vapply(observers, function(o) sum(f$duration_s[o][inside[o]]) / sum(f$duration_s[o]), 1)), mean(inside))
-  }, numeric(3)))
+    by_count <- vapply(observers, function(o) mean(inside[o]), 1)
+    by_duration <- vapply(observers, function(o) sum(f$duration_s[o][inside[o]]) / sum(f$duration_s[o]), 1)
+    c(mean(by_count), mean(by_duration), mean(inside), mean_interval(by_count, TRUE), mean_interval(by_duration, TRUE))
+  }, numeric(7)))
   # Objects that lack an area have no share of it: where studies have such, rows differ and say so.
   hold("areas: by_count", ours[, 1], areas$by_count, rounding)
   hold("areas: by_duration", ours[, 2], areas$by_duration, rounding)
   hold("areas: pooled", ours[, 3], areas$pooled, rounding)
+  hold_interval("areas: by_count", ours[, 4:5, drop = FALSE], areas$by_count_low, areas$by_count_high, rounding)
+  hold_interval("areas: by_duration", ours[, 6:7, drop = FALSE], areas$by_duration_low, areas$by_duration_high, rounding)
 }
 
 # Differences within observers: of each object and group, then means over these.
@@ -147,12 +171,19 @@ if (file.exists(file.path(folder, "table1_pairs.csv"))) {
 }
 if (file.exists(file.path(folder, "figure5_distribution.csv"))) {
   spread <- suppressWarnings(read_table("figure5_distribution"))
-  ours <- vapply(seq_len(nrow(spread)), function(i) {
+  divided_by_n <- function(f) if (nrow(f) < 2) NA_real_ else wss(f) * (nrow(f) - 1) / nrow(f)
+  ours <- t(vapply(seq_len(nrow(spread)), function(i) {
     f <- of_keys(fixations, spread[i, ], intersect(by, names(spread)))
     f <- f[f$object == spread$on_object[i], ]
-    if (nrow(f) < 2) NA_real_ else wss(f) * (nrow(f) - 1) / nrow(f)
-  }, 1)
-  hold("figure5_distribution: wss_mm2", ours / spread$wss_mm2, spread$wss_mm2 / spread$wss_mm2, 1e-6)
+    without <- vapply(unique(f$observer), function(one) divided_by_n(f[f$observer != one, ]), 1)
+    n <- length(without)
+    # The standard error of the jackknife.
+    se <- sqrt((n - 1) / n * sum((without - mean(without))^2))
+    c(divided_by_n(f), if (anyNA(without)) c(NA, NA) else interval_of(divided_by_n(f), se, n, FALSE))
+  }, numeric(3)))
+  hold("figure5_distribution: wss_mm2", ours[, 1] / spread$wss_mm2, spread$wss_mm2 / spread$wss_mm2, 1e-6)
+  hold_interval("figure5_distribution: wss_mm2", ours[, 2:3, drop = FALSE] / spread$wss_mm2,
+                spread$wss_mm2_low / spread$wss_mm2, spread$wss_mm2_high / spread$wss_mm2, 1e-5)
 }
 
 # What trials come to, between levels: means over an observer's trials on one object with all else alike.
