@@ -64,9 +64,13 @@ ObservedScene planned_scene(const Experiment& experiment, std::span<const PowerE
     scene.share_sd = settings.head_share_sd;
     for (const PowerEffect& effect : effects) {
         scene.effects.push_back(planted(effect, protocol, scene));
-        if (effect.column == "task")
-            scene.tasks[static_cast<std::size_t>(index_of(protocol.tasks, effect.level))].shares =
-                scene.tasks[static_cast<std::size_t>(index_of(protocol.tasks, effect.against))].shares;
+        if (effect.column != "task")
+            continue;
+        const std::vector<double> same =
+            scene.tasks[static_cast<std::size_t>(index_of(protocol.tasks, effect.against))].shares;
+        for (ObservedTask& task : scene.tasks)
+            if (task.id == effect.level || effect.test == PowerTest::factor)
+                task.shares = same;
     }
     return scene;
 }

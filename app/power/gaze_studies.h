@@ -38,7 +38,8 @@ class GazeStudies {
   public:
     /// `experiment` must outlive this. The protocol's own simulated effects are left out: only `effects`
     /// hold. Where levels of `task` are compared, areas are as attractive in one as in the other but for the
-    /// effect. Effects on WSS need plant_spread() besides. Throws InputError if an object has no mesh.
+    /// effect; where the effect of the task is tested (PowerTest::factor), in all. Effects on WSS need
+    /// plant_spread() besides. Throws InputError if an object has no mesh.
     GazeStudies(const Experiment& experiment, std::vector<PowerEffect> effects,
                 const GazeStudySettings& settings);
 

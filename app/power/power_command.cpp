@@ -27,6 +27,7 @@ struct PowerOptions {
     std::string observers = "6:24", sigma = "1deg", format = "csv";
     std::optional<double> head_share_sd, accuracy_deg;
     PowerSettings settings;
+    std::string sequential = "none";
     bool overwrite = false, json = false;
 };
 
@@ -37,6 +38,13 @@ void print_answers(const PowerResults& results, const std::filesystem::path& out
         for (const PowerPoint& point : curve.points)
             fmt::print("  {:>4} observers {:6.1f} %   ({:.1f} … {:.1f} %)\n", point.observers,
                        100.0 * point.share(), 100.0 * point.interval.low, 100.0 * point.interval.high);
+        if (curve.sequential)
+            for (std::size_t look = 0; look < curve.points.size(); ++look)
+                fmt::print(
+                    "  look with {:>4}: ended where p is at most {:.5f}; up to it {:.1f} % had found it\n",
+                    curve.points[look].observers, curve.sequential->levels[look],
+                    100.0 * curve.sequential->found[look] /
+                        static_cast<double>(curve.points[look].studies.size()));
     }
     for (const std::string& remark : results.remarks)
         fmt::print("note: {}\n", remark);
@@ -57,6 +65,9 @@ int run_power(PowerOptions options) {
         power_effects(options.effects, experiment.protocol, areas_of(experiment.objects));
     PowerSettings& settings = options.settings;
     settings.observers = observer_counts(options.observers);
+    for (const AlphaSpending spending : {AlphaSpending::obrien_fleming, AlphaSpending::pocock})
+        if (options.sequential == name_of(spending))
+            settings.sequential = spending;
     settings.gaze = gaze_study_settings(experiment.protocol);
     settings.gaze.sigma = kernel_width(options.sigma);
     if (options.head_share_sd)
@@ -105,7 +116,9 @@ void add_power_command(CLI::App& app, ChosenCommand& chosen) {
         "correct answer, ratio of WSS or slopes, share of fixations that go to one spot, shift of a "
         "threshold\n"
         "or a mean. It may name :against=LEVEL, :sd=… over\n"
-        "observers, and :task=ID or :object=ID for trials of these only. none tests everything without "
+        "observers, and :task=ID or :object=ID for trials of these only. :test=factor, interaction or "
+        "cluster\n"
+        "name other tests of gaze. none tests everything without "
         "an\n"
         "effect. docs/power.md says what is simulated, and what is not.\n"
         "Exit codes: 0 done, 1 failed, 2 bad input.");
@@ -127,6 +140,13 @@ void add_power_command(CLI::App& app, ChosenCommand& chosen) {
            "Of studies that are to show that an effect is smaller than D standard deviations of observers' "
            "differences: the chance that they do",
            CLI::Range(0.05, 5.0));
+    option(command, "--sequential", options.sequential, "",
+           "Studies are looked at with each number of observers, and end as soon as they have found the "
+           "effect: how "
+           "alpha is spent over the looks",
+           one_of({"none", std::string(name_of(AlphaSpending::obrien_fleming)),
+                   std::string(name_of(AlphaSpending::pocock))}),
+           shown_default);
     option(command, "--head-share-sd", options.head_share_sd, "",
            "Standard deviation over observers of the logit of their shares on the head, and on other areas "
            "with a "

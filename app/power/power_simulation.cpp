@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "app/power/answer_studies.h"
+#include "app/power/effect_tests.h"
 #include "app/power/planted_spread.h"
 #include "app/power/power_tests.h"
 #include "experiment/base/counted.h"
@@ -31,6 +32,18 @@ std::string analysis_of_answers(const Protocol& protocol, const PowerEffect& eff
 std::string analysis_of(const Protocol& protocol, const PowerEffect& effect, bool is_equivalence) {
     if (is_of_answers(effect.measure))
         return analysis_of_answers(protocol, effect, is_equivalence);
+    if (effect.test == PowerTest::cluster)
+        return fmt::format("overt analyze SESSION… --by object,{0} --compare {0}: clusters of {1} and {2} in "
+                           "difference_clusters, p_of_all",
+                           effect.column, effect.level, effect.against);
+    if (effect.test != PowerTest::pair)
+        return fmt::format(
+            "overt analyze SESSION… --by object,{}: the row of {}, {} in factor_effects, p",
+            fmt::join(columns_of_test(effect), ","),
+            effect.measure == PowerMeasure::area ? "share on " + effect.area : std::string("log WSS"),
+            effect.test == PowerTest::factor
+                ? effect.column
+                : fmt::format("{} and {} together", effect.column, effect.interacting_column()));
     const bool is_of_stimuli = effect.column != "task";
     const std::string place = effect.measure == PowerMeasure::area
                                   ? fmt::format("area_pairs, area {}", effect.area)
@@ -102,6 +115,11 @@ std::vector<StudyParameter> parameters_of(const Protocol& protocol, const PowerS
          "In standard deviations of observers' differences: a study has found that the effect is smaller, if "
          "p of "
          "equivalence is at most alpha; none: that there is an effect."},
+        {"sequential", settings.sequential ? std::string(name_of(*settings.sequential)) : std::string("none"),
+         "",
+         "How alpha is spent over looks with each number of observers; none: studies are not looked at "
+         "before "
+         "their end."},
         {"area-shares", fmt::format("{}", fmt::join(shares, ", ")), "",
          "Shares of fixations on areas, of the protocol's tasks (simulated_head_share, "
          "simulated_area_shares)."},
@@ -118,7 +136,15 @@ std::vector<StudyParameter> parameters_of(const Protocol& protocol, const PowerS
 }
 
 void check(const Protocol& protocol, const std::vector<PowerEffect>& effects, const PowerSettings& settings) {
+    if (settings.equivalence && settings.sequential)
+        throw InputError(
+            "--sequential: looks are for studies that are to find an effect; without --equivalence it "
+            "goes.");
     for (const PowerEffect& effect : effects) {
+        if (settings.equivalence && effect.test != PowerTest::pair)
+            throw InputError(fmt::format("--equivalence: not of {}: its test is of no single difference. "
+                                         "Without :test=… it goes.",
+                                         effect.text()));
         if (settings.equivalence && effect.measure == PowerMeasure::cc)
             throw InputError(
                 fmt::format("--equivalence: not of {}: maps of all observers are no differences of "
@@ -267,6 +293,17 @@ void add_remarks(PowerResults& results, const Protocol& protocol, const PowerSet
         results.remarks.push_back(fmt::format(
             "With fewer than {} observers the tests cannot give p at most {}: 2 / 2^n is the least.", fewest,
             settings.alpha));
+    if (!results.curves.empty() && results.curves.front().sequential) {
+        const std::vector<double>& levels = results.curves.front().sequential->levels;
+        int cannot = 0;
+        for (std::size_t look = 0; look < levels.size(); ++look)
+            cannot += settings.observers[look] < fewest_testable_observers(levels[look]);
+        if (cannot > 0)
+            results.remarks.push_back(
+                fmt::format("No study can end at the first {}: with so few observers no test "
+                            "has a p as small as its level there.",
+                            counted(cannot, "look")));
+    }
     const auto is_of_gaze = [](const PowerCurve& curve) { return !is_of_answers(curve.effect.measure); };
     const bool any_of_gaze = std::ranges::any_of(results.curves, is_of_gaze);
     for (const PowerCurve& curve : results.curves)
@@ -296,6 +333,7 @@ PowerResults simulate_power(const Experiment& experiment, const std::vector<Powe
     check(protocol, effects, settings);
     PowerResults results;
     results.equivalence = settings.equivalence;
+    results.sequential = settings.sequential;
     results.protocol = protocol.title.empty() ? protocol.name : protocol.title;
     results.trials = trial_count(protocol, 1);
     results.planned = protocol.schedule.observers;
@@ -327,8 +365,11 @@ PowerResults simulate_power(const Experiment& experiment, const std::vector<Powe
         }
         simulate(studies, curves, maps, settings, [&] { progress("studies", ++done, all); });
     }
-    for (PowerCurve& curve : results.curves)
+    for (PowerCurve& curve : results.curves) {
         summarise(curve, settings.alpha);
+        if (settings.sequential)
+            curve.sequential = with_looks(curve, settings.alpha, *settings.sequential);
+    }
     add_remarks(results, protocol, settings);
     return results;
 }

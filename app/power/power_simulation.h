@@ -18,8 +18,9 @@ struct PowerSettings {
     /// Studies are to show that an effect is smaller than this, in standard deviations of observers'
     /// differences (PairedEvidence::equivalence_p); nothing: that there is one.
     std::optional<double> equivalence{};
-    int permutations = 5000; ///< where all swaps or flips are too many
-    int jobs = 0;            ///< threads; 0: one for each processor
+    std::optional<AlphaSpending> sequential{}; ///< see PowerResults
+    int permutations = 5000;                   ///< where all swaps or flips are too many
+    int jobs = 0;                              ///< threads; 0: one for each processor
     GazeStudySettings gaze;
 };
 
@@ -30,7 +31,8 @@ using PowerProgress = std::function<void(std::string_view what, int done, int to
 /// of the table of pairs (study_pairs): between materials within each task, between tasks within each
 /// object. Each effect is simulated alone, with the same seeds. A function of its arguments, whatever the
 /// number of threads. Throws InputError for a spread of fixations that the objects do not allow, and as
-/// GazeStudies does, and for equivalence of maps (CC), which are no differences of observers.
+/// GazeStudies does, for equivalence of maps (CC), which are no differences of observers, or
+/// of factors, and for looks at it.
 PowerResults simulate_power(const Experiment& experiment, const std::vector<PowerEffect>& effects,
                             const PowerSettings& settings, const PowerProgress& progress);
 

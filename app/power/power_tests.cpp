@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "app/power/effect_tests.h"
 #include "experiment/statistics/swap_test.h"
 
 namespace overt {
@@ -72,6 +73,10 @@ std::vector<StudyOutcome> tested(const GazeStudies& studies, const StudyResults&
                                  std::span<const std::unique_ptr<VertexMaps>> maps,
                                  const PermutationSettings& settings,
                                  const std::optional<double>& equivalence) {
+    if (effect.test == PowerTest::cluster)
+        return tested_clusters(studies, results, effect, observers, maps, settings);
+    if (effect.test != PowerTest::pair)
+        return tested_factors(studies, results, effect, observers, settings);
     const std::vector<std::vector<LevelComparison>> cells = compared_cells(studies, results, effect);
     std::vector<StudyOutcome> outcomes;
     if (effect.measure == PowerMeasure::cc) {

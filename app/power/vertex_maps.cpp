@@ -1,5 +1,7 @@
 #include "app/power/vertex_maps.h"
 
+#include <set>
+
 #include "experiment/study/study_maps.h"
 #include "experiment/surface/surface_smoother.h"
 
@@ -23,12 +25,40 @@ VertexMaps::VertexMaps(const Mesh& mesh, const ObjectScale& scale, const KernelW
             maps_.emplace_back(density.begin(), density.end());
         weights.clear();
     }
+    find_neighbours();
+}
+
+void VertexMaps::find_neighbours() {
+    std::vector<std::set<std::uint32_t>> beside(coarse_.vertex_count());
+    for (const glm::uvec3& triangle : coarse_.mesh().triangles)
+        for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j)
+                if (triangle[i] != triangle[j])
+                    beside[triangle[i]].insert(triangle[j]);
+    neighbours_begin_.push_back(0);
+    for (const std::set<std::uint32_t>& of_vertex : beside) {
+        neighbours_.insert(neighbours_.end(), of_vertex.begin(), of_vertex.end());
+        neighbours_begin_.push_back(static_cast<std::uint32_t>(neighbours_.size()));
+    }
 }
 
 std::vector<double> VertexMaps::sum_of(std::span<const StudyFixation* const> fixations) const {
+    return weighted_sum(fixations, [](const StudyFixation&) { return 1.0; });
+}
+
+std::vector<double> VertexMaps::share_of_time(std::span<const StudyFixation* const> fixations) const {
+    double seconds = 0.0;
+    for (const StudyFixation* fixation : fixations)
+        seconds += fixation->duration_s;
+    return weighted_sum(fixations, [&](const StudyFixation& of) { return of.duration_s / seconds; });
+}
+
+template <class Weight>
+std::vector<double> VertexMaps::weighted_sum(std::span<const StudyFixation* const> fixations,
+                                             const Weight& weight_of_one) const {
     std::vector<double> at_vertex(maps_.size(), 0.0), sum(maps_.size(), 0.0);
     for (const StudyFixation* fixation : fixations) {
-        for (const SurfaceWeight& weight : coarse_.moved(weight_of(*fixation, 1.0))) {
+        for (const SurfaceWeight& weight : coarse_.moved(weight_of(*fixation, weight_of_one(*fixation)))) {
             const glm::uvec3& corners = coarse_.mesh().triangles[weight.place.triangle];
             for (int i = 0; i < 3; ++i)
                 at_vertex[corners[i]] += weight.weight * weight.place.barycentric[i];

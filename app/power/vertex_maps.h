@@ -1,9 +1,11 @@
 /// Maps of fixations as sums of maps that are made once.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
+#include "experiment/statistics/cluster_test.h"
 #include "experiment/study/read/study_reader.h"
 #include "experiment/surface/coarse_surface.h"
 #include "experiment/surface/surface_geometry.h"
@@ -22,12 +24,22 @@ class VertexMaps {
     std::span<const double> areas() const { return areas_; }
     /// By vertex; fixations count alike.
     std::vector<double> sum_of(std::span<const StudyFixation* const> fixations) const;
+    /// The share of their time, per mm^2. At least one fixation.
+    std::vector<double> share_of_time(std::span<const StudyFixation* const> fixations) const;
+    /// Vertices beside each other.
+    Adjacency adjacency() const { return {neighbours_begin_, neighbours_}; }
 
   private:
+    template <class Weight>
+    std::vector<double> weighted_sum(std::span<const StudyFixation* const> fixations,
+                                     const Weight& weight_of_one) const;
+    void find_neighbours();
+
     SurfaceGeometry fine_;
     CoarseSurface coarse_;
     std::vector<double> areas_;
     std::vector<std::vector<float>> maps_; ///< by vertex
+    std::vector<std::uint32_t> neighbours_begin_, neighbours_;
 };
 
 } // namespace overt

@@ -35,6 +35,8 @@ constexpr MeasureWords measures[] = {{"area", "odds", "share of fixations on an 
 
 const MeasureWords& words_of(PowerMeasure measure) { return measures[static_cast<std::size_t>(measure)]; }
 
+constexpr std::string_view tests[] = {"pair", "factor", "interaction", "cluster"}; // as PowerTest
+
 constexpr double most_sd = 5.0;
 constexpr int most_observers = 500;
 
@@ -128,6 +130,7 @@ class EffectReader {
         if (!has_size_)
             fail(fmt::format("it has to say how large the effect is: {}=…", found->size_key));
         check_levels();
+        check_test();
         return effect_;
     }
 
@@ -171,6 +174,11 @@ class EffectReader {
             has_size_ = effect_.is_ratio = true;
         } else if (key == "sd") {
             effect_.sd = number(key, value, 0.0, most_sd);
+        } else if (key == "test" && !is_of_answers(effect_.measure)) {
+            const auto found = std::ranges::find(tests, value);
+            if (found == std::end(tests))
+                fail(fmt::format("there is no test \"{}\", but {}", value, fmt::join(tests, ", ")));
+            effect_.test = static_cast<PowerTest>(found - std::begin(tests));
         } else if (key == "against") {
             effect_.against = value;
         } else if (key == "answer" && is_of_answers(effect_.measure)) {
@@ -186,9 +194,9 @@ class EffectReader {
                 effect_.within.push_back({key, value});
             }
         } else {
-            fail(fmt::format("\"{}\" is no key of {}, whose keys are {}, {}, against, {}and sd", key,
+            fail(fmt::format("\"{}\" is no key of {}, whose keys are {}, {}, against, {} and sd", key,
                              measure.name, fmt::join(known, ", "), measure.size_key,
-                             is_of_answers(effect_.measure) ? "answer, " : ""));
+                             is_of_answers(effect_.measure) ? "answer" : "test"));
         }
     }
 
@@ -270,6 +278,22 @@ class EffectReader {
             fail(fmt::format("{} cannot be compared with itself", effect_.level));
     }
 
+    void check_test() const {
+        const bool is_of_maps = effect_.measure == PowerMeasure::cc;
+        if (is_of_maps && (effect_.test == PowerTest::factor || effect_.test == PowerTest::interaction))
+            fail("maps have no test of factors: test=cluster is of maps, test=factor of head, area=NAME and "
+                 "wss");
+        if (!is_of_maps && effect_.test == PowerTest::cluster)
+            fail("clusters are of maps: cc:…:share=0.2:test=cluster");
+        if (effect_.test == PowerTest::cluster && !effect_.within.empty())
+            fail("clusters are of all trials: without it, the effect is in all of them");
+        if (effect_.test == PowerTest::interaction &&
+            (effect_.within.size() != 1 || is_of_objects(protocol_, effect_.interacting_column())))
+            fail("an interaction is of an effect that one other factor confines, which is not of objects, "
+                 "such as "
+                 "head:material=rough:task=free:odds=1.5:test=interaction");
+    }
+
     const std::string& text_;
     const Protocol& protocol_;
     std::span<const std::string> areas_;
@@ -310,6 +334,8 @@ std::string PowerEffect::text() const {
         text += fmt::format(":answer={}", answer);
     if (sd > 0.0)
         text += fmt::format(":sd={}", sd);
+    if (test != PowerTest::pair)
+        text += fmt::format(":test={}", tests[static_cast<std::size_t>(test)]);
     return text;
 }
 
@@ -323,6 +349,12 @@ std::string PowerEffect::words() const {
                     column, level, against);
     for (const StudyKey& key : within)
         words += fmt::format(", {} {}", key.column, key.value);
+    if (test == PowerTest::factor)
+        words += fmt::format(", by the effect of {}", column);
+    if (test == PowerTest::interaction)
+        words += fmt::format(", by the interaction of {} and {}", column, interacting_column());
+    if (test == PowerTest::cluster)
+        words += ", by clusters on the surface";
     return words;
 }
 

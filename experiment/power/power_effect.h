@@ -26,6 +26,14 @@ enum class PowerMeasure : std::uint8_t {
 };
 constexpr bool is_of_answers(PowerMeasure measure) { return measure >= PowerMeasure::threshold; }
 
+/// How an effect on gaze is tested.
+enum class PowerTest : std::uint8_t {
+    pair,        ///< the difference of two levels, as PowerMeasure says
+    factor,      ///< area, wss: the row of the effect's column in factor_effects, over all its levels
+    interaction, ///< area, wss: the row of that column and the one that confines the effect
+    cluster      ///< cc: clusters of differences on the surface (difference_clusters)
+};
+
 /// One planted difference between two levels, and its test.
 struct PowerEffect {
     PowerMeasure measure = PowerMeasure::area;
@@ -45,12 +53,15 @@ struct PowerEffect {
     bool is_ratio = false;
     /// Standard deviation over observers: of the logarithm of odds or ratio, or of the share or shift.
     double sd = 0.0;
+    PowerTest test = PowerTest::pair;
 
     /// The size is a difference, and not a ratio.
     bool is_shift() const {
         return measure == PowerMeasure::cc || (measure == PowerMeasure::threshold && !is_ratio) ||
                measure == PowerMeasure::choice || measure == PowerMeasure::rating;
     }
+    /// Of an interaction: the column that confines the effect.
+    const std::string& interacting_column() const { return within.front().column; }
     /// Nothing is planted, on average.
     bool is_none() const { return size == (is_shift() ? 0.0 : 1.0); }
     /// As --effect takes it, whole.
@@ -68,11 +79,12 @@ bool is_among_slots(const Task& task, const TaskAnswer& answer);
 /// "threshold:object=bust:ratio=1.5" of choices among slots, "choice:object=bust:shift=0.5" and
 /// "rating:material=rough:shift=0.5", which may name ":answer=ID" (else the first that has the measure); each
 /// may go on with ":against=LEVEL" (else the first other level of the protocol), ":sd=0.3", and
-/// ":task=ID", ":object=ID" or ":material=ID" for trials of these only. "none" is every measure between
-/// the first two materials, and the area that is usual (usual_area) of those that simulated observers look at
-/// between the first two tasks, without an effect. `areas`: those that the objects have. Throws InputError,
-/// which names what is known, and for an area of which the protocol's tasks do not say how often it is looked
-/// at.
+/// ":task=ID", ":object=ID" or ":material=ID" for trials of these only. Of gaze ":test=factor",
+/// ":test=interaction" (with one column that confines the effect, and is not the object) and, of cc,
+/// ":test=cluster" name other tests. "none" is every measure between the first two materials, and the area
+/// that is usual (usual_area) of those that simulated observers look at between the first two tasks, without
+/// an effect. `areas`: those that the objects have. Throws InputError, which names what is known, and for an
+/// area of which the protocol's tasks do not say how often it is looked at.
 std::vector<PowerEffect> power_effects(const std::vector<std::string>& texts, const Protocol& protocol,
                                        std::span<const std::string> areas);
 

@@ -56,6 +56,32 @@ void summarise(PowerCurve& curve, double alpha) {
     }
 }
 
+SequentialOutcome with_looks(const PowerCurve& curve, double alpha, AlphaSpending spending) {
+    std::vector<int> observers;
+    for (const PowerPoint& point : curve.points)
+        observers.push_back(point.observers);
+    SequentialOutcome outcome;
+    outcome.levels = sequential_levels(observers, alpha, spending);
+    outcome.found.assign(observers.size(), 0);
+    const std::size_t studies = curve.points.front().studies.size();
+    for (std::size_t study = 0; study < studies; ++study) {
+        int ended_with = observers.back();
+        for (std::size_t look = 0; look < observers.size(); ++look) {
+            const std::optional<double>& p = curve.points[look].studies[study].p;
+            if (!p || *p > outcome.levels[look])
+                continue;
+            ended_with = observers[look];
+            for (std::size_t later = look; later < observers.size(); ++later)
+                ++outcome.found[later];
+            break;
+        }
+        outcome.mean_observers += ended_with / static_cast<double>(studies);
+    }
+    if (const auto interval = wilson_interval(outcome.found.back(), static_cast<double>(studies)))
+        outcome.interval = *interval;
+    return outcome;
+}
+
 std::optional<int> observers_needed(const PowerCurve& curve, double target) {
     std::optional<int> needed;
     for (const PowerPoint& point : curve.points) {
@@ -66,6 +92,21 @@ std::optional<int> observers_needed(const PowerCurve& curve, double target) {
     }
     return needed;
 }
+
+namespace {
+
+std::string words_of_looks(const PowerCurve& curve) {
+    if (!curve.sequential)
+        return {};
+    const double all = static_cast<double>(curve.points.front().studies.size());
+    return fmt::format(
+        " Looked at with each of these numbers of observers, {} (95 % interval {:.0f} to {:.0f} %) find "
+        "something at some look, and end with {:.1f} observers on average.",
+        percent(curve.sequential->found.back() / all), 100.0 * curve.sequential->interval.low,
+        100.0 * curve.sequential->interval.high, curve.sequential->mean_observers);
+}
+
+} // namespace
 
 std::string answer_of(const PowerCurve& curve, const PowerResults& results) {
     // What is said is of the number that the protocol plans, or of the number that is needed, or of the most.
@@ -85,10 +126,10 @@ std::string answer_of(const PowerCurve& curve, const PowerResults& results) {
             "differences.{}",
             begin, curve.effect.words(), *results.equivalence, words_of_needed(needed, curve, results));
     if (curve.effect.is_none())
-        return fmt::format("{} found a difference that was not planted ({}); {} is the level of the test.",
-                           begin, curve.effect.words(), percent(results.alpha));
-    return fmt::format("{} found the effect on the {}.{}", begin, curve.effect.words(),
-                       words_of_needed(needed, curve, results));
+        return fmt::format("{} found a difference that was not planted ({}); {} is the level of the test.{}",
+                           begin, curve.effect.words(), percent(results.alpha), words_of_looks(curve));
+    return fmt::format("{} found the effect on the {}.{}{}", begin, curve.effect.words(),
+                       words_of_needed(needed, curve, results), words_of_looks(curve));
 }
 
 StudyOutcome outcome_of(std::span<const double> differences, const PermutationSettings& settings,

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "experiment/power/power_effect.h"
+#include "experiment/power/sequential_design.h"
 #include "experiment/statistics/estimate.h"
 #include "experiment/statistics/permutation.h"
 #include "experiment/study/results/study_results.h"
@@ -43,9 +44,10 @@ struct PowerPoint {
 
 struct PowerCurve {
     PowerEffect effect;
-    std::string analysis;           ///< the command whose row has this test
-    std::string planted;            ///< a sentence on how the effect was planted
-    std::vector<PowerPoint> points; ///< by number of observers, rising
+    std::string analysis;                          ///< the command whose row has this test
+    std::string planted;                           ///< a sentence on how the effect was planted
+    std::vector<PowerPoint> points;                ///< by number of observers, rising
+    std::optional<SequentialOutcome> sequential{}; ///< with a look at each of these
 };
 
 struct PowerResults {
@@ -55,6 +57,7 @@ struct PowerResults {
     int studies = 0;
     double alpha = 0.05, target = 0.8;
     std::optional<double> equivalence{}; ///< studies are to show that effects are smaller; see outcome_of
+    std::optional<AlphaSpending> sequential{}; ///< studies are looked at with each number of observers
     std::vector<StudyParameter> parameters;
     std::vector<std::string> remarks; ///< whole sentences
     std::vector<PowerCurve> curves;
@@ -62,6 +65,10 @@ struct PowerResults {
 
 /// Counts, intervals and medians of a curve from its studies.
 void summarise(PowerCurve& curve, double alpha);
+
+/// What studies of the curve come to that are looked at with each of its numbers of observers, and end where
+/// p is at most that look's level.
+SequentialOutcome with_looks(const PowerCurve& curve, double alpha, AlphaSpending spending);
 
 /// The fewest observers of those simulated with whom, and with all more of those simulated, the share found
 /// is at least the target. Nothing if there are none.

@@ -18,6 +18,7 @@ constexpr int share_digits = 4;
 struct CurveRow {
     const PowerCurve& curve;
     const PowerPoint& point;
+    std::size_t look() const { return static_cast<std::size_t>(&point - curve.points.data()); }
 };
 
 struct OutcomeRow {
@@ -55,8 +56,24 @@ RowLayout<CurveRow> curve_layout() {
               of_point([](auto& point) { return point.interval.high; }), share_digits);
     to.number("median_estimate",
               "Median over studies of the estimated difference of shares of fixations, difference of WSS in "
-              "deg^2, or CC",
+              "deg^2, or CC; of tests of factors their statistic, of clusters their number",
               "", of_point(&PowerPoint::median_estimate));
+    to.number("look_level", "With --sequential: a study ends with so many observers if p is at most this", "",
+              [](const CurveRow& row) {
+                  return row.curve.sequential ? std::optional(row.curve.sequential->levels[row.look()])
+                                              : std::nullopt;
+              });
+    to.number(
+        "found_up_to_look",
+        "With --sequential: share of the studies that found the effect at this look or an "
+        "earlier one",
+        "",
+        [](const CurveRow& row) {
+            return row.curve.sequential ? std::optional(row.curve.sequential->found[row.look()] /
+                                                        static_cast<double>(row.point.studies.size()))
+                                        : std::nullopt;
+        },
+        share_digits);
     return to;
 }
 
@@ -91,6 +108,13 @@ std::string power_json(const PowerResults& results) {
                  {"observers_needed", nullptr},   {"curve", Json::array()}};
         if (const std::optional<int> needed = observers_needed(curve, results.target))
             one["observers_needed"] = *needed;
+        if (curve.sequential)
+            one["sequential"] = {
+                {"spending", name_of(*results.sequential)},
+                {"levels", curve.sequential->levels},
+                {"found", curve.sequential->found},
+                {"interval", {curve.sequential->interval.low, curve.sequential->interval.high}},
+                {"mean_observers", curve.sequential->mean_observers}};
         for (const PowerPoint& point : curve.points)
             one["curve"].push_back({{"observers", point.observers},
                                     {"found", point.found},

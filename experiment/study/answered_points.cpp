@@ -169,8 +169,7 @@ class PointReckoning {
                 single.push_back({observer, task, first, second, object, static_cast<int>(own.size()), 1,
                                   Estimate::of(mean)});
             }
-            all.distance_mm = estimated_mean(means, options_.bootstrap(), "no trial has both")
-                                  .cut_to(0.0, std::numeric_limits<double>::infinity());
+            all.distance_mm = estimated_mean(means, options_.bootstrap(), "no trial has both", from_zero_on);
             results_.points.pairs.push_back(std::move(all));
             std::ranges::move(single, std::back_inserter(results_.points.pairs));
         }
@@ -190,17 +189,16 @@ class PointReckoning {
         for (const auto& [observer, own] : by_observer)
             if (const std::optional<double> mean = within_mm(object, own))
                 within.push_back(*mean);
-        constexpr double far = std::numeric_limits<double>::infinity();
         const char* const pointed_once = "no observer answered twice";
         row.within_mm = of.observer.empty()
-                            ? estimated_mean(within, options_.bootstrap(), pointed_once).cut_to(0.0, far)
+                            ? estimated_mean(within, options_.bootstrap(), pointed_once, from_zero_on)
                         : within.empty() ? Estimate::none("answered once")
                                          : Estimate::of(within.front());
         if (!of.observer.empty()) {
             row.between_mm = row.of_chance = Estimate::none("of one observer");
             return;
         }
-        row.between_mm = between_mm(object, by_observer, options_.confidence).cut_to(0.0, far);
+        row.between_mm = between_mm(object, by_observer, options_.confidence).cut_to(from_zero_on);
         const auto [known, is_new] = chance_.try_emplace(of.object);
         if (is_new)
             known->second = chance_mm(object, options_.seed);
@@ -225,7 +223,7 @@ class PointReckoning {
                 shares.push_back(static_cast<double>(on_area) / static_cast<double>(own.size()));
             }
             row.share = of.observer.empty()
-                            ? estimated_mean(shares, options_.bootstrap(), "no answer").cut_to(0.0, 1.0)
+                            ? estimated_mean(shares, options_.bootstrap(), "no answer", zero_to_one)
                             : Estimate::of(shares.front());
             for (const ExposureRow& exposure : results_.exposures)
                 if (exposure.object == of.object && exposure.area == row.area)

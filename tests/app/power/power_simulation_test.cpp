@@ -1,5 +1,6 @@
 /// Studies simulated at gaze level: they find what is planted as often as statistics say, and nothing else.
 #include <algorithm>
+#include <cmath>
 
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 #include "app/power/power_tests.h"
 #include "experiment/base/error.h"
 #include "experiment/statistics/point_spread.h"
+#include "experiment/study/factor_effects.h"
 #include "experiment/study/study_maps.h"
 #include "tests/support/figures.h"
 
@@ -162,6 +164,91 @@ TEST_CASE("a planted ratio of WSS is found in the trials of its level alone", "[
         }
         CHECK(a / b == Approx(ratio).margin(0.05));
     }
+}
+
+TEST_CASE("effects of factors and interactions have the p of their row in the analysis", "[unit]") {
+    const Experiment experiment = busts(2);
+    StudyOptions options;
+    options.by = {"task", "material"};
+    options.permutations = 1000;
+    options.seed = 3;
+    for (const std::string measure :
+         {"head:material=rough:task=free:odds=3", "wss:material=rough:task=free:ratio=1"})
+        for (const std::string test : {"factor", "interaction"}) {
+            CAPTURE(measure, test);
+            const std::vector<PowerEffect> effects =
+                power_effects({measure + ":test=" + test}, experiment.protocol, areas_of(experiment.objects));
+            const GazeStudies studies(experiment, effects, gaze_study_settings(experiment.protocol));
+            StudyResults results = studies.study(7, 9);
+            const std::vector<int> observers{7, 9};
+            const std::vector<StudyOutcome> outcomes =
+                tested(studies, results, effects[0], observers, {}, {5000, 100000, 3});
+            REQUIRE(outcomes.size() == 2);
+            CHECK(outcomes[0].p != outcomes[1].p);
+            results.by = options.by;
+            results.areas = results.compared_areas = {"head"};
+            const std::string row = test == "factor" ? "material" : "task:material";
+            int rows = 0;
+            for (const FactorEffectRow& of : factor_effects(results, studies.levels(), options)) {
+                if (of.effect != row ||
+                    (of.measure == "log WSS") != (effects[0].measure == PowerMeasure::wss))
+                    continue;
+                ++rows;
+                REQUIRE(of.p);
+                CHECK(*outcomes[1].p == *of.p);
+                CHECK(*outcomes[1].estimate == *of.statistic);
+            }
+            CHECK(rows == 1);
+        }
+}
+
+TEST_CASE("effects of factors, interactions and clusters are found where they are planted, and nowhere else",
+          "[unit]") {
+    const Experiment experiment = busts(2);
+    constexpr int observers = 10, studies = 40;
+    // scipy.stats.binom.ppf(0.9995, 40, 0.05)
+    constexpr int most_by_chance = 8;
+    const auto found = [&](const std::string& effect) {
+        return power_of(experiment, {effect}, {observers}, studies).curves[0].points[0].found;
+    };
+    // With two levels the effect of the factor has about the power that their difference has.
+    const int of_pair = found("head:material=rough:odds=1.6"),
+              of_factor = found("head:material=rough:odds=1.6:test=factor");
+    CHECK(std::abs(of_pair - of_factor) <= 6);
+    CHECK(of_factor > studies / 2);
+    CHECK(found("head:material=rough:task=free:odds=3:test=interaction") > studies / 2);
+    CHECK(found("head:material=rough:task=free:odds=1:test=interaction") <= most_by_chance);
+    // Tasks differ by what is planted alone.
+    CHECK(found("head:task=clothes:odds=1:test=factor") <= most_by_chance);
+    CHECK(found("head:task=clothes:odds=1.6:test=factor") > studies / 2);
+    CHECK(found("cc:material=rough:share=0.3:test=cluster") > studies / 2);
+    CHECK(found("cc:material=rough:share=0:test=cluster") <= most_by_chance);
+}
+
+TEST_CASE("studies with looks find as often and end earlier", "[unit]") {
+    PowerSettings settings;
+    settings.observers = {8, 12, 16};
+    settings.studies = 60;
+    settings.sequential = AlphaSpending::pocock;
+    const Experiment experiment = busts(1);
+    settings.gaze = gaze_study_settings(experiment.protocol);
+    const auto results_of = [&](const std::string& effect) {
+        return simulate_power(experiment,
+                              power_effects({effect}, experiment.protocol, areas_of(experiment.objects)),
+                              settings, [](std::string_view, int, int) {});
+    };
+    const PowerResults strong = results_of("head:material=rough:odds=2.2");
+    REQUIRE(strong.curves[0].sequential);
+    CHECK(strong.curves[0].sequential->found.back() > 54);
+    CHECK(strong.curves[0].sequential->mean_observers < 13.0);
+    CHECK_THAT(answer_of(strong.curves[0], strong), Catch::Contains("observers on average"));
+    const PowerResults nothing = results_of("head:material=rough:odds=1");
+    CHECK(nothing.curves[0].sequential->found.back() <= 10);
+    CHECK(nothing.curves[0].sequential->mean_observers > 15.0);
+    settings.equivalence = 0.5;
+    CHECK_THROWS_WITH(results_of("head:material=rough:odds=1"), Catch::Contains("--sequential"));
+    settings.sequential.reset();
+    CHECK_THROWS_WITH(results_of("head:material=rough:odds=1:test=factor"), Catch::Contains(":test="));
 }
 
 TEST_CASE("plans that cannot be are refused with what can", "[unit]") {

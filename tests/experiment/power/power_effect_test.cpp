@@ -62,6 +62,26 @@ TEST_CASE("an effect is read with its measure, its levels and its size", "[unit]
         CHECK(effect_of(effect_of(text).text()).text() == effect_of(text).text());
 }
 
+TEST_CASE("an effect on gaze names its test", "[unit]") {
+    CHECK(effect_of("head:material=rough:odds=1.5").test == PowerTest::pair);
+    const PowerEffect factor = effect_of("head:material=rough:odds=1.5:test=factor");
+    CHECK(factor.test == PowerTest::factor);
+    const PowerEffect both = effect_of("wss:material=rough:task=free:ratio=1.5:test=interaction");
+    CHECK(both.test == PowerTest::interaction);
+    CHECK(both.interacting_column() == "task");
+    CHECK_THAT(both.words(), Contains("by the interaction of material and task"));
+    CHECK(effect_of(both.text()).test == PowerTest::interaction);
+    CHECK(effect_of("cc:material=rough:share=0.2:test=cluster").test == PowerTest::cluster);
+    CHECK_THAT(fault_of("head:material=rough:odds=2:test=t"), Contains("pair, factor, interaction, cluster"));
+    CHECK_THAT(fault_of("head:material=rough:odds=2:test=cluster"), Contains("clusters are of maps"));
+    CHECK_THAT(fault_of("cc:material=rough:share=0.2:test=factor"), Contains("maps have no test of factors"));
+    CHECK_THAT(fault_of("cc:material=rough:task=free:share=0.2:test=cluster"), Contains("of all trials"));
+    CHECK_THAT(fault_of("head:material=rough:odds=2:test=interaction"),
+               Contains("one other factor confines"));
+    CHECK_THAT(fault_of("head:material=rough:object=runner:odds=2:test=interaction"),
+               Contains("not of objects"));
+}
+
 TEST_CASE("an effect is in a level of any factor of the protocol", "[unit]") {
     Protocol protocol = small_plan();
     protocol.materials[1].columns = {{"gloss", "0.2", 0.2}};
