@@ -185,6 +185,10 @@ TEST_CASE("effects of factors and interactions have the p of their row in the an
                 tested(studies, results, effects[0], observers, {}, {5000, 100000, 3});
             REQUIRE(outcomes.size() == 2);
             CHECK(outcomes[0].p != outcomes[1].p);
+            // With fewer observers it is that of the study of the first of them alone.
+            const StudyResults of_seven = studies.study(7, 7);
+            CHECK(tested(studies, of_seven, effects[0], std::vector<int>{7}, {}, {5000, 100000, 3}).at(0).p ==
+                  outcomes[0].p);
             results.by = options.by;
             results.areas = results.compared_areas = {"head"};
             const std::string row = test == "factor" ? "material" : "task:material";
