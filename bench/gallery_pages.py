@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Makes what the pages of docs/gallery/ show of each protocol: a picture of the screen in a trial, the design in words as
-`overt check` says it, and the main figure of the report of a study of simulated observers.
+`overt check` says it, how many observers find an effect as `overt power` says it, and the main figure of the report of a study of simulated observers.
 
-    bench/gallery_pages.py [--overt PROGRAM] [--studies FOLDER] [--only screen|design|figure] [PROTOCOL…]
+    bench/gallery_pages.py [--overt PROGRAM] [--studies FOLDER] [--only screen|design|figure|power] [PROTOCOL…]
 
 Pages are text; between the lines `<!-- made: design -->` and `<!-- end -->` this script writes, and nowhere else. Studies are
 kept in FOLDER, made by `overt replicate`, and used again. Needs Xvfb for the pictures of screens, and Chromium for the
@@ -27,10 +27,23 @@ PAGES = ROOT / "docs" / "gallery"
 # Of each protocol's report the figure that answers its question, as the page names it.
 FIGURES = {
     "overt_2019": "figure4", "gloss_scaling": "scales_of_comparisons", "gloss_matching": "matches", "material_ratings": "ratings_and_numbers",
-    "gauge_figure": "reliefs_of_gauge_settings", "surface_points": "figure4", "shape_recognition": "how_often_how_right_how_fast",
+    "gauge_figure": "reliefs_of_gauge_settings", "surface_points": "places_that_were_pointed_at", "shape_recognition": "how_often_how_right_how_fast",
     "mesh_saliency": "figure4", "active_exploration": "matches", "odd_one_out": "what_stays_together",
     "material_search": "what_goes_with_a_number", "delayed_match": "how_often_how_right_how_fast", "gaze_contingent": "figure4", "pictures": "figure4",
     "which_is_glossier": "psychometric_functions"}
+
+
+# What a study of each kind may be planned for; the others measure what `overt power` has no effect for.
+EFFECTS = {
+    "overt_2019": "head:material=rough:odds=1.5", "material_ratings": "rating:material=clay:shift=0.7",
+    "mesh_saliency": "area=crest:material=shiny:odds=1.5", "gaze_contingent": "area=crest:material=shiny:odds=1.5",
+    "pictures": "area=face:task=find:odds=0.7", "active_exploration": "head:motion=explore:odds=1.5",
+    "surface_points": "head:task=grasp:odds=1.5"}
+NO_EFFECT = {
+    "gloss_scaling": "a scale or a threshold of one material", "gloss_matching": "matches", "gauge_figure": "settings of gauges",
+    "shape_recognition": "levels that observers see in different trials of one test", "odd_one_out": "what stays together",
+    "material_search": "response times", "delayed_match": "a share of correct answers against chance",
+    "which_is_glossier": "a scale of one object"}
 
 
 def begun(program, name, folder, more_display=""):
@@ -57,6 +70,19 @@ def design_of(program, name):
         if wanted:
             kept.append(line[2:])
     return "\n".join(kept)
+
+
+def power_of(program, name):
+    """How many observers find an effect, as `overt power` says it."""
+    if name not in EFFECTS:
+        return (f"`overt power` plans differences between levels of a factor; for {NO_EFFECT[name]} it has no effect. `overt replicate my_study.toml "
+                "--observers 12` plays a whole study with what the protocol plants, and its report tells how wide the intervals are.")
+    command = ["overt", "power", f"protocols/{name}.toml", "--effect", EFFECTS[name], "--observers", "6:24:6", "--studies", "100"]
+    with tempfile.TemporaryDirectory() as scratch:
+        said = subprocess.run([program, *command[1:], "--out", f"{scratch}/power"], cwd=ROOT, check=True, capture_output=True, text=True).stdout
+    kept = [line for line in said.splitlines() if line and not line.startswith(("power:", "studies:", "  tested as:", "note:", "assumed"))]
+    notes = [line for line in said.splitlines() if line.startswith(("note:", "assumed"))]
+    return f"```text\n$ {' '.join(command)}\n" + "\n".join(kept + notes) + "\n```"
 
 
 def replace_made(page, what, text):
@@ -169,7 +195,7 @@ def main():
     parser.add_argument("--overt", default=str(ROOT / "build/release/app/overt"))
     parser.add_argument("--studies", type=lambda given: pathlib.Path(given).resolve())
     parser.add_argument("--wait-s", type=float, default=400, help="how long a session may take until its first picture")
-    parser.add_argument("--only", choices=["screen", "design", "figure"])
+    parser.add_argument("--only", choices=["screen", "design", "figure", "power"])
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as scratch:
         studies = options.studies or pathlib.Path(scratch) / "studies"
@@ -177,6 +203,8 @@ def main():
         for name in options.protocols or FIGURES:
             if options.only in (None, "design"):
                 replace_made(PAGES / f"{name}.md", "design", f"```text\n{design_of(options.overt, name)}\n```")
+            if options.only in (None, "power"):
+                replace_made(PAGES / f"{name}.md", "power", power_of(options.overt, name))
             if options.only in (None, "screen"):
                 folder = pathlib.Path(scratch) / name
                 folder.mkdir()
