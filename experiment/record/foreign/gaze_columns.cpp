@@ -125,14 +125,37 @@ GazeColumns pupil_surface_columns() {
     return columns;
 }
 
+constexpr const char* neon_x = "gaze position on surface x";
+
+/// Of Neon's and Invisible's Marker Mapper, whose surfaces begin at the top left.
+GazeColumns neon_surface_columns() {
+    GazeColumns columns;
+    columns.program = "Pupil Labs Neon";
+    columns.time = "timestamp";
+    columns.time_unit = "ns";
+    columns.unit = "normalised";
+    columns.single = {neon_x, "gaze position on surface y", "", ""};
+    columns.remarks.emplace_back("Gaze is on the surface of this file, which is taken for the whole screen.");
+    return columns;
+}
+
 GazeColumns pupil_world_columns(const ForeignTable& table, bool takes_any_gaze) {
     if (!takes_any_gaze)
-        throw InputError(fmt::format("{}: places are in the picture of the world camera, and not on the "
-                                     "screen: define the screen as a "
-                                     "surface in Pupil Player, export, and give "
-                                     "surfaces/gaze_positions_on_surface_NAME.csv; --as-gaze takes "
-                                     "these for places on the screen all the same",
-                                     table.file().string()));
+        throw InputError(
+            fmt::format("{}: places are in the picture of the world camera, and not on the "
+                        "screen: define the screen as a "
+                        "surface, in Pupil Player or of Neon in the Marker Mapper, export, and give "
+                        "surfaces/gaze_positions_on_surface_NAME.csv or the Marker Mapper's gaze.csv; "
+                        "--as-gaze takes "
+                        "these for places on the screen all the same",
+                        table.file().string()));
+    if (table.has("gaze x")) { // Neon's, in pixels of the scene camera
+        GazeColumns columns = neon_surface_columns();
+        columns.unit = "px";
+        columns.single = {"gaze x", "gaze y", "", ""};
+        columns.remarks = {"Places in the picture of the scene camera are taken for places on the screen."};
+        return columns;
+    }
     GazeColumns columns = pupil_surface_columns();
     columns.time = table.has("gaze_timestamp") ? "gaze_timestamp" : "timestamp";
     columns.single = {"norm_pos_x", "norm_pos_y", "", "confidence"};
@@ -264,14 +287,22 @@ GazeColumns known_gaze_columns(const fs::path& file, bool takes_any_gaze) {
         return gazepoint_columns(table);
     if (table.has("gaze_timestamp") && table.has("x_norm"))
         return pupil_surface_columns();
-    if (table.has("norm_pos_x") && table.has("confidence"))
+    if (table.has(neon_x) && table.has("timestamp"))
+        return neon_surface_columns();
+    if ((table.has("norm_pos_x") && table.has("confidence")) ||
+        (table.has("gaze x") && table.has("gaze y") && table.has("timestamp")))
         return pupil_world_columns(table, takes_any_gaze);
     if (table.has("label") && table.has("timestamp"))
         return mark_columns("Pupil Core", "timestamp", "label");
+    if (table.has("name") && table.has("timestamp") && table.has("recording id")) {
+        GazeColumns columns = mark_columns("Pupil Labs Neon", "timestamp", "name");
+        columns.time_unit = "ns";
+        return columns;
+    }
     if (table.has("Type") && table.has("Time") && (table.has("L POR X") || table.has("R POR X")))
         return smi_columns(table);
     throw InputError(fmt::format("{}: is a table of no program that is known by its columns (Tobii Pro Lab, "
-                                 "Tobii Studio, Gazepoint, Pupil, SMI, BIDS): say "
+                                 "Tobii Studio, Gazepoint, Pupil, Neon, SMI, BIDS): say "
                                  "which columns are which, --columns time=NAME,x=NAME,y=NAME; it has {}",
                                  file.string(), table.columns_in_words()));
 }

@@ -138,7 +138,8 @@ TEST_CASE("of Tobii's spaces of coordinates that of the display is taken, and it
     // Cut milliseconds lie 0.5 ms early in the mean; what is left of their steps is a few microseconds.
     for (std::size_t i = 2000; i < samples.size(); ++i) {
         const double truth_us = 1'500'400.0 + 3333.0 * static_cast<double>(i);
-        const double error_us = static_cast<double>(samples[i].sampled_at.time_since_epoch().count()) - truth_us;
+        const double error_us =
+            static_cast<double>(samples[i].sampled_at.time_since_epoch().count()) - truth_us;
         CHECK(error_us == Approx(-500.0).margin(30.0));
     }
 }
@@ -176,4 +177,37 @@ TEST_CASE("BeGaze's rows say what was shown", "[unit]") {
     CHECK(survey.marks[0].text == "vase.bmp");
     CHECK_FALSE(survey.marks[0].is_trial);
     CHECK(survey.marks[1].is_trial);
+}
+
+TEST_CASE("Neon's Marker Mapper has places on the screen from its upper left, and its scene camera has none",
+          "[unit]") {
+    const test::TemporaryFolder folder;
+    ScreenGeometry screen;
+    screen.screen_px = {1000, 500};
+    const std::string of_id = "recording id,timestamp [ns],";
+    const auto gaze_file = foreign_file(
+        folder, "gaze.csv",
+        "section id," + of_id +
+            "gaze detected on surface,gaze position on surface x [normalized],gaze position on surface y "
+            "[normalized],fixation id,blink id\n"
+            "s,r,1700000000000000000,True,0.25,0.1,1,\ns,r,1700000000005000000,False,,,,\n");
+    const auto events =
+        foreign_file(folder, "events.csv", of_id + "name,type\nr,1700000000004000000,trial 1,recording\n");
+    const ForeignGaze gaze({gaze_file, events}, std::nullopt, screen, false);
+    const GazeSurvey survey = gaze.survey({});
+    CHECK(survey.columns.program == "Pupil Labs Neon");
+    CHECK(survey.rate_hz == Approx(200.0));
+    CHECK(survey.without_gaze == 1);
+    REQUIRE(survey.marks.size() == 1);
+    CHECK(survey.marks[0].text == "trial 1");
+    CHECK(survey.marks[0].at == tracker_time(1'700'000'000'004'000));
+    std::vector<GazeSample> samples;
+    gaze.read([&](const ForeignItem& item) {
+        if (item.sample)
+            samples.push_back(*item.sample);
+    });
+    CHECK(samples[0].gaze->x_px == 250.0);
+    CHECK(samples[0].gaze->y_px == 50.0);
+    const auto scene = foreign_file(folder, "scene.csv", of_id + "gaze x [px],gaze y [px],worn\nr,1,2,3,1\n");
+    CHECK_THROWS_AS(ForeignGaze({scene}, std::nullopt, screen, false), InputError);
 }
