@@ -295,3 +295,53 @@ TEST_CASE("pictures and a movie are looked at on their own surface, in areas of 
     CHECK(on_surface > 500);
     CHECK(parts == std::set<std::string>{"ball", "body", "face"});
 }
+
+TEST_CASE("what is clicked on and looked at are places of the surface, and marked places are chosen between",
+          "[session]") {
+    const SmallExperiment experiment(
+        with(shortened("surface_points"), "draw_points = 40 ", "draw_points = 6 "));
+    const std::filesystem::path tables = run_study(experiment);
+    const TsvFile given(tables / "given_answers.tsv");
+    int on_surface = 0;
+    for (std::size_t row = 0; row < given.size(); ++row)
+        if (given.text(row, "kind") == "point")
+            on_surface += given.has(row, "point_x");
+        else
+            CHECK((given.text(row, "answer") == "red" || given.text(row, "answer") == "green"));
+    CHECK(on_surface >= 4);
+    const std::filesystem::path analysis = experiment.folder().path() / "analysis";
+    const ProgramRun analysed = experiment.overt({"analyze", experiment.session().string(), "--permutations",
+                                                  "10", "--resamples", "20", "--out", analysis.string()});
+    INFO(analysed.err);
+    REQUIRE(analysed.exit_code == 0);
+    // The same places as in the tables of the session.
+    const TsvFile points(analysis / "answered_points.csv");
+    int placed = 0;
+    std::size_t at = 0;
+    for (std::size_t row = 0; row < given.size(); ++row) {
+        if (given.text(row, "kind") != "point")
+            continue;
+        REQUIRE(at < points.size());
+        CHECK(points.text(at, "answer") == given.text(row, "id"));
+        CHECK(points.has(at, "x") == given.has(row, "point_x"));
+        if (points.has(at, "x")) {
+            ++placed;
+            CHECK(points.number(at, "z") == Approx(given.number(row, "point_z")).margin(0.001));
+            CHECK(points.text(at, "part") == given.text(row, "point_part"));
+        }
+        ++at;
+    }
+    CHECK(placed == on_surface);
+    CHECK(at == points.size());
+}
+
+TEST_CASE("gauges, matches and turned objects are run as they are shipped", "[session]") {
+    for (const auto& [name, trials, table] : {std::tuple("gauge_figure", "2", "gauge_settings.tsv"),
+                                              std::tuple("gloss_matching", "1", "settings.tsv"),
+                                              std::tuple("active_exploration", "1", "turns.tsv")}) {
+        INFO(name);
+        const SmallExperiment experiment(shortened(name));
+        const std::filesystem::path tables = run_study(experiment, {"--trials", trials});
+        CHECK(TsvFile(tables / table).size() > 0);
+    }
+}
