@@ -310,12 +310,13 @@ TEST_CASE("what is clicked on and looked at are places of the surface, and marke
             CHECK((given.text(row, "answer") == "red" || given.text(row, "answer") == "green"));
     CHECK(on_surface >= 4);
     const std::filesystem::path analysis = experiment.folder().path() / "analysis";
-    const ProgramRun analysed = experiment.overt({"analyze", experiment.session().string(), "--permutations",
-                                                  "10", "--resamples", "20", "--out", analysis.string()});
+    const ProgramRun analysed =
+        experiment.overt({"analyze", experiment.session().string(), "--permutations", "10", "--resamples",
+                          "20", "--format", "tsv", "--out", analysis.string()});
     INFO(analysed.err);
     REQUIRE(analysed.exit_code == 0);
     // The same places as in the tables of the session.
-    const TsvFile points(analysis / "answered_points.csv");
+    const TsvFile points(analysis / "answered_points.tsv");
     int placed = 0;
     std::size_t at = 0;
     for (std::size_t row = 0; row < given.size(); ++row) {
