@@ -323,6 +323,10 @@ void add_study_options(CLI::App& command, AnalyzeOptions& options) {
            CLI::Range(100, 1000000), shown_default);
     option(command, "--permutations", study.permutations, "", "Random permutations of tests",
            CLI::Range(100, 1000000), shown_default);
+    command.add_flag(
+        "--tfce", study.threshold_free,
+        "Tests maps of differences without a threshold, too (threshold-free cluster enhancement), which "
+        "takes some times as long as clusters");
 }
 
 } // namespace

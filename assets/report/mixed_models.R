@@ -1,7 +1,7 @@
 #!/usr/bin/env Rscript
 # Mixed models of this study, from the table of trials beside this file: needs R with lme4 (Debian: r-cran-lme4).
 #
-#   Rscript mixed_models.R
+#   Rscript mixed_models.R [--slopes] [--bootstrap N]
 #
 # 1. Fixations on the area below among all counted ones of a trial: binomial, logit link.
 # 2. Logarithm of the mean within-cluster sum of squares (WSS, mm^2) of a trial: normal.
@@ -12,13 +12,34 @@
 # of the factor (Barr, Levy, Scheepers and Tily 2013, Journal of Memory and Language 68, 255-278). The binomial model
 # also has one of each trial, for the fixations of a trial depend on each other. Terms are tested by the likelihood
 # ratio of the models with and without them (chi-squared; for main effects, both without interactions). With few
-# observers chi-squared is too small a yardstick: hold p against factor_effects, whose permutations need no model.
+# observers chi-squared is too small a yardstick: hold p against factor_effects, whose permutations need no model, or
+# ask for the parametric bootstrap: with --bootstrap N data are drawn N times from the model without the term, both models
+# are fitted to them, and p_bootstrap is the share that differ as much, the observed data among them (some minutes).
+# With --slopes observers differ in the effects of factors with all their correlations, (1 + factor | observer), the
+# maximal model of Barr et al., in place of the intercepts observer:factor. Where such a model is singular, that is said:
+# then the data cannot tell so many variances apart, and the model with intercepts alone is the sounder one.
 # Writes mixed_models_coefficients.csv and mixed_models_tests.csv beside the table, and what was left out, and why,
 # to the terminal.
 
 factors <- strsplit("{{FACTORS}}", ",", fixed = TRUE)[[1]]
 area <- "{{AREA}}" # of the surface; empty: there is none
 table_file <- "{{TABLE}}"
+
+given <- commandArgs(trailingOnly = TRUE)
+has_slopes <- "--slopes" %in% given
+bootstraps <- 0
+if ("--bootstrap" %in% given) {
+  bootstraps <- suppressWarnings(as.integer(given[match("--bootstrap", given) + 1]))
+  if (is.na(bootstraps) || bootstraps < 1) {
+    message("--bootstrap takes a whole number, such as 500")
+    quit(status = 2)
+  }
+}
+unknown <- setdiff(given, c("--slopes", "--bootstrap", as.character(bootstraps)))
+if (length(unknown) > 0) {
+  message("there is no option ", unknown[1], ": --slopes and --bootstrap N are there")
+  quit(status = 2)
+}
 
 arguments <- commandArgs(trailingOnly = FALSE)
 script <- sub("^--file=", "", grep("^--file=", arguments, value = TRUE))
@@ -57,13 +78,20 @@ fit_all <- function(what, response, data, is_binomial) {
     return(NULL)
   }
   random <- quoted(c(groups, if (is_binomial) "trial_of_all"))
+  varied <- character(0)
   for (name in used) {
     # What differs between observers alone is in their own intercept; what each trial has alone, in its noise.
     cells <- nlevels(interaction(data$observer, data[[name]], drop = TRUE))
-    if (cells > nlevels(data$observer) && cells < nrow(data)) random <- c(random, paste0("observer:", quoted(name)))
+    if (cells > nlevels(data$observer) && cells < nrow(data)) varied <- c(varied, quoted(name))
     contrasts(data[[name]]) <- contr.sum(nlevels(data[[name]]))
   }
-  random <- paste0("(1 | ", random, ")", collapse = " + ")
+  if (has_slopes && length(varied) > 0) {
+    random <- paste0("(1 | ", setdiff(random, "`observer`"), ")")
+    random <- c(paste0("(1 + ", paste(varied, collapse = " + "), " | observer)"), random[random != "(1 | )"])
+  } else {
+    random <- paste0("(1 | ", c(random, if (length(varied) > 0) paste0("observer:", varied)), ")")
+  }
+  random <- paste0(random, collapse = " + ")
   fit <- function(fixed) {
     formula <- as.formula(paste(response, "~", if (length(fixed) > 0) paste(fixed, collapse = " + ") else "1", "+", random))
     control <- if (is_binomial) glmerControl(optimizer = "bobyqa", optCtrl = list(maxfun = 1e5), calc.derivs = FALSE)
@@ -74,21 +102,35 @@ fit_all <- function(what, response, data, is_binomial) {
   main <- quoted(used)
   interactions <- if (length(used) > 1) combn(main, 2, paste, collapse = ":") else character(0)
   full <- fit(c(main, interactions))
-  if (isSingular(full)) say("%s: a random effect is estimated as 0 (singular fit).", what)
+  if (isSingular(full))
+    say("%s: the fit is singular: a random effect is estimated as 0%s.", what,
+        if (has_slopes) ", or two as one; prefer the model without --slopes" else "")
+  if (!identical(as.integer(full@optinfo$conv$opt), 0L)) say("%s: the fit did not come to an end: do not rely on it.", what)
   rows <- summary(full)$coefficients
   coefficients <- data.frame(model = what, term = rownames(rows), estimate = rows[, 1], standard_error = rows[, 2],
                              row.names = NULL)
   compare <- function(term, with, without) {
     difference <- max(2 * as.numeric(logLik(with) - logLik(without)), 0)
     df <- attr(logLik(with), "df") - attr(logLik(without), "df")
-    data.frame(model = what, term = gsub("`", "", term), chi_squared = difference, df = df,
-               p = if (df > 0) pchisq(difference, df, lower.tail = FALSE) else NA)
+    row <- data.frame(model = what, term = gsub("`", "", term), chi_squared = difference, df = df,
+                      p = if (df > 0) pchisq(difference, df, lower.tail = FALSE) else NA)
+    if (bootstraps > 0) {
+      drawn <- simulate(without, nsim = bootstraps, seed = 1)
+      differences <- vapply(seq_len(bootstraps), function(i) tryCatch(
+        suppressWarnings(suppressMessages(max(2 * as.numeric(logLik(refit(with, drawn[[i]])) - logLik(refit(without, drawn[[i]]))), 0))),
+        error = function(e) NA_real_), 0)
+      kept <- differences[!is.na(differences)]
+      # Fits end where their steps become small, so that equal ones differ a little.
+      row$p_bootstrap <- (1 + sum(kept >= difference - 1e-6)) / (1 + length(kept))
+      row$bootstraps <- length(kept)
+    }
+    row
   }
   tests <- NULL
   additive <- if (length(interactions) > 0) fit(main) else full
   for (term in main) tests <- rbind(tests, compare(term, additive, fit(setdiff(main, term))))
   for (term in interactions) tests <- rbind(tests, compare(term, full, fit(c(main, setdiff(interactions, term)))))
-  say("%s: %d trials, %d observers; random intercepts %s.", what, nrow(data), nlevels(data$observer),
+  say("%s: %d trials, %d observers; random effects %s.", what, nrow(data), nlevels(data$observer),
       gsub("`", "", random))
   print(tests, row.names = FALSE)
   list(coefficients = coefficients, tests = tests)

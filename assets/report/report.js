@@ -157,11 +157,12 @@ draw_figure5();
       number_column('observers', r => r.d.observers), text_column('where', r => r.where),
       number_column('area / mm²', of_cluster(c => c.area)), ...['x', 'y', 'z'].map((axis, i) => mm_column(`centre ${axis} / mm`, of_cluster(c => c.centre[i]))),
       share_column('a less b, of the fixation time', of_cluster(c => c.difference)), p_column('p', of_cluster(c => c.p)), p_column('p over all maps', of_cluster(c => c.p_all)),
+      ...(rows.some(r => r.d.tfce_least_p !== null) ? [p_column('p without a threshold', of_cluster(c => c.tfce_p)), number_column('area of p up to ' + digits(alpha, 2) + ' / mm²', r => r.d.tfce_area)] : []),
       p_column('smallest p there can be', r => r.d.least_p)],
       note:
       'Each observer with fixations in both conditions gives a map of differences; clusters of vertices with a t beyond the threshold are tested by flipping the signs of ' +
       'observers\' maps (largest cluster, sum of t times area). p holds for the whole surface of one object; "over all maps" is that of the largest cluster of any row. ' +
-      'Shown are the largest cluster of each map, and others with p up to 0.2.'}));
+      'Shown are the largest cluster of each map, and others with p up to 0.2.' + (rows.some(r => r.d.tfce_least_p !== null) ? ' Without a threshold (TFCE): the least p within the cluster; the area is that of the whole map.' : '')}));
 }
 
 // Exposure, prediction, reliability, errors.

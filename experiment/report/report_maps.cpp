@@ -136,7 +136,8 @@ Json json_of_differences(const std::vector<DifferenceMap>& maps, const std::vect
                  {"centre", json_of(cluster.centroid_mm)},
                  {"part", cluster.part ? Json(static_cast<int>(*cluster.part)) : Json(nullptr)},
                  {"p", number(cluster.p)},
-                 {"p_all", number(cluster.p_of_all)}});
+                 {"p_all", number(cluster.p_of_all)},
+                 {"tfce_p", number(cluster.free_p)}});
         Json json{{"keys", json_of(map.keys)},
                   {"object", map.object},
                   {"column", map.column},
@@ -145,6 +146,8 @@ Json json_of_differences(const std::vector<DifferenceMap>& maps, const std::vect
                   {"most", number(most)},
                   {"threshold", number(map.threshold_t)},
                   {"least_p", number(map.least_p)},
+                  {"tfce_least_p", number(map.free_least_p)},
+                  {"tfce_area", number(map.free_area_mm2)},
                   {"observers", map.observers},
                   {"clusters", clusters}};
         if (!map.difference.empty() && !mesh.vertices.empty()) {

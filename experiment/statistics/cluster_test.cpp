@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "experiment/base/parallel.h"
 #include "experiment/base/random.h"
 #include "experiment/statistics/distributions.h"
+#include "experiment/statistics/threshold_free.h"
 
 namespace overt {
 
@@ -130,6 +132,25 @@ void set_signs(std::span<double> signs, std::span<const std::size_t> numbers, st
         signs[i] = of_all[numbers[i]];
 }
 
+/// Of each vertex: how many flips have a value as large anywhere.
+std::vector<float> p_without_threshold(const ClusterTest& test, const Adjacency& adjacency,
+                                       std::span<const double> areas, std::vector<double> largest) {
+    std::vector<float> enhanced;
+    ThresholdFree(adjacency, areas).enhance(test.t, &enhanced);
+    std::ranges::sort(largest);
+    std::vector<float> p(test.t.size(), 1.0f);
+    for (std::size_t v = 0; v < p.size(); ++v) {
+        if (enhanced[v] == 0.0f)
+            continue;
+        // The value is rounded to a float, so that the observed flip's own largest counts as large as it is.
+        const double size = std::abs(static_cast<double>(enhanced[v])) * (1.0 - 1e-6);
+        const auto as_large = largest.end() - std::ranges::lower_bound(largest, size);
+        p[v] = static_cast<float>(
+            std::max(static_cast<double>(as_large) / static_cast<double>(largest.size()), test.least_p));
+    }
+    return p;
+}
+
 double share_of_as_large(const std::vector<double>& largest, double mass) {
     const double threshold = mass * (1.0 - 1e-9);
     return static_cast<double>(std::ranges::count_if(largest, [&](double one) { return one >= threshold; })) /
@@ -173,15 +194,21 @@ ClusterTest cluster_test(std::span<const std::vector<float>> differences, std::s
     constexpr std::uint64_t at_a_time = 16;
     std::vector<double>& largest = test.largest;
     largest.assign(test.permutations, 0.0);
+    std::vector<double> largest_free(settings.threshold_free ? test.permutations : 0, 0.0);
     parallel_for(
         static_cast<int>((test.permutations + at_a_time - 1) / at_a_time),
         [&](int turn) {
             ClusterSearch permuted(all, adjacency, test.threshold_t);
+            std::optional<ThresholdFree> free;
+            if (settings.threshold_free)
+                free.emplace(adjacency, areas);
             std::vector<double> flipped(observers);
             const std::uint64_t begin = static_cast<std::uint64_t>(turn) * at_a_time;
             for (std::uint64_t i = begin; i < std::min(test.permutations, begin + at_a_time); ++i) {
                 set_signs(flipped, numbers, flipped_observers, i, test.is_exact, settings.seed);
                 permuted.reckon(flipped);
+                if (free)
+                    largest_free[i] = free->enhance(permuted.t(), nullptr);
                 permuted.for_each([&](const auto&, double mass, double) {
                     largest[i] = std::max(largest[i], std::abs(mass));
                 });
@@ -192,6 +219,8 @@ ClusterTest cluster_test(std::span<const std::vector<float>> differences, std::s
         // Random flips of many can by chance be fewer of these few than all.
         cluster.p = std::max(share_of_as_large(largest, std::abs(cluster.mass)), test.least_p);
     }
+    if (settings.threshold_free)
+        test.free_p = p_without_threshold(test, adjacency, areas, std::move(largest_free));
     return test;
 }
 

@@ -20,7 +20,8 @@ struct ClusterTestSettings {
     int permutations = 1000;   ///< random ones, where there are too many for all
     std::uint64_t most_exact = 4096;
     std::uint64_t seed = 1;
-    int most_threads = 0; ///< 0: all processors; the result is the same
+    int most_threads = 0;        ///< 0: all processors; the result is the same
+    bool threshold_free = false; ///< ClusterTest::free_p is asked for, too
     /// Of several tests whose flips are to be the same: by difference the observer's number, and how many
     /// observers there are in all tests. Empty: those of this test.
     std::vector<std::size_t> observers;
@@ -42,6 +43,9 @@ struct ClusterTest {
     std::uint64_t permutations = 0;
     bool is_exact = false;
     double least_p = 1.0; ///< that so many observers can give
+    /// By vertex: p of its value without a threshold (ThresholdFree), corrected for having looked everywhere;
+    /// 1 where t is 0. Empty: not asked for.
+    std::vector<float> free_p = {};
     std::vector<double>
         largest; ///< by flip the size of the largest cluster's mass; the first is the observed one
 };

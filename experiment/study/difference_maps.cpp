@@ -98,8 +98,30 @@ DifferenceMap::Cluster cluster_of(const Cluster& found, const FixationMaps& maps
     return cluster;
 }
 
+/// What the test without a threshold says of the map and its clusters.
+void add_threshold_free(DifferenceMap& of, const ClusterTest& test, std::span<const double> areas,
+                        double confidence) {
+    if (test.free_p.empty())
+        return;
+    float least = 1.0f;
+    double area_mm2 = 0.0;
+    for (std::size_t v = 0; v < test.free_p.size(); ++v) {
+        least = std::min(least, test.free_p[v]);
+        if (static_cast<double>(test.free_p[v]) <= 1.0 - confidence + 1e-9)
+            area_mm2 += areas[v];
+    }
+    of.free_least_p = static_cast<double>(least);
+    of.free_area_mm2 = area_mm2;
+    for (std::size_t i = 0; i < of.clusters.size(); ++i) {
+        float in_cluster = 1.0f;
+        for (const std::uint32_t v : test.clusters[i].vertices)
+            in_cluster = std::min(in_cluster, test.free_p[v]);
+        of.clusters[i].free_p = static_cast<double>(in_cluster);
+    }
+}
+
 ClusterTest test_differences(DifferenceMap& of, const LevelDifferences& differences, const FixationMaps& maps,
-                             const ClusterTestSettings& settings) {
+                             const ClusterTestSettings& settings, double confidence) {
     const ClusterTest test =
         cluster_test(differences.of_observers, maps.visible_areas(), maps.adjacency(), settings);
     of.threshold_t = test.threshold_t;
@@ -114,6 +136,7 @@ ClusterTest test_differences(DifferenceMap& of, const LevelDifferences& differen
         for (const std::uint32_t v : test.clusters[i].vertices)
             numbers[v] = static_cast<std::uint16_t>(i + 1);
     }
+    add_threshold_free(of, test, maps.visible_areas(), confidence);
     for (std::uint32_t v = 0; v < maps.geometry().vertex_count(); ++v) {
         const std::uint32_t sample = maps.samples().nearest(maps.geometry().node_of(v));
         of.cluster.push_back(sample == SurfaceSamples::none ? std::uint16_t{0} : numbers[sample]);
@@ -151,12 +174,14 @@ std::vector<DifferenceMap> find_differences(std::vector<ComparedLevels> compared
         }
         ClusterTestSettings settings;
         settings.permutations = options.permutations;
+        settings.threshold_free = options.threshold_free;
         settings.seed = options.seed;
         settings.all_observers = numbers.size();
         for (const ComparedFixations& own : one.observers)
             settings.observers.push_back(numbers.at(own.observer));
         const FixationMaps& on = *maps[static_cast<std::size_t>(map.object)];
-        tests.back() = test_differences(map, observer_differences(one.observers, on), on, settings);
+        tests.back() =
+            test_differences(map, observer_differences(one.observers, on), on, settings, options.confidence);
         for (Cluster& cluster : tests.back().clusters)
             cluster.vertices.clear(); // no longer asked for
     }

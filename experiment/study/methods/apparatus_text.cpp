@@ -63,7 +63,7 @@ std::string timing_clause(const StudySession& session) {
             "when pictures were lit is what the imported log and the protocol say: how many refreshes "
             "were missed is not known, and light is taken to have come {} ms after an onset{}",
             as_set(display.latency_ms),
-            display.latency_ms != 0.0 ? "" : ", since nobody knows how long it took");
+            display.latency_ms == 0.0 ? ", since nobody knows how long it took" : "");
     if (!lit_pictures(session))
         return {};
     // Nobody measures exactly 0.

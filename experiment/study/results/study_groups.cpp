@@ -69,10 +69,11 @@ void check_asked_factors(const std::vector<std::string>& by, const LevelLists& l
         for (const auto& [other, of_other] : levels)
             if (of_other.size() > 1)
                 several.push_back(other);
-        throw InputError(fmt::format("--by {}: this factor has one level, \"{}\", and makes no groups; {}.", column,
-                                     factor->second.front(),
-                                     several.empty() ? "no factor has several"
-                                                     : fmt::format("several have {}", fmt::join(several, ", "))));
+        throw InputError(fmt::format("--by {}: this factor has one level, \"{}\", and makes no groups; {}.",
+                                     column, factor->second.front(),
+                                     several.empty()
+                                         ? "no factor has several"
+                                         : fmt::format("several have {}", fmt::join(several, ", "))));
     }
 }
 

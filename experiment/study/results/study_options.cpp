@@ -121,6 +121,9 @@ std::vector<StudyParameter> parameters_of(const StudyOptions& options) {
          "Draws of the bootstrap over observers (BCa)."},
         {"permutations", fmt::format("{}", options.permutations), "",
          "Random permutations, where there are too many to make all."},
+        {"tfce", options.threshold_free ? "yes" : "no", "",
+         "Whether maps of differences are tested without a threshold, too (threshold-free cluster "
+         "enhancement)."},
         {"seed", fmt::format("{}", options.seed), "", "Seed of all that is drawn at random."},
     };
 }

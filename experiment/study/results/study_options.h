@@ -79,6 +79,7 @@ struct StudyOptions {
     double smallest_effect = 0.5; ///< d_z that would be of interest: bounds of tests of equivalence, > 0
     int resamples = 2000;         ///< of the bootstrap
     int permutations = 1000;      ///< where all are too many
+    bool threshold_free = false;  ///< maps of differences are tested without a threshold, too
     std::uint64_t seed = 1;       ///< of everything that is drawn
     BootstrapSettings bootstrap() const { return {resamples, confidence, seed}; }
     /// Of differences of observers.

@@ -26,8 +26,8 @@
 #include "experiment/statistics/paired_evidence.h"
 #include "experiment/study/results/answer_rows.h"
 #include "experiment/study/results/exploration_rows.h"
-#include "experiment/study/results/point_rows.h"
 #include "experiment/study/results/looking_rows.h"
+#include "experiment/study/results/point_rows.h"
 #include "experiment/study/results/relief_rows.h"
 #include "experiment/study/results/screen_area_rows.h"
 #include "experiment/study/results/session_setup.h"
@@ -391,10 +391,14 @@ struct DifferenceMap {
         double difference = 0.0; ///< integral: share of the time of fixation that a has there more than b
         double p = 1.0;          ///< corrected over the surface
         double p_of_all = 1.0;   ///< and over all maps of differences of the table
+        std::optional<double> free_p = {}; ///< without a threshold: the least of its vertices
     };
     std::vector<Cluster> clusters; ///< largest first
     double threshold_t = 0.0;
     double least_p = 1.0; ///< that so many observers can give
+    /// Without a threshold, where that is asked for: the least p on the surface, and the area of where p is
+    /// no more than 1 less the level of intervals.
+    std::optional<double> free_least_p = {}, free_area_mm2 = {};
     int observers = 0;
     std::string absent;
 };

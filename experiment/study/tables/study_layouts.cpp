@@ -274,6 +274,15 @@ RowLayout<ClusterRow> cluster_columns(const StudyResults& results, StudyLayout<C
               of_cluster(&Cluster::p_of_all));
     to.number("least_p", "The smallest p that so many observers can give", "",
               of_tested(&DifferenceMap::least_p));
+    to.number(
+        "tfce_p",
+        "Without a threshold (threshold-free cluster enhancement), corrected over the surface: the least "
+        "within the cluster; n/a: it was not asked for (--tfce)",
+        "", [](const ClusterRow& row) { return row.cluster ? row.cluster->free_p : std::nullopt; });
+    to.number("tfce_least_p", "The least of it anywhere on the surface", "",
+              of_difference(&DifferenceMap::free_least_p));
+    to.number("tfce_area_mm2", "Area of where it is at most 1 less the level of intervals", "mm^2",
+              of_difference(&DifferenceMap::free_area_mm2));
     to.text("absent", "Why there is no map; n/a: there is one", of_difference(&DifferenceMap::absent));
     return to;
 }

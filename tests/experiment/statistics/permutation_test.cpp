@@ -7,6 +7,7 @@
 
 #include "experiment/base/random.h"
 #include "experiment/statistics/cluster_test.h"
+#include "experiment/statistics/threshold_free.h"
 
 namespace {
 
@@ -230,3 +231,68 @@ TEST_CASE("over ten maps without a difference few studies find a cluster in any"
 }
 
 } // namespace
+
+TEST_CASE("a value without a threshold is the integral over heights of what hangs together there", "[unit]") {
+    const Band band(120); // each vertex has an area of 2
+    const Adjacency adjacency = band.adjacency();
+    ThresholdFree free(adjacency, band.areas);
+    std::vector<float> t(120, 0.0f), enhanced;
+    // Alone: sqrt(2) t^3 / 3; two alike: sqrt(4) t^3 / 3; a lower neighbour has the higher one for company.
+    t[3] = 3.0f;
+    t[10] = t[11] = -2.0f;
+    t[20] = 3.0f;
+    t[21] = 1.0f;
+    CHECK(free.enhance(t, &enhanced) == Approx(std::sqrt(2.0) * 26.0 / 3.0 + std::sqrt(4.0) / 3.0));
+    CHECK(enhanced[3] == Approx(std::sqrt(2.0) * 27.0 / 3.0));
+    CHECK(enhanced[10] == Approx(-std::sqrt(4.0) * 8.0 / 3.0));
+    CHECK(enhanced[11] == enhanced[10]);
+    CHECK(enhanced[20] == Approx(std::sqrt(2.0) * 26.0 / 3.0 + std::sqrt(4.0) / 3.0));
+    CHECK(enhanced[21] == Approx(std::sqrt(4.0) / 3.0));
+    CHECK(enhanced[50] == 0.0f);
+    // Of any map, by steps of the height.
+    RandomStream random(6, "heights");
+    for (float& value : t)
+        value = static_cast<float>(random.normal());
+    const double largest = free.enhance(t, &enhanced);
+    constexpr double step = 0.0005;
+    double most = 0.0;
+    for (std::size_t v = 0; v < t.size(); ++v) {
+        const double sign = t[v] < 0.0f ? -1.0 : 1.0;
+        double sum = 0.0;
+        for (double h = 0.5 * step; h < sign * static_cast<double>(t[v]); h += step) {
+            std::size_t begin = v, end = v;
+            while (begin > 0 && sign * static_cast<double>(t[begin - 1]) >= h)
+                --begin;
+            while (end + 1 < t.size() && sign * static_cast<double>(t[end + 1]) >= h)
+                ++end;
+            sum += std::sqrt(2.0 * static_cast<double>(end - begin + 1)) * h * h * step;
+        }
+        CHECK(static_cast<double>(enhanced[v]) == Approx(sign * sum).epsilon(0.01).margin(0.001));
+        most = std::max(most, sum);
+    }
+    CHECK(largest == Approx(most).epsilon(0.01));
+}
+
+TEST_CASE("without a threshold a planted difference has a small p, and noise in 5 % of studies", "[unit]") {
+    const Band band(60);
+    ClusterTestSettings settings;
+    settings.threshold_free = true;
+    auto maps = noise(10, 60, 4);
+    for (auto& map : maps)
+        for (std::size_t v = 20; v < 40; ++v)
+            map[v] -= 2.0f;
+    const ClusterTest planted = cluster_test(maps, band.areas, band.adjacency(), settings);
+    REQUIRE(planted.free_p.size() == 60);
+    CHECK(planted.free_p[30] <= 0.01f);
+    CHECK(static_cast<double>(planted.free_p[30]) >= planted.least_p);
+    CHECK(planted.free_p[5] > 0.05f);
+    CHECK(cluster_test(maps, band.areas, band.adjacency(), {}).free_p.empty());
+    int found = 0;
+    for (std::uint64_t study = 0; study < 300; ++study) {
+        const ClusterTest test =
+            cluster_test(noise(8, 60, 100 + study), band.areas, band.adjacency(), settings);
+        found += *std::ranges::min_element(test.free_p) <= 0.05f;
+    }
+    CHECK(found <= 15 + 12); // three standard deviations of 300 throws above 5 %
+    CHECK(found >= 3);
+}
