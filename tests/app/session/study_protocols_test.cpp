@@ -311,8 +311,8 @@ TEST_CASE("what is clicked on and looked at are places of the surface, and marke
     CHECK(on_surface >= 4);
     const std::filesystem::path analysis = experiment.folder().path() / "analysis";
     const ProgramRun analysed =
-        experiment.overt({"analyze", experiment.session().string(), "--permutations", "10", "--resamples",
-                          "20", "--format", "tsv", "--out", analysis.string()});
+        experiment.overt({"analyze", experiment.session().string(), "--permutations", "100", "--resamples",
+                          "100", "--format", "tsv", "--out", analysis.string()});
     INFO(analysed.err);
     REQUIRE(analysed.exit_code == 0);
     // The same places as in the tables of the session.
@@ -337,9 +337,9 @@ TEST_CASE("what is clicked on and looked at are places of the surface, and marke
 }
 
 TEST_CASE("gauges, matches and turned objects are run as they are shipped", "[session]") {
-    for (const auto& [name, trials, table] : {std::tuple("gauge_figure", "2", "gauge_settings.tsv"),
+    for (const auto& [name, trials, table] : {std::tuple("gauge_figure", "1", "gauge_settings.tsv"),
                                               std::tuple("gloss_matching", "1", "settings.tsv"),
-                                              std::tuple("active_exploration", "1", "turns.tsv")}) {
+                                              std::tuple("active_exploration", "4", "turns.tsv")}) {
         INFO(name);
         const SmallExperiment experiment(shortened(name));
         const std::filesystem::path tables = run_study(experiment, {"--trials", trials});
