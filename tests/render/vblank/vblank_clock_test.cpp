@@ -233,6 +233,9 @@ TEST_CASE("a source of Present whose window goes falls silent, and flips go on b
         REQUIRE(source->last());
     }
     window.make_current();
+    // What the server had sent before the window went may still come.
+    for (int told = 0; told < 10 && source->last(); ++told)
+        continue;
     CHECK_FALSE(source->last());
     WindowFlips flips(window, clock, 60.0, std::move(source), std::chrono::milliseconds(1));
     std::int64_t last = 0;
