@@ -16,14 +16,15 @@ import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent.parent
 NUMBER = r"-?\d[\d.e+-]*"
+SHARE = r"\d\.\d{3}"
 ANSWER = re.compile(rf"^(?P<what>.+?)\s+(?P<planted>{NUMBER})\s+(?P<found>{NUMBER})"
                     rf"(?:\s+(?P<low>{NUMBER}) … (?P<high>{NUMBER}))?$")
-AREA = re.compile(rf"^(?P<what>.+?)\s+(?P<planted>{NUMBER})\s+{NUMBER}\s+(?P<found>{NUMBER})"
+AREA = re.compile(rf"^(?P<what>.+?)\s+(?P<planted>{SHARE})(?:\s+(?P<drawn>{SHARE}))?\s+{SHARE}\s+(?P<found>{SHARE})"
                   rf"\s+(?P<low>{NUMBER}) … (?P<high>{NUMBER})$")
 
 
 def rows_of(said):
-    """Of what `overt replicate` prints: what, planted, found, low, high; the ends are None where there is no interval."""
+    """Of what `overt replicate` prints: what, planted, drawn, found, low, high; None where there is no interval, or nothing drawn."""
     rows, pattern = [], None
     for line in said.splitlines():
         if line.startswith("share of fixations on areas"):
@@ -32,7 +33,7 @@ def rows_of(said):
             pattern = ANSWER
         elif pattern and (found := pattern.match(line.rstrip())):
             what = ("share of fixations corrected: " if pattern is AREA else "") + found["what"].strip()
-            rows.append((what, found["planted"], found["found"], found["low"], found["high"]))
+            rows.append((what, found["planted"], found.groupdict().get("drawn"), found["found"], found["low"], found["high"]))
     return rows
 
 
@@ -65,7 +66,7 @@ def main():
     parser.add_argument("--out", type=pathlib.Path)
     options = parser.parse_args()
     names = options.protocols or sorted(path.stem for path in (HERE / "protocols").glob("*.toml"))
-    lines = ["| protocol | what | planted | found | interval | holds |", "| --- | --- | --- | --- | --- | --- |"]
+    lines = ["| protocol | what | planted | drawn | found | interval | holds |", "| --- | --- | --- | --- | --- | --- | --- |"]
     intervals = holding = 0
     with tempfile.TemporaryDirectory() as scratch:
         folder = options.studies or pathlib.Path(scratch)
@@ -73,15 +74,15 @@ def main():
         for name in names:
             rows = replicate(options.overt, name, folder, options)
             if not rows:
-                lines.append(f"| {name} | nothing is planted | | | | |")
-            for what, planted, found, low, high in rows:
+                lines.append(f"| {name} | nothing is planted | | | | | |")
+            for what, planted, drawn, found, low, high in rows:
                 holds = low is not None and float(low) <= float(planted) <= float(high)
                 # The ends of a scale are 0 and 1 by its making.
                 told = low is not None and low != high
                 intervals += told
                 holding += told and holds
                 shown = f"{low} … {high}" if told else ""
-                lines.append(f"| {name} | {what} | {planted} | {found} | {shown} | {('yes' if holds else 'no') if told else ''} |")
+                lines.append(f"| {name} | {what} | {planted} | {drawn or ''} | {found} | {shown} | {('yes' if holds else 'no') if told else ''} |")
             print(f"{name}: {len(rows)} numbers", file=sys.stderr)
     text = "\n".join(lines) + f"\n\n{holding} of {intervals} intervals hold what was planted.\n"
     if options.out:
