@@ -157,3 +157,35 @@ TEST_CASE("two answers of a trial have a distance, and those of different trials
     CHECK(pairs[0].distance_mm.value.value() == Approx(0.5 * (100.0 * std::sqrt(2.0) + 200.0)));
     CHECK(pairs[1].observer == "a");
 }
+
+TEST_CASE("places by chance are as probable as the surface is large, however finely it is divided",
+          "[unit]") {
+    test::PaintedStudy study = ball_alone();
+    // A square of 100 mm in two triangles, and far from it one of 10 mm in two hundred.
+    auto mesh = std::make_shared<Mesh>();
+    const auto add_square = [&](glm::vec3 corner, float side, std::uint32_t parts) {
+        const auto begin = static_cast<std::uint32_t>(mesh->positions.size());
+        for (std::uint32_t row = 0; row <= parts; ++row)
+            for (std::uint32_t column = 0; column <= parts; ++column)
+                mesh->positions.push_back(corner +
+                                          side / static_cast<float>(parts) * glm::vec3(column, 0.0f, row));
+        for (std::uint32_t row = 0; row < parts; ++row)
+            for (std::uint32_t column = 0; column < parts; ++column) {
+                const std::uint32_t at = begin + row * (parts + 1) + column;
+                mesh->triangles.push_back({at, at + 1, at + parts + 2});
+                mesh->triangles.push_back({at, at + parts + 2, at + parts + 1});
+            }
+    };
+    add_square({0.0f, 0.0f, 0.0f}, 100.0f, 1);
+    add_square({1000.0f, 0.0f, 0.0f}, 10.0f, 10);
+    StudyObject& object = study.results.objects[0];
+    object.exposure_density.assign(mesh->positions.size(), 1.0f);
+    object.mesh = mesh;
+    point_at(study.results, "a", 1, "clicked", glm::dvec3(0.0));
+    point_at(study.results, "b", 1, "clicked", glm::dvec3(100.0, 0.0, 0.0));
+    reckon_points(study.results, study.options);
+    // Corners of the large square count 2, 1, 2, 1 of 6: 83.7 mm between two of them, of 98 % of the pairs; 2
+    // % lie about 950 mm apart.
+    CHECK(spread_of(study.results, "").chance_mm.value() ==
+          Approx(0.98 * 83.7 + 0.0196 * 955.0).epsilon(0.05));
+}
