@@ -27,6 +27,17 @@ std::string if_there(const ForeignTable& table, const std::string& name) {
     return table.has(name) ? name : std::string();
 }
 
+/// The columns of an eye in pixels of the display, as far as they are there; none without a place. `place`:
+/// its name without "X" and "Y", which stand behind `before_axis`.
+GazeColumns::OfEye eye_in_px(const ForeignTable& table, const std::string& place, const std::string& pupil,
+                             const std::string& validity, const std::string& before_axis) {
+    const std::string x = in_display_px(table, place + before_axis + "X");
+    if (!table.has(x))
+        return {};
+    return {x, in_display_px(table, place + before_axis + "Y"), if_there(table, pupil),
+            if_there(table, validity)};
+}
+
 GazeColumns tobii_columns(const ForeignTable& table) {
     GazeColumns columns;
     columns.program = "Tobii Pro Lab";
@@ -39,17 +50,12 @@ GazeColumns tobii_columns(const ForeignTable& table) {
     if (columns.time_unit == "ms")
         columns.fine_time = if_there(table, "Eyetracker timestamp");
     const auto eye = [&](const std::string& which) {
-        return GazeColumns::OfEye{in_display_px(table, "Gaze point " + which + " X"),
-                                  in_display_px(table, "Gaze point " + which + " Y"),
-                                  if_there(table, "Pupil diameter " + which),
-                                  if_there(table, "Validity " + which)};
+        return eye_in_px(table, "Gaze point " + which, "Pupil diameter " + which, "Validity " + which, " ");
     };
-    if (table.has(in_display_px(table, "Gaze point left X")))
-        columns.left = eye("left");
-    if (table.has(in_display_px(table, "Gaze point right X")))
-        columns.right = eye("right");
+    columns.left = eye("left");
+    columns.right = eye("right");
     if (!columns.left.is_there() && !columns.right.is_there())
-        columns.single = {in_display_px(table, "Gaze point X"), in_display_px(table, "Gaze point Y"), "", ""};
+        columns.single = eye_in_px(table, "Gaze point", "", "", " ");
     if (table.has("Sensor")) {
         columns.kind = "Sensor";
         columns.samples_word = "Eye Tracker";
@@ -69,17 +75,13 @@ GazeColumns tobii_studio_columns(const ForeignTable& table) {
     columns.time_unit = "ms";
     columns.fine_time = if_there(table, "EyeTrackerTimestamp");
     columns.greatest_validity = 1.0;
-    const auto eye = [&](const std::string& which) -> GazeColumns::OfEye {
-        const std::string x = in_display_px(table, "GazePoint" + which + "X");
-        if (!table.has(x))
-            return {};
-        return {x, in_display_px(table, "GazePoint" + which + "Y"), if_there(table, "Pupil" + which),
-                if_there(table, "Validity" + which)};
+    const auto eye = [&](const std::string& which) {
+        return eye_in_px(table, "GazePoint" + which, "Pupil" + which, "Validity" + which, "");
     };
     columns.left = eye("Left");
     columns.right = eye("Right");
     if (!columns.left.is_there() && !columns.right.is_there())
-        columns.single = {in_display_px(table, "GazePointX"), in_display_px(table, "GazePointY"), "", ""};
+        columns.single = eye_in_px(table, "GazePoint", "", "", "");
     columns.mark = if_there(table, "StudioEvent");
     columns.mark_value = if_there(table, "StudioEventData");
     columns.trial = if_there(table, "MediaName");
