@@ -111,6 +111,20 @@ void add_measures(std::string& text, const StudyResults& results) {
                      "signs of whole observers flipped");
 }
 
+void add_differences(std::string& text, const StudyResults& results, const StudyOptions& options) {
+    const auto tested = std::ranges::find_if(results.differences,
+                                             [](const DifferenceMap& map) { return map.absent.empty(); });
+    if (tested == results.differences.end())
+        return;
+    add_sentence(
+        text,
+        fmt::format("where on the surface levels of {} differ was tested within observers by clusters of "
+                    "neighbouring places, with the signs of whole observers flipped{}; p is corrected "
+                    "over the surface, that of clusters over all maps, too",
+                    tested->column,
+                    options.threshold_free ? ", and by threshold-free cluster enhancement" : ""));
+}
+
 void add_intervals(std::string& text, const StudyResults& results, const StudyOptions& options) {
     const double percent = 100.0 * options.confidence;
     if (results.glance.observers < 3) {
@@ -137,6 +151,7 @@ std::string statistics_text(const StudyResults& results, const StudyOptions& opt
     add_pairs(text, results);
     add_area_pairs(text, results);
     add_measures(text, results);
+    add_differences(text, results, options);
     add_intervals(text, results, options);
     add_sentence(text, fmt::format("all that was drawn at random follows from the seed {}", options.seed));
     return text;

@@ -288,3 +288,19 @@ TEST_CASE("methods name the rules of exclusion, and how many trials each of them
     study.results.sessions[0].form = {{"remark", "I <b>like</b> {it}"}};
     CHECK_THAT(exclude({{}, {}, {}, {}}), Contains("The remark is on record of 1 observer."));
 }
+
+TEST_CASE("methods say how maps of differences were tested, and only where there are any", "[unit]") {
+    MadeStudy study;
+    study.results.differences.clear();
+    CHECK_THAT(study.text("Analysis"), !Contains("clusters of neighbouring"));
+    DifferenceMap& map = study.results.differences.emplace_back();
+    map.column = "material";
+    map.absent = "one observer alone saw it in both levels";
+    CHECK_THAT(study.text("Analysis"), !Contains("clusters of neighbouring"));
+    map.absent.clear();
+    CHECK_THAT(study.text("Analysis"),
+               Contains("levels of material differ was tested within observers by clusters") &&
+                   !Contains("threshold-free"));
+    study.options.threshold_free = true;
+    CHECK_THAT(study.text("Analysis"), Contains("by threshold-free cluster enhancement"));
+}
