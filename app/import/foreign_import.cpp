@@ -18,6 +18,8 @@
 #include "experiment/base/error.h"
 #include "experiment/base/json_text.h"
 #include "experiment/base/whole_file.h"
+#include "experiment/design/schedule.h"
+#include "experiment/record/foreign/foreign_asc.h"
 #include "experiment/record/foreign/foreign_session.h"
 #include "experiment/record/read/import_source.h"
 #include "experiment/record/session_schema.h"
@@ -71,8 +73,12 @@ std::string source_text(const ForeignImportOptions& options, const ForeignGaze& 
         of_trials += named(options.trials);
     if (!options.frames.empty())
         (options.trials.empty() ? of_gaze : of_trials) += named(options.frames);
+    // A recording's messages were sent by a program that they do not name.
+    const bool are_messages = options.trials.empty() && gaze.has_messages();
+    if (are_messages)
+        of_trials = " by its messages";
     return import_source_text({survey.columns.program, log.program, {}}, of_gaze, of_trials,
-                              !options.trials.empty());
+                              are_messages || !options.trials.empty());
 }
 
 struct Imported {
@@ -123,8 +129,8 @@ std::string label_of(const std::filesystem::path& file) {
 
 void require_no_asc_options(const ForeignImportOptions& options) {
     const ImportOptions& of = options.of_gaze;
-    if (!of.into.empty() || !of.out.empty() || of.missing || !of.screen_mm.empty() || of.distance_mm)
-        throw InputError("--into, --out, --missing, --screen-mm and --distance-mm are for EyeLink recordings "
+    if (!of.into.empty() || !of.out.empty() || !of.screen_mm.empty() || of.distance_mm)
+        throw InputError("--into, --out, --screen-mm and --distance-mm are for EyeLink recordings "
                          "without --protocol: the "
                          "protocol's [display] says how large and how far the screen was, and --sessions "
                          "where the session goes");
@@ -136,15 +142,18 @@ Imported import_foreign(const ForeignImportOptions& options) {
     const Experiment experiment =
         read_experiment_or_report(options.protocol, cache_folder(), InputDepth::objects);
     const Protocol& protocol = experiment.protocol;
-    const Observer observer =
-        observer_labelled(of.observer.empty() ? label_of(of.files.front()) : of.observer);
+    // Its number decides nothing here: the log says what was shown.
+    const std::string label = of.observer.empty() ? label_of(of.files.front()) : of.observer;
+    check_observer_label(label);
+    const Observer observer{label, observer_number(label).value_or(0)};
     const SessionPlace place{of.sessions, protocol.name, observer.label, of.is_another_person};
     check_session_place(place, of.session_number);
 
     Imported imported;
     const std::optional<GazeColumns> given =
         options.columns.empty() ? std::nullopt : std::optional(gaze_columns_of(options.columns));
-    const ForeignGaze gaze(of.files, given, screen_geometry_of(protocol), of.as_gaze);
+    const ForeignGaze gaze(of.files, given, screen_geometry_of(protocol),
+                           {of.as_gaze, of.missing, of.least_read});
     int reported = 0;
     imported.survey = gaze.survey([&](const std::string& line) {
         if (reported++ < shown_rows)
@@ -159,7 +168,10 @@ Imported import_foreign(const ForeignImportOptions& options) {
     prepare_maps_alone(library, MapsNow::made, protocol);
     SessionHeader header = header_of_protocol(experiment, library, *context, observer);
     const TrialLog log =
-        options.trials.empty()
+        options.trials.empty() && gaze.has_messages()
+            ? trials_in_messages(imported.survey, trial_columns_of(options.trial_columns),
+                                 factor_names(header), of.files.front())
+        : options.trials.empty()
             ? trials_in_gaze(imported.survey, of.files.front())
             : read_trial_log(options.trials,
                              known_trial_columns(options.trials, trial_columns_of(options.trial_columns)),
@@ -202,7 +214,7 @@ Imported import_foreign(const ForeignImportOptions& options) {
 
 /// BIDS has the log of trials beside the gaze.
 ForeignImportOptions with_found_trials(ForeignImportOptions options) {
-    if (options.trials.empty() && options.columns.empty())
+    if (options.trials.empty() && options.columns.empty() && !is_asc_file(options.of_gaze.files.front()))
         options.trials = known_gaze_columns(options.of_gaze.files.front(), options.of_gaze.as_gaze).trials;
     return options;
 }

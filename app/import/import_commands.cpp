@@ -18,11 +18,12 @@ void add_import_commands(CLI::App& app, ChosenCommand& chosen) {
                     "--trial-log psychopy.csv "
                     "--trial-columns onset=face.started,marker=msg");
     command
-        .add_option("FILE", options.of_gaze.files,
-                    "Recording of an EyeLink in the text form that edf2asc writes, or two of one recording, "
-                    "its samples and its "
-                    "events (edf2asc -s and -e); with --protocol a table of gaze of any program, and files "
-                    "of its marks")
+        .add_option(
+            "FILE", options.of_gaze.files,
+            "Recording of an EyeLink in the text form that edf2asc writes, or two of one recording, "
+            "its samples and its "
+            "events (edf2asc -s and -e); with --protocol that, too, or a table of gaze of any program, and "
+            "files of its marks")
         ->required()
         ->expected(1, std::numeric_limits<int>::max());
     option(command, "--protocol", options.protocol, "PROTOCOL",
@@ -30,8 +31,7 @@ void add_import_commands(CLI::App& app, ChosenCommand& chosen) {
            "overt's own");
     option(command, "--trial-log", options.trials, "FILE",
            "With --protocol: log of the trials (CSV, TSV, PsychoPy, OpenSesame, BIDS events; default: the "
-           "column of the gaze "
-           "itself that names what was shown)");
+           "column of the gaze itself that names what was shown, or an EyeLink's messages)");
     option(command, "--frame-log", options.frames, "FILE",
            "With --protocol: log of the frames, or of the object's angles, that were shown (default: as the "
            "protocol plans them)");
@@ -41,8 +41,8 @@ void add_import_commands(CLI::App& app, ChosenCommand& chosen) {
            "time_unit, unit (px, normalised, degrees), valid, least_validity, y_up, zero_is_lost (default: "
            "by the file's program)");
     option(command, "--trial-columns", options.trial_columns, "KEY=COLUMN,…",
-           "With --protocol: columns of the log of trials (onset, end, duration, marker, marker_time, "
-           "answer, response_time, "
+           "With --protocol: columns of the log of trials (onset, end, duration, marker, marker_text, "
+           "marker_time, answer, response_time, "
            "correct, key, stimulus, object, material …) and unit (s, ms, us, ns)");
     option(command, "--frame-columns", options.frame_columns, "KEY=COLUMN,…",
            "With --protocol: columns of the log of frames (time, frame or angle, key) and unit");

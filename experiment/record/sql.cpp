@@ -75,7 +75,8 @@ SessionTime Query::session_time() {
 }
 
 TrackerTime Query::tracker_time() {
-    constexpr std::int64_t farthest_us = 1'000'000'000'000'000; // 31 years
+    // 126 years: some trackers count from 1970, and nanoseconds of it still fit.
+    constexpr std::int64_t farthest_us = 4'000'000'000'000'000;
     const std::int64_t us = integer();
     if (us > farthest_us || us < -farthest_us)
         throw RecordError(

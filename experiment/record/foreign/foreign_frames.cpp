@@ -46,8 +46,8 @@ AnimationFrameIndex frame_of(const LoggedFrame& row, const SessionHeader& header
 
 /// The rows of a trial; of a log without keys, those from its onset until its end or the next trial.
 std::vector<LoggedLight> frames_of_trial(const std::vector<LoggedFrame>& rows, const ForeignTrial& trial,
-                                      std::optional<SessionTime> end, const SessionHeader& header,
-                                      const ClockRelation& clocks, SessionDuration refresh) {
+                                         std::optional<SessionTime> end, const SessionHeader& header,
+                                         const ClockRelation& clocks, SessionDuration refresh) {
     std::vector<LoggedLight> lit;
     for (const LoggedFrame& row : rows) {
         const SessionTime at = clocks.session(row.at);
@@ -135,7 +135,8 @@ void add_flips(const SessionHeader& header, const std::optional<std::vector<Logg
         std::optional<SessionTime> stop = end;
         if (!stop && i + 1 < plan.trials.size())
             stop = plan.trials[i + 1].onset;
-        const std::vector<LoggedLight> lit = frames_of_trial(*frames, trial, stop, header, plan.clocks, refresh);
+        const std::vector<LoggedLight> lit =
+            frames_of_trial(*frames, trial, stop, header, plan.clocks, refresh);
         trial.onset = lit.front().at;
         trial.end = std::max(end.value_or(lit.back().at + refresh), lit.back().at + refresh);
         maker.keep(

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "experiment/base/error.h"
+#include "experiment/record/foreign/foreign_asc.h"
 
 namespace overt {
 namespace {
@@ -248,10 +249,21 @@ bool GazeFileReader::next(ForeignItem& item) {
 }
 
 ForeignGaze::ForeignGaze(std::vector<std::filesystem::path> files, const std::optional<GazeColumns>& given,
-                         const ScreenGeometry& screen, bool takes_any_gaze)
+                         const ScreenGeometry& screen, const GazeReading& reading)
     : screen_(screen) {
+    if (is_asc_file(files.front())) {
+        if (given)
+            throw InputError(
+                fmt::format("{}: is the recording of an EyeLink, whose lines have no names: leave "
+                            "out --columns",
+                            files.front().string()));
+        asc_ = std::make_unique<AscGaze>(files, reading);
+        for (const auto& file : files)
+            sources_.push_back({file, {}});
+        return;
+    }
     for (std::size_t i = 0; i < files.size(); ++i) {
-        GazeColumns columns = i == 0 && given ? *given : known_gaze_columns(files[i], takes_any_gaze);
+        GazeColumns columns = i == 0 && given ? *given : known_gaze_columns(files[i], reading.takes_any_gaze);
         if (i == 0 && columns.is_of_marks_alone())
             throw InputError(
                 fmt::format("{}: has marks and no gaze: name the table of gaze first", files[i].string()));
@@ -278,6 +290,8 @@ ForeignGaze::ForeignGaze(std::vector<std::filesystem::path> files, const std::op
             us_per_unit_ = us_of_unit(source.columns.time_unit, source.file);
 }
 
+ForeignGaze::~ForeignGaze() = default;
+
 std::vector<std::filesystem::path> ForeignGaze::files() const {
     std::vector<std::filesystem::path> files;
     for (const Source& source : sources_)
@@ -286,6 +300,8 @@ std::vector<std::filesystem::path> ForeignGaze::files() const {
 }
 
 void ForeignGaze::read(const std::function<void(const ForeignItem&)>& take) const {
+    if (asc_)
+        return asc_->read(take);
     struct Open {
         GazeFileReader reader;
         ForeignItem item{};
@@ -310,6 +326,8 @@ void ForeignGaze::read(const std::function<void(const ForeignItem&)>& take) cons
 }
 
 GazeSurvey ForeignGaze::survey(const RowReport& report) const {
+    if (asc_)
+        return asc_->survey(screen_.screen_px, report);
     GazeSurvey survey;
     survey.columns = sources_.front().columns;
     for (const Source& source : sources_) {

@@ -87,13 +87,29 @@ struct GazeSurvey {
     std::vector<std::string> remarks;
 };
 
+/// How files of gaze are to be read.
+struct GazeReading {
+    bool takes_any_gaze = false; ///< also of places that may not lie on the screen
+    /// Of an EyeLink's recording: what stands in place of lost values (nothing: it is found), and the least
+    /// share of its lines that must be readable.
+    std::optional<std::string> missing = {};
+    double least_read = 0.9;
+};
+
+class AscGaze;
+
 /// One recording in one file or more: of both eyes, or of gaze and of marks.
 class ForeignGaze {
   public:
     /// `given`: the columns of the first file; nothing: known_gaze_columns(). Finds the unit of time, and
-    /// files that belong to the first (BIDS). Throws InputError.
+    /// files that belong to the first (BIDS). Recordings of an EyeLink (is_asc_file()) have no columns.
+    /// Throws InputError.
     ForeignGaze(std::vector<std::filesystem::path> files, const std::optional<GazeColumns>& given,
-                const ScreenGeometry& screen, bool takes_any_gaze);
+                const ScreenGeometry& screen, const GazeReading& reading = {});
+    ~ForeignGaze();
+
+    /// Its messages say which trials there were (trials_in_messages()).
+    bool has_messages() const { return asc_ != nullptr; }
 
     /// Reads all of it. Throws InputError if times go back, if there is no sample, or if fewer than half of
     /// the rows can be read.
@@ -109,6 +125,7 @@ class ForeignGaze {
         GazeColumns columns;
     };
     std::vector<Source> sources_;
+    std::unique_ptr<AscGaze> asc_; ///< then `sources_` have their files alone
     ScreenGeometry screen_;
     double us_per_unit_ = 1.0; ///< of the first file
 };

@@ -210,7 +210,8 @@ ForeignPlan plan_foreign_trials(const SessionHeader& header, const TrialLog& log
                                 bool may_have_others) {
     ForeignPlan plan;
     plan.clocks = relate_clocks(log, gaze, log_file);
-    plan.remarks = plan.clocks.remarks;
+    plan.remarks = log.remarks;
+    plan.remarks.insert(plan.remarks.end(), plan.clocks.remarks.begin(), plan.clocks.remarks.end());
     const Namer namer(header);
     std::map<std::string, int> others;
     for (const LoggedTrial& logged : log.trials) {

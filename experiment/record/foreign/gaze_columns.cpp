@@ -229,6 +229,8 @@ GazeColumns bids_columns(const fs::path& file, bool is_of_events) {
         columns.names.push_back(name.is_string() ? name.get<std::string>() : std::string());
     if (columns.names.size() < 2)
         throw InputError(fmt::format("{}: \"Columns\" is missing", side_car.string()));
+    if (const auto start = json.find("StartTime"); start != json.end() && start->is_number())
+        columns.start_s = start->get<double>();
     columns.time = is_of_events ? "onset" : "timestamp";
     const std::string unit =
         json.contains(columns.time) ? text_at(json[columns.time], "Units") : std::string();

@@ -49,6 +49,7 @@ struct GazeColumns {
     std::filesystem::path other_eye = {};          ///< a further file, of the other eye
     std::vector<std::filesystem::path> marks = {}; ///< further files, of marks
     std::filesystem::path trials = {};             ///< a log of trials that lies beside it
+    double start_s = 0.0; ///< of BIDS (StartTime): the first sample's time in that log
     bool is_of_marks_alone() const { return !left.is_there() && !right.is_there() && !single.is_there(); }
 };
 

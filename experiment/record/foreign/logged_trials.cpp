@@ -51,7 +51,7 @@ TrialLog read_trial_log(const std::filesystem::path& file, const TrialColumns& c
     TrialLog log;
     log.program = columns.program;
     if (columns.from_first_sample && gaze)
-        log.zero = gaze->first;
+        log.zero = gaze->first - TrackerClock::duration(std::llround(1e6 * gaze->columns.start_s));
     std::map<std::string, std::size_t> trial_of_key;
     std::map<std::string, std::pair<std::string, std::optional<LogTime>>>
         answers; // of rows beside those of trials
@@ -85,6 +85,9 @@ TrialLog read_trial_log(const std::filesystem::path& file, const TrialColumns& c
             }
             continue;
         }
+        if (!columns.marker_text.empty())
+            log.markers.push_back({table.place(), columns.marker_text,
+                                   marker_time ? number_or_throw(marker_time, ns).value_or(*begin) : *begin});
         LoggedTrial trial;
         trial.place = table.place();
         trial.onset = *begin;

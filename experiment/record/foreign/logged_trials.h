@@ -37,8 +37,9 @@ struct TrialLog {
     std::vector<LoggedMarker> markers;
     /// The log's clock is the tracker's less this; nothing: its own, or that of the gaze.
     std::optional<TrackerTime> zero;
-    std::string program; ///< that wrote it, if that is known
-    LogTime tick{1000};  ///< half of it is how far a written time may be off
+    std::string program;                   ///< that wrote it, if that is known
+    LogTime tick{1000};                    ///< half of it is how far a written time may be off
+    std::vector<std::string> remarks = {}; ///< whole sentences
 };
 
 /// Names of columns of a log of trials; empty: there is none.
@@ -47,19 +48,21 @@ struct TrialColumns {
     std::string onset, end, duration;
     std::string unit; ///< "s", "ms", "us" or "ns"
     std::string marker,
-        marker_time; ///< text and time of the marker that was sent; without a time: at the onset
+        marker_time;         ///< text and time of the marker that was sent; without a time: at the onset
+    std::string marker_text; ///< of a marker that is the same for all trials, in place of a column
     std::string answer, response_time, correct, key;
     std::string only_column, only_word;       ///< rows of trials; others of the same key may hold the answer
     std::map<std::string, std::string> words; ///< column by factor
-    bool from_first_sample = false;           ///< times count from the first sample
+    /// Times count from the first sample, or so many seconds before it as GazeColumns::start_s says.
+    bool from_first_sample = false;
 };
 
 /// Nanoseconds in a unit of time: "s", "ms", "us", "ns", or empty for seconds. Throws InputError that names
 /// `option`.
 double ns_of_unit(const std::string& unit, std::string_view option);
 
-/// What `--trial-columns` says: onset, end, duration, unit, marker, marker_time, answer, response_time,
-/// correct, key, only (COLUMN:WORD), and any other key names a factor. Throws InputError.
+/// What `--trial-columns` says: onset, end, duration, unit, marker, marker_text, marker_time, answer,
+/// response_time, correct, key, only (COLUMN:WORD), and any other key names a factor. Throws InputError.
 TrialColumns trial_columns_of(const std::vector<std::string>& words);
 
 /// By the names of the columns: of BIDS events (those of overt's own export with the tracker's time),

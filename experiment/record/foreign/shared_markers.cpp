@@ -87,8 +87,13 @@ ClockRelation one_clock(const TrialLog& log, const GazeSurvey& gaze, const std::
         relation.pairs.push_back({session - relation.bound, at, session + relation.bound});
     }
     relation.remarks.push_back(
-        log.zero ? fmt::format("Times of {} count from the recording's first sample.", file)
-                 : fmt::format("Times of {} are taken for the tracker's own: no markers relate them.", file));
+        log.zero && gaze.columns.start_s != 0.0
+            ? fmt::format(
+                  "Times of {} count so that the recording's first sample is at {:.6g} s (StartTime).", file,
+                  gaze.columns.start_s)
+        : log.zero
+            ? fmt::format("Times of {} count from the recording's first sample.", file)
+            : fmt::format("Times of {} are taken for the tracker's own: no markers relate them.", file));
     return relation;
 }
 

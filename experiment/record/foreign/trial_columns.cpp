@@ -102,12 +102,15 @@ TrialColumns bids_event_columns(const ForeignTable& table) {
 }
 
 void lay_over(TrialColumns& columns, const TrialColumns& given) {
-    for (const auto member : {&TrialColumns::onset, &TrialColumns::end, &TrialColumns::duration,
-                              &TrialColumns::unit, &TrialColumns::marker, &TrialColumns::marker_time,
-                              &TrialColumns::answer, &TrialColumns::response_time, &TrialColumns::correct,
-                              &TrialColumns::key, &TrialColumns::only_column, &TrialColumns::only_word})
+    for (const auto member :
+         {&TrialColumns::onset, &TrialColumns::end, &TrialColumns::duration, &TrialColumns::unit,
+          &TrialColumns::marker, &TrialColumns::marker_time, &TrialColumns::marker_text,
+          &TrialColumns::answer, &TrialColumns::response_time, &TrialColumns::correct, &TrialColumns::key,
+          &TrialColumns::only_column, &TrialColumns::only_word})
         if (!(given.*member).empty())
             columns.*member = given.*member;
+    if (!given.marker_text.empty())
+        columns.marker.clear(); // in place of a column of that name
     for (const auto& [factor, column] : given.words)
         columns.words[factor] = column;
 }
@@ -141,6 +144,8 @@ TrialColumns trial_columns_of(const std::vector<std::string>& words) {
             columns.marker = value;
         else if (key == "marker_time")
             columns.marker_time = value;
+        else if (key == "marker_text")
+            columns.marker_text = value;
         else if (key == "answer")
             columns.answer = value;
         else if (key == "response_time")
@@ -159,6 +164,10 @@ TrialColumns trial_columns_of(const std::vector<std::string>& words) {
             columns.words[key] = value;
     }
     ns_of_unit(columns.unit, "--trial-columns");
+    if (!columns.marker.empty() && !columns.marker_text.empty())
+        throw InputError(
+            "--trial-columns: marker names a column of markers, marker_text one that is the same "
+            "for all trials: give one of them");
     return columns;
 }
 

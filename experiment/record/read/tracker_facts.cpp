@@ -21,6 +21,7 @@ struct NamedFacts {
 constexpr NamedFacts known_trackers[] = {
     {"eyelink", {"SR Research", "P-CR", PupilMeasure::area}},
     // Of a recording elsewhere its own lines say how it tracked.
+    {"EyeLink (pupil diameters)", {"SR Research", "", PupilMeasure::diameter}},
     {"EyeLink", {"SR Research", "", PupilMeasure::area}},
     {"tobii", {"Tobii", "P-CR", PupilMeasure::diameter_mm}},
     {"Open Gaze", {"Gazepoint", "P-CR", PupilMeasure::diameter_mm}},

@@ -59,7 +59,7 @@ TEST_CASE("the spacing of samples tells the unit of their times, and a coarse on
         for (int i = 0; i < 20; ++i)
             text += std::to_string(7.0 + i * step) + ",1,2\n";
         GazeColumns columns = gaze_columns_of({"time=t,x=x,y=y"});
-        return ForeignGaze({foreign_file(folder, name, text)}, columns, ScreenGeometry(), false).survey({});
+        return ForeignGaze({foreign_file(folder, name, text)}, columns, ScreenGeometry()).survey({});
     };
     const GazeSurvey seconds = surveyed(0.004, "s.csv"), milliseconds = surveyed(4.0, "ms.csv"),
                      microseconds = surveyed(4000.0, "us.csv");
@@ -83,7 +83,7 @@ TEST_CASE("places are put onto the screen by their unit and their corner", "[uni
         screen.viewing_distance_mm = 500.0;
         const GazeColumns columns = gaze_columns_of({"time=t,x=x,y=y,validity=ok,time_unit=ms," + words});
         std::vector<std::optional<ScreenPoint>> places;
-        ForeignGaze({file}, columns, screen, false).read([&](const ForeignItem& item) {
+        ForeignGaze({file}, columns, screen).read([&](const ForeignItem& item) {
             places.push_back(item.sample->gaze);
         });
         REQUIRE(places.size() == 2);
@@ -117,7 +117,7 @@ TEST_CASE("of Tobii's spaces of coordinates that of the display is taken, and it
         text += std::to_string(coarse_ms) + "\tEye Tracker\t" + std::to_string(fine_us) +
                 (i == 5 ? "\t\t\t\t\t\t\t\tInvalid\n" : "\t\t537\t362\t147,6\t0,28\t0,34\t2,925\tValid\n");
     }
-    const ForeignGaze gaze({foreign_file(folder, "t.tsv", text)}, std::nullopt, ScreenGeometry(), false);
+    const ForeignGaze gaze({foreign_file(folder, "t.tsv", text)}, std::nullopt, ScreenGeometry());
     const GazeSurvey survey = gaze.survey({});
     CHECK(survey.columns.program == "Tobii Pro Lab");
     CHECK(survey.rows_left_out == 0);
@@ -153,7 +153,7 @@ TEST_CASE("Tobii Studio's codes of validity are 0 and 1 for gaze, and its marks 
         "0\tvase.png\tImageStart\tvase.png\t\t\t\t\n";
     for (int code = 0; code <= 4; ++code)
         text += std::to_string(8 + 8 * code) + "\tvase.png\t\t\t100\t50\t3,1\t" + std::to_string(code) + "\n";
-    const ForeignGaze gaze({foreign_file(folder, "s.tsv", text)}, std::nullopt, ScreenGeometry(), false);
+    const ForeignGaze gaze({foreign_file(folder, "s.tsv", text)}, std::nullopt, ScreenGeometry());
     const GazeSurvey survey = gaze.survey({});
     CHECK(survey.columns.program == "Tobii Studio");
     CHECK(survey.samples == 5); // the mark's row is no lost sample
@@ -171,7 +171,7 @@ TEST_CASE("BeGaze's rows say what was shown", "[unit]") {
     for (int i = 0; i < 3; ++i)
         text += std::to_string(70590726108 + 4000 * i) + "\tSMP\t1\t858.16\t516.11\tvase.bmp\n";
     const GazeSurvey survey =
-        ForeignGaze({foreign_file(folder, "b.txt", text)}, std::nullopt, ScreenGeometry(), false).survey({});
+        ForeignGaze({foreign_file(folder, "b.txt", text)}, std::nullopt, ScreenGeometry()).survey({});
     CHECK(survey.rate_hz == Approx(250.0));
     REQUIRE(survey.marks.size() == 2);
     CHECK(survey.marks[0].text == "vase.bmp");
@@ -193,7 +193,7 @@ TEST_CASE("Neon's Marker Mapper has places on the screen from its upper left, an
             "s,r,1700000000000000000,True,0.25,0.1,1,\ns,r,1700000000005000000,False,,,,\n");
     const auto events =
         foreign_file(folder, "events.csv", of_id + "name,type\nr,1700000000004000000,trial 1,recording\n");
-    const ForeignGaze gaze({gaze_file, events}, std::nullopt, screen, false);
+    const ForeignGaze gaze({gaze_file, events}, std::nullopt, screen);
     const GazeSurvey survey = gaze.survey({});
     CHECK(survey.columns.program == "Pupil Labs Neon");
     CHECK(survey.rate_hz == Approx(200.0));
@@ -209,5 +209,5 @@ TEST_CASE("Neon's Marker Mapper has places on the screen from its upper left, an
     CHECK(samples[0].gaze->x_px == 250.0);
     CHECK(samples[0].gaze->y_px == 50.0);
     const auto scene = foreign_file(folder, "scene.csv", of_id + "gaze x [px],gaze y [px],worn\nr,1,2,3,1\n");
-    CHECK_THROWS_AS(ForeignGaze({scene}, std::nullopt, screen, false), InputError);
+    CHECK_THROWS_AS(ForeignGaze({scene}, std::nullopt, screen), InputError);
 }

@@ -98,4 +98,8 @@ TEST_CASE("a log without markers has the tracker's clock, or is refused", "[unit
     relation = relate_clocks(clocks.log, clocks.gaze, "log.csv");
     CHECK(ClockMap(relation.pairs).to_session(tracker_time(50'000'000)).time ==
           relation.session(LogTime(45'000'000'000)));
+    CHECK(relation.remarks.front() == "Times of log.csv count from the recording's first sample.");
+    clocks.gaze.columns.start_s = -2.5;
+    CHECK(relate_clocks(clocks.log, clocks.gaze, "log.csv").remarks.front() ==
+          "Times of log.csv count so that the recording's first sample is at -2.5 s (StartTime).");
 }

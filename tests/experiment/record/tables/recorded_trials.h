@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "experiment/record/session_schema.h"
 #include "experiment/record/tables/export_tables.h"
 #include "tests/experiment/record/session_fixture.h"
 
