@@ -42,11 +42,17 @@ SessionHeader header_of_protocol(const Experiment& experiment, StimulusLibrary& 
     return header;
 }
 
+/// Columns that are taken without being named. What another program calls "background" or "view" is the
+/// protocol's where that has a choice of them.
 std::vector<std::string> factor_names(const SessionHeader& header) {
-    std::vector<std::string> names{"task", "slot"};
-    for (const StimulusList& list : stimulus_lists)
-        names.emplace_back(list.name);
-    static_cast<void>(header);
+    std::vector<std::string> names{"task"};
+    if (header.slots.size() > 1)
+        names.emplace_back("slot");
+    for (std::size_t list = 0; list < stimulus_lists.size(); ++list) {
+        const std::string name(stimulus_lists[list].name);
+        if (name == "object" || name == "material" || entries_of(header, list).size() > 1)
+            names.push_back(name);
+    }
     return names;
 }
 

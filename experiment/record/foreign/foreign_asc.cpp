@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::string_view begin_of_viewer = "TRIALID", begin_of_opensesame = "start_trial",
                            end_of_viewer = "TRIAL_RESULT", end_of_opensesame = "end_trial",
-                           viewer_onset = "SYNCTIME", viewer_command = "!V",
+                           end_of_pygaze = "stop_trial", viewer_onset = "SYNCTIME", viewer_command = "!V",
                            variable_of_viewer = "!V TRIAL_VAR", variable_of_opensesame = "var";
 
 /// Whether a text begins with these words: "SYNCTIME 3" does with "SYNCTIME", "SYNCTIMES" does not.
@@ -147,7 +147,8 @@ class MessageTrials {
         MessageTrial& trial = trials_.back();
         if (!end_.empty() && begins_with(said, end_) && trial.onset && !trial.end)
             trial.end = at;
-        if (begins_with(text, end_of_viewer) || begins_with(text, end_of_opensesame))
+        if (begins_with(text, end_of_viewer) || begins_with(text, end_of_opensesame) ||
+            begins_with(text, end_of_pygaze))
             is_open_ = !has_begins_;
         else if (begins_with(text, variable_of_viewer))
             take_variable(trial, text.substr(variable_of_viewer.size()));
@@ -250,7 +251,10 @@ GazeSurvey AscGaze::survey(glm::dvec2 screen_px, const RowReport& report) const 
     survey.has_right = found.has_right;
     survey.rate_hz = found.rate_hz;
     survey.tick = std::chrono::milliseconds(1); // of its messages
-    if (found.screen_px && glm::dvec2(*found.screen_px) != screen_px)
+    // Many a program names the number of pixels where the last one belongs: "0 0 1024 768".
+    const auto differ = [](double a, double b) { return std::abs(a - b) > 1.0; };
+    if (found.screen_px &&
+        (differ(found.screen_px->x, screen_px.x) || differ(found.screen_px->y, screen_px.y)))
         throw InputError(fmt::format(
             "{}: its gaze is in pixels of a screen of {} x {}, and the protocol's [display] has {} x {}: "
             "give width_px and height_px of the screen that was there, or gaze and surface do not go "

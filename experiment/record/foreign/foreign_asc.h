@@ -26,7 +26,7 @@ class AscGaze {
     AscGaze(const std::vector<std::filesystem::path>& files, const GazeReading& reading);
 
     /// Throws InputError as survey_asc() does, and if the recording's screen has other pixels than
-    /// `screen_px`.
+    /// `screen_px`, by more than one.
     GazeSurvey survey(glm::dvec2 screen_px, const RowReport& report) const;
     /// In the order of the file.
     void read(const std::function<void(const ForeignItem&)>& take) const;
@@ -37,14 +37,14 @@ class AscGaze {
 };
 
 /// Trials by the recording's messages. TRIALID (or OpenSesame's start_trial) begins one and TRIAL_RESULT
-/// (end_trial) ends it; without any, each onset is a trial. Its onset is the first message that begins with
-/// `columns.onset`, or with SYNCTIME, or with PRESENTATION_ONSET, and its end that with `columns.end`, or
-/// PRESENTATION_OFFSET. What was shown is in its variables ("!V TRIAL_VAR NAME VALUE", OpenSesame's
-/// "var NAME VALUE"): those that are called as one of `factors` or "stimulus" are taken, and those that
-/// `columns.words`, `answer`, `response_time` (in `unit`, else ms) and `correct` name; without any of these a
-/// picture that a message loads ("!V IMGLOAD", "!V VFRAME") is the stimulus. Trials without an onset are left
-/// out with a remark. Throws InputError, with the words that messages begin with, if there is no onset, or if
-/// no trial has a variable that is named.
+/// (end_trial, stop_trial) ends it; without any, each onset is a trial. Its onset is the first message that
+/// begins with `columns.onset`, or with SYNCTIME, or with PRESENTATION_ONSET, and its end that with
+/// `columns.end`, or PRESENTATION_OFFSET. What was shown is in its variables ("!V TRIAL_VAR NAME VALUE",
+/// OpenSesame's "var NAME VALUE"): those that are called as one of `factors` or "stimulus" are taken, and
+/// those that `columns.words`, `answer`, `response_time` (in `unit`, else ms) and `correct` name; without any
+/// of these a picture that a message loads ("!V IMGLOAD", "!V VFRAME") is the stimulus. Trials without an
+/// onset are left out with a remark. Throws InputError, with the words that messages begin with, if there is
+/// no onset, or if no trial has a variable that is named.
 TrialLog trials_in_messages(const GazeSurvey& gaze, const TrialColumns& columns,
                             const std::vector<std::string>& factors, const std::filesystem::path& file);
 

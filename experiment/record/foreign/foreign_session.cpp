@@ -242,9 +242,15 @@ ForeignPlan plan_foreign_trials(const SessionHeader& header, const TrialLog& log
     for (const auto& [name, count] : others)
         plan.remarks.push_back(
             fmt::format("\"{}\" ({} times) is no stimulus of the protocol and is left out.", name, count));
-    if (plan.trials.empty())
-        throw InputError(fmt::format("{}: none of its trials shows a stimulus of the protocol, which has {}",
-                                     log_file, namer.known_stimuli()));
+    if (plan.trials.empty()) {
+        std::vector<std::string> names;
+        for (const auto& [name, count] : others)
+            if (names.size() < 12)
+                names.push_back(name);
+        throw InputError(fmt::format("{}: none of its trials shows a stimulus of the protocol, which has {}; "
+                                     "they show {}",
+                                     log_file, namer.known_stimuli(), fmt::join(names, ", ")));
+    }
     add_flips(header, frames, plan);
     set_windows(plan.trials);
     return plan;

@@ -109,6 +109,8 @@ TEST_CASE("a recording of another screen is refused, and columns are none of an 
     CHECK(refusal_of([&] {
               ForeignGaze({file}, gaze_columns_of({"time=t,x=a,y=b"}), screen_800_600());
           }).find("leave out --columns") != std::string::npos);
+    CHECK(surveyed_asc(recording_in(folder, recorded_asc({}, "MSG\t900 DISPLAY_COORDS 0 0 800 600\n")))
+              .samples == 100);
     const GazeSurvey survey = surveyed_asc(recording_in(folder, recorded_asc({}, "")));
     REQUIRE(!survey.remarks.empty());
     CHECK(survey.remarks.front().find("taken for that of the protocol") != std::string::npos);
@@ -159,7 +161,8 @@ TEST_CASE("trials are told by other programs' messages, by pictures, and by onse
                                                              {1006, "var variance 2"},
                                                              {1010, "start_phase picture"},
                                                              {1020, "end_phase picture"},
-                                                             {1024, "end_trial"}})),
+                                                             {1024, "stop_trial"},
+                                              {1026, "var object cube"}})),
                           {"onset=start_phase picture,end=end_phase picture"});
     REQUIRE(opensesame.trials.size() == 1);
     CHECK(opensesame.trials[0].onset == std::chrono::milliseconds(1010));
