@@ -63,6 +63,15 @@ std::optional<int> answer_to_no_command(const CLI::App& app, int argc, char** ar
     return 2;
 }
 
+/// A flag that is given a value ("--tfce=3") is refused, and not read as something else.
+void let_flags_have_no_values(CLI::App& app) {
+    for (CLI::Option* option : app.get_options())
+        if (option->get_items_expected_max() == 0)
+            option->disable_flag_override();
+    for (CLI::App* below : app.get_subcommands({}))
+        let_flags_have_no_values(*below);
+}
+
 } // namespace
 
 int run_command_line(int argc, char** argv) {
@@ -83,6 +92,7 @@ int run_command_line(int argc, char** argv) {
           add_power_command, add_stimulus_commands, add_tracker_commands, add_display_commands,
           add_doctor_command, add_bench_commands, add_manual_commands})
         add_commands(app, chosen);
+    let_flags_have_no_values(app);
 
     if (const std::optional<int> answer = answer_to_no_command(app, argc, argv))
         return *answer;

@@ -88,6 +88,13 @@ std::string unknown_word(const CLI::App& command, const std::string& word) {
                        suggest_name(word, known));
 }
 
+/// "--tfce" of "tfce was given a disallowed flag override"; empty if that is no flag of the command.
+std::string flag_of(const CLI::App& command, std::string_view text) {
+    std::string name = fmt::format("--{}", without_dashes(text.substr(0, text.find(' '))));
+    const CLI::Option* option = command.get_option_no_throw(name);
+    return option && option->get_items_expected_max() == 0 ? name : std::string();
+}
+
 } // namespace
 
 std::vector<std::string> line_faults(const CLI::App& app, const CLI::ParseError& error) {
@@ -114,6 +121,9 @@ std::vector<std::string> line_faults(const CLI::App& app, const CLI::ParseError&
     if (is(CLI::ExitCodes::RequiredError) && !commands.empty())
         faults.push_back(
             fmt::format("{}: a command has to follow: {}", called(command), fmt::join(commands, ", ")));
+    else if (const std::string flag = flag_of(command, error.what());
+             is(CLI::ExitCodes::ArgumentMismatch) && !flag.empty())
+        faults.push_back(fmt::format("{}: {} takes no value", called(command), flag));
     else
         faults.push_back(fmt::format("{}: {}", called(command), error.what()));
     return faults;

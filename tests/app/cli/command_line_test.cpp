@@ -79,6 +79,9 @@ TEST_CASE("a mistyped option, command or word is told with what was probably mea
     check_refused("check p.toml --wholly-unheard-of", {"overt check --help"});
     check_refused("check p.toml another.toml", {"\"another.toml\" is one word too many"});
 
+    check_refused("analyze s --tfce=3", {"overt analyze: --tfce takes no value"});
+    check_refused("check p.toml --json=no", {"overt check: --json takes no value"});
+
     check_refused("rnu p.toml", {"did you mean \"run\"?"});
     check_refused("tracker lsit", {"did you mean \"list\"?"});
     check_refused("display p.toml", {"there is no command \"p.toml\"", "verify, status"});
