@@ -45,18 +45,21 @@ TEST_CASE("session files that fuzzers found worth keeping are exported or refuse
 TEST_CASE("meshes, maps, included texts and shards, whole and damaged, are read or refused", "[unit]") {
     using namespace overt::fuzz;
     CHECK(replay("mesh", [](std::string_view bytes) { overt::test::each_damage(bytes, 60, take_mesh); }) > 0);
+    CHECK(replay("labels", [](std::string_view bytes) { overt::test::each_damage(bytes, 40, take_labels); }) >
+          0);
     CHECK(replay("gltf", [](std::string_view bytes) { overt::test::each_damage(bytes, 40, take_gltf); }) > 0);
     CHECK(replay("map", [](std::string_view bytes) { overt::test::each_damage(bytes, 15, take_map); }) > 0);
     CHECK(replay("texts", [](std::string_view bytes) { overt::test::each_damage(bytes, 40, take_texts); }) >
           0);
     CHECK(replay("shard", [](std::string_view bytes) { overt::test::each_damage(bytes, 40, take_shard); }) >
           0);
-    for (const char* const target : {"mesh", "gltf", "map", "texts", "shard"})
-        CHECK(replay(target, target == std::string_view("mesh")    ? take_mesh
-                             : target == std::string_view("gltf")  ? take_gltf
-                             : target == std::string_view("map")   ? take_map
-                             : target == std::string_view("texts") ? take_texts
-                                                                   : take_shard) > 0);
+    for (const char* const target : {"mesh", "labels", "gltf", "map", "texts", "shard"})
+        CHECK(replay(target, target == std::string_view("mesh")     ? take_mesh
+                             : target == std::string_view("labels") ? take_labels
+                             : target == std::string_view("gltf")   ? take_gltf
+                             : target == std::string_view("map")    ? take_map
+                             : target == std::string_view("texts")  ? take_texts
+                                                                    : take_shard) > 0);
 }
 
 TEST_CASE("what goes through the operator's socket is understood or left out, whole and damaged", "[unit]") {

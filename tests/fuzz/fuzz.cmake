@@ -1,7 +1,7 @@
 # Fuzzers of what comes from outside, for clang: cmake -DOVERT_FUZZ=ON -DCMAKE_CXX_COMPILER=clang++. See fuzz/run.
 option(OVERT_FUZZ "Build the fuzzers with libFuzzer, AddressSanitizer and UndefinedBehaviorSanitizer" OFF)
 if(OVERT_FUZZ)
-    set(fuzzers protocol texts mesh gltf map asc session shard opengaze pupil hid boxes view)
+    set(fuzzers protocol texts mesh labels gltf map asc session shard opengaze pupil hid boxes view)
     foreach(target IN LISTS fuzzers)
         add_executable(fuzz_${target} fuzz/fuzz_${target}.cpp)
         target_link_libraries(fuzz_${target} PRIVATE overt_experiment_checks overt_experiment_record_asc overt_experiment_record_bids overt_experiment_record_verify overt_experiment_study_read overt_devices_opengaze overt_devices_pupil overt_devices_buttons overt_devices_eyelink overt_experiment_watch overt_warnings)

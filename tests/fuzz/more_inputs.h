@@ -45,6 +45,22 @@ inline void take_mesh(std::string_view bytes) {
     });
 }
 
+/// As whatever file may say which parts a coloured square of two triangles has.
+inline void take_labels(std::string_view bytes) {
+    const ScratchFolder folder("overt-fuzz");
+    MeshImport import;
+    const std::filesystem::path mesh =
+        put(folder, "square.obj",
+            "v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 1 1 0 0 1 0\nv 0 1 0 0 1 0\nf 1 2 3\nf 1 3 4\n");
+    for (const char* name : {"fuzz.txt", "fuzz.annot", "fuzz.label"}) {
+        import.labels = put(folder, name, bytes);
+        whatever_it_says([&] {
+            MeshCleaningReport report;
+            import_mesh(mesh, import, report);
+        });
+    }
+}
+
 /// As a .glb or .gltf, with its materials and pictures.
 inline void take_gltf(std::string_view bytes) {
     const ScratchFolder folder("overt-fuzz");

@@ -294,9 +294,12 @@ std::vector<Key> object() {
          "every export says so."},
         {"labels", &S::labels, left_out("the labels of the mesh file, if it has any"),
          "A text file with a whole number for each triangle of the mesh, or for each vertex: which part it "
-         "belongs to. Lines `# part 1 rim` name parts. Each part is an area, as are the groups of a mesh "
+         "belongs to. Lines `# part 1 rim` name parts. Or lines `# colour #ff8000 rim` alone: parts are "
+         "painted on the mesh, or on a copy of it that a line `# colours painted.glb` names. Or an "
+         "annotation "
+         "(.annot) or a label (.label) of FreeSurfer. Each part is an area, as are the groups of a mesh "
          "file; "
-         "beside `areas` both hold, and a triangle may belong to several."},
+         "beside `areas` both hold, and a triangle may belong to several. See docs/objects.md."},
         {"parts_by", &S::parts_by, left_out("\"group\", and \"material\" of glTF"),
          "What of the mesh file divides it into parts, each of which is an area: its groups (`g` and `o` of "
          "OBJ, the nodes of glTF), or its materials (`usemtl` of OBJ, the materials of glTF)."},
@@ -308,7 +311,8 @@ std::vector<Key> object() {
          "stimulus "
          "(`[view]`), which it fills, shown as it is, without light: PNG, JPEG or TIFF, sRGB of Rec. 709 "
          "colours, or EXR or HDR, linear, 1 being the display's white. With # for the digits of a number, "
-         "the pictures of a movie, for a motion of the kind \"movie\"; without, one picture all the time. Its surface is that of the screen, in "
+         "the pictures of a movie, for a motion of the kind \"movie\"; without, one picture all the time. "
+         "Its surface is that of the screen, in "
          "millimetres from the lower left corner, so that maps, areas and measures of gaze are as for other "
          "objects. A protocol that has nothing but pictures needs no `[[material]]`."},
         {"picture_first_number", &S::picture_first_number, range(0, 1000000),

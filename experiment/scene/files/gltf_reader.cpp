@@ -17,6 +17,7 @@
 #include "experiment/scene/files/gltf_materials.h"
 #include "experiment/scene/files/gltf_nodes.h"
 #include "experiment/scene/files/mesh_text.h"
+#include "experiment/scene/files/triangle_labels.h"
 
 namespace overt {
 namespace {
@@ -128,10 +129,32 @@ class GltfReader {
         for (const glm::uvec3& triangle : triangles)
             mesh_.triangles.push_back(triangle + first_vertex);
         mesh_.triangle_labels.resize(mesh_.triangles.size(), label);
+        add_areas(attributes, triangles, count);
         const std::uint16_t material = material_of(primitive);
         mesh_.triangle_materials.resize(mesh_.triangles.size(), material);
         if (wants_look_)
             add_look(primitive, attributes, material, triangles, count);
+    }
+
+    /// By an attribute _AOI: a whole number for each vertex, as Blender exports the attribute of a face, with
+    /// the same number at its corners. Where they differ, the middle one of the three.
+    void add_areas(const GltfValue& attributes, const std::vector<glm::uvec3>& triangles, std::size_t count) {
+        const std::optional<GltfValue> index = attributes.find("_AOI");
+        if (!index)
+            return;
+        const GltfNumbers numbers = accessors_.numbers(*index, {"SCALAR"});
+        expect_count(*index, numbers, count);
+        std::vector<PartLabel> labels;
+        for (std::size_t i = 0; i < count; ++i) {
+            const double number = numbers[i][0];
+            constexpr double most = 1e6, most_off = 0.01;
+            if (std::abs(number) > most || std::abs(number - std::round(number)) > most_off)
+                index->fail(fmt::format("vertex {} has the area {}: a whole number is expected.", i, number));
+            labels.push_back(static_cast<PartLabel>(std::lround(number)));
+        }
+        area_labels_.resize(mesh_.triangles.size() - triangles.size(), 0);
+        for (const glm::uvec3& triangle : triangles)
+            area_labels_.push_back(middle_label(labels[triangle.x], labels[triangle.y], labels[triangle.z]));
     }
 
     /// A file may have the same numbers placed a million times: what it makes is held against what it has.
@@ -256,6 +279,12 @@ class GltfReader {
     }
 
     void keep_labels_if_several() {
+        if (!area_labels_.empty()) {
+            area_labels_.resize(mesh_.triangles.size(), 0);
+            mesh_.triangle_labels = std::move(area_labels_);
+            mesh_.are_areas_labelled = true;
+            return;
+        }
         if (labels_.size() < 2) {
             mesh_.triangle_labels = {};
             return;
@@ -352,6 +381,7 @@ class GltfReader {
     std::vector<GltfMaterial> materials_;
     std::map<std::string, PartLabel> labels_;
     std::vector<std::string> label_names_;
+    std::vector<PartLabel> area_labels_; ///< of triangles, by the attribute _AOI; empty: there is none
     std::optional<std::size_t> without_material_;
     std::size_t vertices_ = 0, corners_ = 0, left_primitives_ = 0;
     bool has_variants_ = false;

@@ -12,6 +12,7 @@
 
 #include "experiment/base/error.h"
 #include "experiment/base/memory_for.h"
+#include "experiment/scene/files/freesurfer.h"
 #include "experiment/scene/files/gltf_reader.h"
 #include "experiment/scene/files/mesh_source.h"
 #include "experiment/scene/files/obj_reader.h"
@@ -160,6 +161,8 @@ RawMesh read_opened(const std::filesystem::path& path, MeshWanted wanted) {
         source.fail(remedy);
     if (is_ply(source))
         return read_ply(source, wanted);
+    if (is_freesurfer_surface(source))
+        return read_freesurfer_surface(source);
     switch (stl_form(source)) {
     case StlForm::binary:
         return read_binary_stl(source);
@@ -222,10 +225,10 @@ glm::dmat3 z_up_from_file(UpAxis up) {
 Mesh import_mesh(const std::filesystem::path& path, const MeshImport& import, MeshCleaningReport& report,
                  SurfaceAppearance* appearance) {
     RawMesh raw = read_mesh_file(path, appearance ? MeshWanted::appearance : MeshWanted::shape);
-    if (import.parts_by_material.value_or(is_gltf_name(path)))
+    if (import.parts_by_material.value_or(is_gltf_name(path) && !raw.are_areas_labelled))
         divide_by_materials(raw);
     if (!import.labels.empty())
-        label_by_file(raw, import.labels);
+        label_by_file(raw, import.labels, path);
     try {
         MeshCleaningReport of_file;
         of_file.vertices_read = raw.positions.size();

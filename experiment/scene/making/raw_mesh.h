@@ -31,6 +31,7 @@ struct RawMesh {
     std::vector<glm::uvec3> triangles;
     std::vector<PartLabel> triangle_labels;      ///< one per triangle, or empty if the file labels nothing
     std::map<PartLabel, std::string> part_names; ///< names that the file gives to labels; may be empty
+    bool are_areas_labelled = false; ///< by an attribute that is there for it, and not by groups or nodes
     /// What the triangles are made of, as an index into material_names for each; empty if the file does not
     /// say.
     std::vector<std::uint16_t> triangle_materials;

@@ -420,9 +420,12 @@ StudyHeadline study_headline(const StudyResults& results, const StudyOptions& op
         if (!task.title.empty() && std::ranges::find(questions, task.title) == questions.end())
             questions.push_back(task.title);
     constexpr std::size_t most_questions = 4;
-    if (!questions.empty() && questions.size() <= most_questions)
-        for (const std::string& question : questions)
-            headline.question += (headline.question.empty() ? "" : " / ") + question;
+    // Of many the first, and how many more there are.
+    const std::size_t shown = questions.size() <= most_questions ? questions.size() : most_questions - 1;
+    for (std::size_t i = 0; i < shown; ++i)
+        headline.question += (i == 0 ? "" : " / ") + questions[i];
+    if (shown < questions.size())
+        headline.question += fmt::format(" / and {} more", questions.size() - shown);
     add_sentence(headline.design, design_clause(results));
     const StudyGlance& glance = results.glance;
     std::vector<std::string> left_out;

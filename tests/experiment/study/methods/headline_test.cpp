@@ -186,3 +186,17 @@ TEST_CASE("what differs has factors of the trials' own, and places that were poi
                Contains("42 mm (95 % interval 30 to 54 mm) apart in the mean, where chance gives "
                         "140 mm, over 5 observers"));
 }
+
+TEST_CASE("the questions are those that were asked, of many the first", "[unit]") {
+    StudyResults results = study_of_pairs();
+    for (const char* id : {"a", "b", "c", "d"}) {
+        results.sessions.front().setup.tasks.push_back({id, fmt::format("Question {}?", id)});
+        results.trials.emplace_back().keys = {{"task", id}};
+    }
+    CHECK(study_headline(results, {}).question == "Question a? / Question b? / Question c? / Question d?");
+    for (const char* id : {"e", "f"}) {
+        results.sessions.front().setup.tasks.push_back({id, fmt::format("Question {}?", id)});
+        results.trials.emplace_back().keys = {{"task", id}};
+    }
+    CHECK(study_headline(results, {}).question == "Question a? / Question b? / Question c? / and 3 more");
+}
