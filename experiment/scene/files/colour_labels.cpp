@@ -16,6 +16,8 @@ namespace {
 constexpr int most_codes_off = 2;
 /// Of the area: what soft brushes leave at edges; more is a colour that was forgotten.
 constexpr double most_without_colour = 0.05;
+/// Of the area: more than borders of regions are on a mesh that is fine enough for them.
+constexpr double most_mixed = 0.1;
 
 /// The code of linear light, by sRGB (IEC 61966-2-1).
 int srgb_code(float linear) {
@@ -147,7 +149,7 @@ void label_by_colours(RawMesh& mesh, const SurfaceAppearance& look, std::span<co
             "{:.1f} % of the area has none of the colours of parts and is given to the part of the "
             "nearest colour; the first is triangle {}, {}.",
             100.0 * share, first_unknown->first + 1, colour_code_text(first_unknown->second)));
-    if (mixed > 0.0)
+    if (mixed > most_mixed * all)
         mesh.remarks.push_back(fmt::format("{:.1f} % of the area is of triangles with several colours, each "
                                            "of the part that has most of it.",
                                            100.0 * mixed / all));
