@@ -215,6 +215,48 @@ std::string value_of(const MessageTrial& trial, const std::string& name) {
     return found == trial.variables.end() || is_missing_cell(found->second) ? std::string() : found->second;
 }
 
+/// "512,384" or "-2.0,5.8".
+std::optional<glm::dvec2> pair_in(std::string_view word) {
+    const std::size_t comma = word.find(',');
+    if (comma == std::string_view::npos)
+        return std::nullopt;
+    const auto x = number_of(word.substr(0, comma)), y = number_of(word.substr(comma + 1));
+    return x && y ? std::optional(glm::dvec2(*x, *y)) : std::nullopt;
+}
+
+/// Of the words behind "VALIDATE"; nothing for a line that says otherwise.
+std::optional<ValidatedTarget> validated_target(std::string_view text) {
+    Words words(text);
+    ValidatedTarget target;
+    std::string_view word = words.next();
+    while (!word.empty() && word != "LEFT" && word != "RIGHT")
+        word = words.next();
+    target.eye = word == "LEFT" ? Eye::left : Eye::right;
+    if (word.empty() || words.next() != "at")
+        return std::nullopt;
+    const std::optional<glm::dvec2> place = pair_in(words.next());
+    if (!place)
+        return std::nullopt;
+    target.target = {place->x, place->y};
+    if (words.next() != "OFFSET")
+        return target; // MISSING
+    const std::optional<double> error_deg = number_of(words.next());
+    words.next(); // deg.
+    const std::optional<glm::dvec2> off = pair_in(words.next());
+    if (!error_deg || *error_deg < 0.0 || !off)
+        return std::nullopt;
+    target.error = {*error_deg};
+    target.gaze = ScreenPoint{place->x + off->x, place->y + off->y};
+    return target;
+}
+
+/// The number between these words and a blank behind it.
+std::optional<double> number_after(std::string_view text, std::string_view words) {
+    const std::size_t at = text.find(words);
+    return at == std::string_view::npos ? std::nullopt
+                                        : number_of(Words(text.substr(at + words.size())).next());
+}
+
 } // namespace
 
 bool is_asc_file(const std::filesystem::path& file) {
@@ -370,6 +412,37 @@ TrialLog trials_in_messages(const GazeSurvey& gaze, const TrialColumns& columns,
                         without_onset, found.trials().size(), onset));
     std::ranges::stable_sort(log.trials, {}, &LoggedTrial::onset);
     return log;
+}
+
+std::vector<ToldValidation> validations_in_messages(std::span<const GazeMark> marks) {
+    // Lines of one validation stand within some ms of each other.
+    constexpr TrackerClock::duration together = std::chrono::seconds(1);
+    std::vector<ToldValidation> all;
+    std::vector<int> eyes; // with sums, of each
+    for (const GazeMark& mark : marks) {
+        const std::string_view text = mark.text;
+        if (begins_with(text, "!CAL VALIDATION")) {
+            const std::optional<double> mean_deg = number_after(text, "ERROR"),
+                                        max_deg = number_after(text, "avg.");
+            if (!mean_deg || !max_deg || *mean_deg < 0.0 || *max_deg < 0.0)
+                continue; // ABORTED
+            if (all.empty() || mark.at - all.back().at > together) {
+                all.push_back({mark.at, {{0.0}, {0.0}, {}}});
+                eyes.push_back(0);
+            }
+            ValidationResult& found = all.back().found;
+            const int before = eyes.back()++;
+            found.mean_error = {(found.mean_error.value * before + *mean_deg) / (before + 1)};
+            found.max_error = {std::max(found.max_error.value, *max_deg)};
+        } else if (begins_with(text, "VALIDATE") && !all.empty() && mark.at - all.back().at <= together) {
+            if (const auto target = validated_target(text))
+                all.back().found.targets.push_back(*target);
+        }
+    }
+    for (ToldValidation& one : all)
+        if (ValidationResult summed = one.found; summed.sum_up() > 0)
+            one.found = summed;
+    return all;
 }
 
 } // namespace overt

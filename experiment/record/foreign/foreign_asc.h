@@ -4,9 +4,11 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "experiment/ports/validation.h"
 #include "experiment/record/asc/asc_files.h"
 #include "experiment/record/asc/asc_survey.h"
 #include "experiment/record/foreign/foreign_gaze.h"
@@ -47,5 +49,16 @@ class AscGaze {
 /// no onset, or if no trial has a variable that is named.
 TrialLog trials_in_messages(const GazeSurvey& gaze, const TrialColumns& columns,
                             const std::vector<std::string>& factors, const std::filesystem::path& file);
+
+/// A validation that the tracker's own messages tell.
+struct ToldValidation {
+    TrackerTime at;
+    ValidationResult found;
+};
+
+/// Validations of an EyeLink by its messages "!CAL VALIDATION … ERROR 0.33 avg. 0.58 max" and
+/// "VALIDATE R 9POINT 0 RIGHT at 512,384 OFFSET 0.17 deg. -2.0,5.8 pix.", those of both eyes as one. Those
+/// that were given up are left out. Offsets are gaze less target.
+std::vector<ToldValidation> validations_in_messages(std::span<const GazeMark> marks);
 
 } // namespace overt

@@ -1,6 +1,9 @@
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "experiment/clock_map.h"
+#include "experiment/ports/event_kinds.h"
 #include "experiment/record/foreign/foreign_session.h"
 #include "experiment/record/read/import_source.h"
 #include "experiment/record/write/row_writer.h"
@@ -104,6 +107,14 @@ ForeignCounts write_foreign_rows(const std::filesystem::path& session_file, cons
     for (const ClockPair& pair : plan.clocks.pairs)
         writer.write(pair);
     const ClockMap clock_map(plan.clocks.pairs);
+    for (const ToldValidation& told : plan.validations) {
+        // Of before the session's begin: at its begin.
+        const SessionTime at = std::max(SessionTime(), clock_map.to_session(told.at).time);
+        writer.write(EventRow{at, -1, std::string(validation_event),
+                              fmt::format("mean error {:.3f} deg, largest {:.3f} deg",
+                                          told.found.mean_error.value, told.found.max_error.value)});
+        writer.write(RecordedCalibration{at, -1, "tracker", told.found});
+    }
     ForeignCounts counts;
     TrialRows trials(writer, plan, asked);
     gaze.read([&](const ForeignItem& item) {

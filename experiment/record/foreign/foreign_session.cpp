@@ -212,6 +212,7 @@ ForeignPlan plan_foreign_trials(const SessionHeader& header, const TrialLog& log
     plan.clocks = relate_clocks(log, gaze, log_file);
     plan.remarks = log.remarks;
     plan.remarks.insert(plan.remarks.end(), plan.clocks.remarks.begin(), plan.clocks.remarks.end());
+    plan.validations = validations_in_messages(gaze.marks);
     const Namer namer(header);
     std::map<std::string, int> others;
     for (const LoggedTrial& logged : log.trials) {

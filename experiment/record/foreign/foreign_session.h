@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "experiment/flip_report.h"
+#include "experiment/record/foreign/foreign_asc.h"
 #include "experiment/record/foreign/foreign_gaze.h"
 #include "experiment/record/foreign/logged_trials.h"
 #include "experiment/record/foreign/shared_markers.h"
@@ -36,6 +37,7 @@ struct ForeignPlan {
     std::vector<ForeignTrial> trials;
     ClockRelation clocks;
     std::vector<std::string> remarks; ///< whole sentences, those of the clocks among them
+    std::vector<ToldValidation> validations = {};
 };
 
 /// Finds for each logged trial what the protocol calls it: task, entries of lists, slots, levels of its own;

@@ -162,7 +162,7 @@ TEST_CASE("trials are told by other programs' messages, by pictures, and by onse
                                                              {1010, "start_phase picture"},
                                                              {1020, "end_phase picture"},
                                                              {1024, "stop_trial"},
-                                              {1026, "var object cube"}})),
+                                                             {1026, "var object cube"}})),
                           {"onset=start_phase picture,end=end_phase picture"});
     REQUIRE(opensesame.trials.size() == 1);
     CHECK(opensesame.trials[0].onset == std::chrono::milliseconds(1010));
@@ -205,4 +205,39 @@ TEST_CASE("a recording that does not say its trials is refused with its messages
     CHECK(refusal_of([&] {
               message_trials_of(file, {"onset=go,marker=a,marker_text=b"});
           }).find("give one of them") != std::string::npos);
+}
+
+TEST_CASE("validations that an EyeLink's messages tell are taken, of both eyes as one", "[unit]") {
+    const auto said = [](double ms, const std::string& text) { return GazeMark{stamp_ms(ms), text, false}; };
+    const std::vector<GazeMark> marks{
+        said(100, "VALIDATE R 4POINT 0 RIGHT  at 1,2  OFFSET 9.00 deg.  1.0,1.0 pix."), // of none
+        said(5000,
+             "!CAL VALIDATION HV5 LR LEFT  GOOD ERROR 0.36 avg. 0.47 max  OFFSET 0.22 deg. 2.1,7.7 pix."),
+        said(5000,
+             "!CAL VALIDATION HV5 LR RIGHT GOOD ERROR 0.30 avg. 0.62 max  OFFSET 0.18 deg. -2.4,5.8 pix."),
+        said(9000, "!CAL VALIDATION HV9 R RIGHT ABORTED"),
+        said(20000, "!CAL VALIDATION HV9 R RIGHT  FAIR ERROR 0.90 avg. 1.20 max"),
+        said(20000, "VALIDATE R 4POINT 0 RIGHT  at 512,384  OFFSET 0.45 deg.  -5.6,15.3 pix."),
+        said(20001, "VALIDATE R POINT 1  RIGHT  at 61.5,384  OFFSET 1.20 deg.  3.0,-9.7 pix."),
+        said(20001, "VALIDATE R 4POINT 2 RIGHT  at 962,384  MISSING"),
+        said(20002, "VALIDATE R 4POINT 3 LEFT  somewhere"),
+        said(90000, "VALIDATE R 4POINT 4 RIGHT  at 1,2  OFFSET 9.00 deg.  1.0,1.0 pix.")};
+    const std::vector<ToldValidation> told = validations_in_messages(marks);
+    REQUIRE(told.size() == 2);
+    CHECK(told[0].at == stamp_ms(5000));
+    CHECK(told[0].found.mean_error.value == Approx(0.33));
+    CHECK(told[0].found.max_error.value == 0.62);
+    CHECK(told[0].found.targets.empty());
+    // Targets tell more than the tracker's sums.
+    const ValidationResult& found = told[1].found;
+    CHECK(found.mean_error.value == Approx((0.45 + 1.2) / 2));
+    CHECK(found.max_error.value == 1.2);
+    REQUIRE(found.targets.size() == 3);
+    CHECK(found.targets[0].eye == Eye::right);
+    CHECK(found.targets[0].target.x_px == 512.0);
+    CHECK(found.targets[0].gaze->x_px == Approx(506.4));
+    CHECK(found.targets[0].gaze->y_px == Approx(399.3));
+    CHECK(found.targets[1].target.x_px == 61.5);
+    CHECK(found.targets[1].gaze->y_px == Approx(374.3));
+    CHECK_FALSE(found.targets[2].gaze);
 }
