@@ -1,6 +1,7 @@
 #include "app/doctor/first_day.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <iostream>
 #include <string>
 
@@ -165,6 +166,31 @@ void print_sums(const RigPage& page) {
     fmt::print("\nof {}: {}\n", counted(page.steps.size(), "step"), fmt::join(sums, ", "));
 }
 
+/// While this lives what is printed goes to the standard error, so that a page for programs stands alone.
+class SaidBeside {
+  public:
+    explicit SaidBeside(bool is_wanted) {
+        if (!is_wanted)
+            return;
+        std::fflush(stdout);
+        output_ = dup(STDOUT_FILENO);
+        if (output_ >= 0)
+            dup2(STDERR_FILENO, STDOUT_FILENO);
+    }
+    ~SaidBeside() {
+        if (output_ < 0)
+            return;
+        std::fflush(stdout);
+        dup2(output_, STDOUT_FILENO);
+        close(output_);
+    }
+    SaidBeside(const SaidBeside&) = delete;
+    SaidBeside& operator=(const SaidBeside&) = delete;
+
+  private:
+    int output_ = -1;
+};
+
 } // namespace
 
 int run_first_day(const FirstDayOptions& options) {
@@ -199,7 +225,10 @@ int run_first_day(const FirstDayOptions& options) {
             if (answer != Answer::begin)
                 continue;
         }
-        RigStep found = measured(step, {options, protocol, folder, day.page()});
+        RigStep found = [&] {
+            const SaidBeside beside(options.json);
+            return measured(step, {options, protocol, folder, day.page()});
+        }();
         found.name = step.name;
         found.measured_utc = utc_now();
         RigFacts all = facts_for(step, facts);

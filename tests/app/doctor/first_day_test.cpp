@@ -1,9 +1,11 @@
 /// A lab's first day with its hardware, rehearsed: what is simulated proves nothing, nothing is lost, and
 /// sessions name the page.
 #include <algorithm>
+#include <atomic>
 #include <cstdlib>
 #include <deque>
 #include <fstream>
+#include <memory>
 #include <mutex>
 #include <utility>
 
@@ -19,6 +21,8 @@
 #include "tests/app/small_experiment.h"
 #include "tests/devices/link/terminal_device.h"
 #include "tests/support/hurried_observer.h"
+#include "tests/support/seen_screen.h"
+#include "tests/support/virtual_screen.h"
 
 using namespace overt;
 using namespace overt::test;
@@ -62,6 +66,79 @@ class ToldBox final : public ButtonBox {
 
   private:
     std::deque<ButtonChange> changes_;
+};
+
+/// A small experiment's protocol for screens of X that prove no times.
+std::string unproven_protocol() {
+    return with(with(small_protocol, "refresh_hz = 120", "refresh_hz = 60"), "output = \"color++\"",
+                "output = \"native-8bit\"\ngamma = 2.2\nlinearised_by = \"none\"\ntiming = \"unproven\"");
+}
+
+/// A light sensor at one port, and an RB-730 of Cedrus with one across its third button at another: both look
+/// at a virtual screen.
+class LightAtPorts {
+  public:
+    explicit LightAtPorts(const std::filesystem::path& framebuffer) : seen_(framebuffer) {
+        sensor_ = std::make_unique<TerminalDevice>(
+            sensor_line_.master(), [](std::string_view, double) { return std::string(); },
+            [this](double) {
+                const bool is_light = sees_light();
+                const bool is_edge = std::exchange(sensor_sees_, is_light) != is_light;
+                return std::string(is_edge ? (is_light ? "1" : "0") : "");
+            });
+        box_ = std::make_unique<TerminalDevice>(
+            box_line_.master(), [this](std::string_view bytes, double now_s) { return answer(bytes, now_s); },
+            [this](double now_s) { return key(now_s); });
+    }
+
+    const std::string& sensor_port() const { return sensor_line_.path(); }
+    const std::string& box_port() const { return box_line_.path(); }
+
+    std::atomic<int> late_ms{0};      ///< what the box's times are too late by
+    std::atomic<bool> is_dark{false}; ///< the box's sensor sees nothing
+
+  private:
+    bool sees_light() const {
+        constexpr int between_px = 8, light = 128;
+        for (int y = between_px / 2; y < seen_.height(); y += between_px)
+            for (int x = between_px / 2; x < seen_.width(); x += between_px)
+                if (seen_.at(x, y)[1] >= light)
+                    return true;
+        return false;
+    }
+    std::string number(std::uint32_t ms) const {
+        std::string bytes;
+        for (int i = 0; i < 4; ++i)
+            bytes += static_cast<char>(ms >> (8 * i) & 0xFF);
+        return bytes;
+    }
+    std::uint32_t ms(double now_s) const { return static_cast<std::uint32_t>((now_s - zero_s_) * 1e3); }
+    std::string answer(std::string_view bytes, double now_s) {
+        heard_ += bytes;
+        if (heard_.ends_with("_c1"))
+            return "_xid0";
+        if (heard_.ends_with("_d2") || heard_.ends_with("_d3") || heard_.ends_with("_d4"))
+            return "2";
+        if (heard_.ends_with("_e5"))
+            return "_e5" + number(ms(now_s));
+        if (heard_.ends_with("e5"))
+            zero_s_ = now_s;
+        return {};
+    }
+    std::string key(double now_s) {
+        const bool is_light = !is_dark && sees_light();
+        if (std::exchange(box_sees_, is_light) == is_light)
+            return {};
+        return std::string("k") + static_cast<char>(3 << 5 | (is_light ? 0x10 : 0)) +
+               number(ms(now_s) + static_cast<std::uint32_t>(late_ms.load()));
+    }
+
+    SeenScreen seen_;
+    Terminal sensor_line_, box_line_;
+    bool sensor_sees_ = false, box_sees_ = false;
+    std::string heard_;
+    double zero_s_ = 0.0;
+    std::unique_ptr<TerminalDevice> sensor_, box_; ///< last: their threads use all of the above
 };
 
 } // namespace
@@ -331,6 +408,98 @@ TEST_CASE("the edges of a serial output are compared with those that a sensor at
     CHECK(std::ranges::find(lossy.figures, "\"eeg\": edges that the sensor did not see", &BenchFigure::figure)
               ->holds == false);
     CHECK_FALSE(lossy.remedy.empty());
+}
+
+TEST_CASE("a response box's times are measured by the light that it sees, and named as late or unseen",
+          "[session][waits]") {
+    const TemporaryFolder framebuffer;
+    const auto screen = VirtualScreen::start(544, 192, 24, framebuffer.path().string());
+    LightAtPorts light(framebuffer.path());
+    const SmallExperiment experiment(
+        fmt::format("{}\n[[button_box]]\nid = \"pad\"\nkind = \"xid\"\naddress = \"{}\"\n"
+                    "buttons = [\"3 answer left\"]\n",
+                    unproven_protocol(), light.box_port()));
+    std::vector<std::string> environment = x_server_alone;
+    environment.push_back("OVERT_STATE=" + (experiment.folder().path() / "state").string());
+    const auto measured = [&](const std::string& name) {
+        const ProgramRun run =
+            experiment.overt({"doctor", experiment.protocol().string(), "--json", "--first-day", "--step",
+                              name, "--windowed", "--sensor", light.sensor_port(), "--seconds", "2"},
+                             environment);
+        INFO(run.out << run.err);
+        REQUIRE_FALSE(run.out.empty());
+        const RigPage page = rig_page_from(run.out, "rig.json");
+        return *std::ranges::find(page.steps, name, &RigStep::name);
+    };
+    const auto figure = [](const RigStep& step, const std::string& of) {
+        const auto found = std::ranges::find(step.figures, of, &BenchFigure::figure);
+        INFO(step.finding);
+        REQUIRE(found != step.figures.end());
+        return *found;
+    };
+    // What the display takes is not known yet.
+    const RigStep alone = measured("boxes");
+    CAPTURE(alone.finding);
+    CHECK(alone.verdict != StepVerdict::proved);
+    CHECK_THAT(alone.finding, Contains("after the vertical blank, the display's latency included"));
+
+    figure(measured("light"), std::string(mean_light_figure));
+    const RigStep good = measured("boxes");
+    CAPTURE(good.finding);
+    // A machine that is too busy looks late, and that is what the step is there to tell.
+    CHECK(good.verdict != StepVerdict::not_proved);
+    CHECK_FALSE(good.is_simulated);
+    CHECK_THAT(good.finding, Contains("\"pad\" (" + light.box_port() + ", product 2, model 2") &&
+                                 Contains("after it comes"));
+    CHECK(figure(good, "\"pad\": changes that it did not tell").value == 0.0);
+    CHECK(figure(good, "\"pad\": edges without a change").value == 0.0);
+
+    light.late_ms = 60;
+    const RigStep late = measured("boxes");
+    CAPTURE(late.finding);
+    CHECK(late.verdict == StepVerdict::failed);
+    CHECK(figure(late, "\"pad\": distance of its times from the light, mean").holds == false);
+    CHECK_THAT(late.remedy, Contains("latency_timer"));
+
+    light.is_dark = true;
+    const RigStep dark = measured("boxes");
+    CHECK(dark.verdict == StepVerdict::not_proved);
+    CHECK_THAT(dark.finding, Contains("No light came from \"pad\""));
+    CHECK_THAT(dark.remedy, Contains("fix a light sensor at each box"));
+}
+
+TEST_CASE("trials whose times nothing proves tell no number of missed refreshes, and prove nothing",
+          "[session][waits]") {
+    const auto screen = VirtualScreen::start(800, 600, 24);
+    const auto trials = [](std::string_view protocol, const std::vector<std::string>& more) {
+        const SmallExperiment experiment(protocol);
+        std::vector<std::string> environment = x_server_alone;
+        environment.push_back("OVERT_STATE=" + (experiment.folder().path() / "state").string());
+        std::vector<std::string> all{
+            "doctor", experiment.protocol().string(), "--json", "--first-day", "--step", "trials", "--trials",
+            "1",      "--simulate-observer",          "5"};
+        all.insert(all.end(), more.begin(), more.end());
+        const ProgramRun run = experiment.overt(all, environment);
+        INFO(run.out << run.err);
+        REQUIRE(run.exit_code == 0);
+        // What the session says is not among it.
+        REQUIRE(run.out.starts_with("{"));
+        const RigPage page = rig_page_from(run.out, "rig.json");
+        return *std::ranges::find(page.steps, "trials", &RigStep::name);
+    };
+    const auto tells_missed = [](const RigStep& step) {
+        return std::ranges::find(step.figures, "missed refreshes", &BenchFigure::figure) !=
+               step.figures.end();
+    };
+    const RigStep unproven = trials(unproven_protocol(), {"--windowed"});
+    CAPTURE(unproven.finding);
+    CHECK(unproven.verdict == StepVerdict::not_proved);
+    CHECK_FALSE(tells_missed(unproven));
+    CHECK_THAT(unproven.finding, Contains("1 trials of 1 were completed") &&
+                                     Contains("how many refreshes were missed is not known"));
+    CHECK_THAT(unproven.remedy, Contains("timing = \"proven\""));
+    // Times of a display that only keeps time are known.
+    CHECK(tells_missed(trials(small_protocol, {"--context", "osmesa"})));
 }
 
 TEST_CASE("a step that misses a bound fails the day, and wrong input is refused", "[session]") {
