@@ -115,15 +115,18 @@ void glance_at(StudyResults& results, const ExclusionRules& rules) {
             *rate));
     const auto foreign = std::ranges::count_if(
         results.sessions, [](const StudySession& session) { return session.setup.presenter.has_value(); });
+    // An EyeLink's recording tells the validations of its tracker, tables do not.
+    const bool is_accuracy_known = std::ranges::any_of(
+        results.trials, [](const StudyTrial& trial) { return trial.quality.accuracy_deg.has_value(); });
     if (foreign > 0)
-        remarks.push_back(fmt::format("{} presented by another program, and gaze was imported: which "
-                                      "refreshes were missed is not known, nor "
-                                      "how exactly gaze was measured; places on moving objects are as good "
-                                      "as the log of onsets and the "
-                                      "latency that the protocol gives.",
-                                      foreign == std::ssize(results.sessions) ? "All sessions were"
-                                      : foreign == 1                          ? "One session was"
-                                                     : fmt::format("{} sessions were", foreign)));
+        remarks.push_back(
+            fmt::format("{} presented by another program, and gaze was imported: which refreshes "
+                        "were missed is not known{}; places on moving objects are as good as the "
+                        "log of onsets and the latency that the protocol gives.",
+                        foreign == std::ssize(results.sessions) ? "All sessions were"
+                        : foreign == 1                          ? "One session was"
+                                                                : fmt::format("{} sessions were", foreign),
+                        is_accuracy_known ? "" : ", nor how exactly gaze was measured"));
     if (glance.any_simulated)
         remarks.push_back(
             fmt::format("The gaze of {} sessions is that of simulated observers.",
