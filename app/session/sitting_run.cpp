@@ -35,8 +35,8 @@ class WatchedSitting {
     WatchedSitting(const Protocol& protocol, const RunOptions& options, const SessionPlan& plan,
                    SessionEquipment& equipment, SittingRecord& record)
         : equipment_(equipment), record_(record),
-          progress_(protocol, plan.schedule, equipment.rig().tracker().measures_gaze(),
-                    record.header().display.is_timing_unproven()) {
+          has_proven_times_(options.virtual_time || record.header().display.timing == "proven"),
+          progress_(protocol, plan.schedule, equipment.rig().tracker().measures_gaze(), !has_proven_times_) {
         open_view(view_, protocol, options, plan, equipment, record);
     }
 
@@ -66,7 +66,7 @@ class WatchedSitting {
                 },
             .on_phase = [this](SessionPhase phase, int trial) { enter(phase, trial); },
             .screen_changes = [this] { return equipment_.rig().screen_changes(); },
-            .has_proven_times = options.virtual_time || record_.header().display.timing == "proven"};
+            .has_proven_times = has_proven_times_};
     }
 
     void attempt_ended(const Trial& trial, const TrialOutcome& outcome, int done) {
@@ -93,6 +93,7 @@ class WatchedSitting {
 
     SessionEquipment& equipment_;
     SittingRecord& record_;
+    bool has_proven_times_; ///< or made-up ones
     TrialProgress progress_;
     std::optional<OperatorEquipment> view_;
 };

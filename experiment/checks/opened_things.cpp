@@ -62,13 +62,15 @@ class OpenedList {
 void add_tracker(OpenedList& opened, const std::string& whose, const TrackerSettings& tracker) {
     const TrackerKindRow& row = row_of(tracker.kind);
     opened.add_library(whose, row.library);
-    if (tracker.outlet)
+    // What is made up is not sent on.
+    const bool has_outlet = tracker.outlet && row.is_hardware();
+    if (has_outlet)
         opened.add_library(whose + " outlet", "lsl");
     if (row.name == "replay")
         opened.add("file", whose, tracker.address);
     else if (row.is_hardware())
         opened.add_address(whose, tracker.address, row.usual_address);
-    if (tracker.outlet)
+    if (has_outlet)
         opened.add("device or address", whose + " outlet",
                    "a stream that anyone in the local network can read");
 }

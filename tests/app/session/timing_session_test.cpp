@@ -11,6 +11,7 @@
 #include "experiment/ports/event_kinds.h"
 #include "experiment/record/read/timing_report.h"
 #include "tests/app/small_experiment.h"
+#include "tests/support/hurried_observer.h"
 #include "tests/support/missed_rows.h"
 #include "tests/support/tsv_file.h"
 
@@ -183,4 +184,36 @@ TEST_CASE("what the session's thread was refused is said and recorded, and the s
     CHECK(std::any_of(events.begin(), events.end(), [](const RecordedEvent& event) {
         return event.kind == "thread" && event.detail.starts_with("processor 1000: refused:");
     }));
+}
+
+TEST_CASE("a session in real time without a screen claims no number of missed refreshes",
+          "[session][waits]") {
+    const SmallExperiment experiment;
+    const std::string faults =
+        experiment.folder()
+            .file("faults.toml", "[[fault]]\nkind = \"skip\"\ntrial = 1\nrefresh = 50\nrefreshes = 4\n")
+            .string();
+    std::vector<std::string> all{"run",
+                                 experiment.protocol().string(),
+                                 "--observer",
+                                 "P01",
+                                 "--sessions",
+                                 experiment.sessions().string(),
+                                 "--context",
+                                 "osmesa",
+                                 "--trials",
+                                 "1",
+                                 "--faults",
+                                 faults,
+                                 "--simulate-observer",
+                                 "5"};
+    for (std::string& option : hurried(1))
+        all.push_back(std::move(option));
+    const ProgramRun run = experiment.overt(all);
+    const std::string said = run.out + run.err;
+    INFO(said);
+    REQUIRE(run.exit_code == 0);
+    CHECK(said.find("refreshes missed, by times that nothing proves") != std::string::npos);
+    CHECK(said.find("refreshes missed\n") == std::string::npos);
+    CHECK(said.find("missed refreshes: there was no screen") != std::string::npos);
 }

@@ -80,6 +80,9 @@ TEST_CASE("each library, address, port and device that a protocol opens is named
                    "device or address | [[marker_output]] \"lines\" | /dev/parport0 (no address is given)"));
     CHECK(has_line(lines, "microphone | [answers] | Scarlett"));
     CHECK(has_line(lines, "device or address | [display] box | /dev/ttyACM4"));
+    // Samples that are made up are not sent on.
+    for (const std::string& line : opened("[tracker]\noutlet = true\n"))
+        CHECK_THAT(line, !Contains("outlet"));
     setenv("OVERT_EYELINK_LIBRARY", "/opt/eyelink/core.so", 1);
     CHECK(has_line(opened("[tracker]\nkind = \"eyelink\"\n"),
                    "library | [tracker] | the EyeLink's library: /opt/eyelink/core.so, by "
