@@ -86,6 +86,7 @@ TEST_CASE("eight seconds at 120 Hz are 240 frames of 4 refreshes, four cycles of
 TEST_CASE("only whole multiples of the frame rate are presented, 119.88 Hz counting as 120", "[unit]") {
     CHECK(refreshes_per_frame(30.0, 120.0) == 4);
     CHECK(refreshes_per_frame(30.0, 119.88) == 4);
+    CHECK(refreshes_per_frame(36.0, 144.06) == 4);
     CHECK(refreshes_per_frame(30.0, 60.0) == 2);
     CHECK(refreshes_per_frame(30.0, 30.0) == 1);
     CHECK(refreshes_per_frame(30.0, 100.0) == 0);

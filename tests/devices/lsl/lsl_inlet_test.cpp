@@ -7,6 +7,7 @@
 #include "experiment/base/error.h"
 #include "tests/devices/lsl/lsl_bench.h"
 #include "tests/support/kept_items.h"
+#include "tests/support/still_setup_screen.h"
 
 using namespace overt;
 using namespace overt::test;
@@ -70,6 +71,16 @@ TEST_CASE("a stream's rate is what comes of it, and what it says is told beside 
     const TrackerDescription description = fed.connect();
     CHECK(description.sample_rate_hz == Approx(250.0).epsilon(0.01));
     CHECK(description.told_rate_hz == 1000.0);
+}
+
+TEST_CASE("a stream whose own program has calibrated is set up, which is said", "[unit]") {
+    FedStream fed;
+    fed.connect();
+    StillSetupScreen screen;
+    const SetupOutcome outcome = fed.inlet->set_up(screen);
+    CHECK(outcome.kind == SetupOutcome::Kind::done);
+    CHECK_FALSE(outcome.validation); // it tells no error
+    CHECK_THAT(outcome.method, Contains("the tracker's own program, before the session"));
 }
 
 TEST_CASE("a stream of gaze is told by whatever its program calls its type", "[unit]") {

@@ -159,6 +159,12 @@ TEST_CASE("59.94 Hz is 60 Hz to a screen that counts whole hertz", "[unit]") {
     CHECK(weight_of(facts, "refresh rate", display) == Weight::good);
     facts.monitor.refresh_hz = 59.5;
     CHECK(weight_of(facts, "refresh rate", display) == Weight::refusal);
+    // What monitors call 144 Hz.
+    facts.monitor.refresh_hz = 144.06;
+    for (const double wished_hz : {144.0, 144.06}) {
+        display.refresh_hz = wished_hz;
+        CHECK(weight_of(facts, "refresh rate", display) == Weight::good);
+    }
 }
 
 TEST_CASE("a window of eight bits on a screen of thirty is not taken for one of the screen's own", "[unit]") {
