@@ -126,6 +126,27 @@ def linked(build, folder, program, libraries, switches):
     return out
 
 
+def linked_sessions(build, folder, libraries, switches):
+    """The tests of whole sessions and studies, which start the program: a changed one, whose path they are given."""
+    program = linked(build, folder, "overt", libraries, switches[:1])
+    if not program:
+        return None
+    started = folder.parent.parent / "app/overt"
+    started.parent.mkdir(exist_ok=True)
+    started.unlink(missing_ok=True)
+    program.rename(started)
+    tests = linked(build, folder, "app_tests", libraries, switches)
+    sound = str(build / "app/overt").encode()
+    at = str(started).encode()
+    if len(at) > len(sound):
+        sys.exit(f"{started}: a longer path than that of {build / 'app/overt'}; --build names a folder with a shorter one")
+    at = at.replace(b"/app/", b"/" * (1 + len(sound) - len(at)) + b"app/")
+    tests.write_bytes(tests.read_bytes().replace(sound, at))
+    if not (started.parent.parent / "lib").exists():
+        (started.parent.parent / "lib").symlink_to(build / "lib")
+    return tests
+
+
 def reach(program, spec, folder, environment):
     """What each sound test takes and reaches."""
     table = folder / f"{program.name}.tests"
@@ -264,8 +285,9 @@ def main(root, options):
             subprocess.run(["c++", "-std=c++20", "-O1", "-w", f"-I{root}", "-c", str(here / (switch.stem + ".cpp")), "-o",
                             str(switch)], check=True)
         tests = []
-        for program in programs:
-            made = linked(build, folder, program, libraries, switches)
+        for program in programs + (["app_tests"] if options.sessions else []):
+            made = (linked_sessions(build, folder, libraries, switches) if program == "app_tests"
+                    else linked(build, folder, program, libraries, switches))
             if made:
                 began = time.monotonic()
                 tests += reach(made, [options.tests] if options.tests else [], folder, environment)
