@@ -333,7 +333,7 @@ void AscGaze::read(const std::function<void(const ForeignItem&)>& take) const {
 TrialLog trials_in_messages(const GazeSurvey& gaze, const TrialColumns& columns,
                             const std::vector<std::string>& factors, const std::filesystem::path& file) {
     const std::string onset = said_of(gaze, columns.onset, {viewer_onset, onset_message}),
-                      end = said_of(gaze, columns.end, {end_message});
+                      end = said_of(gaze, columns.end, {end_message, earlier_end_message});
     if (onset.empty() || !is_said(gaze, onset))
         throw InputError(fmt::format("{}: no message {} says when a stimulus came: name the one that does, "
                                      "--trial-columns onset=TEXT, "
