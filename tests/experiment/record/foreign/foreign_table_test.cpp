@@ -35,6 +35,11 @@ TEST_CASE("tables of other programs are read whatever stands between their cells
     CHECK(table.cell(1).empty());
     CHECK(table.place().ends_with("a.csv:6"));
     CHECK_FALSE(table.next());
+    // A quotation mark in quotes is written twice, also at a cell's end.
+    ForeignTable quoted(foreign_file(folder, "q.csv", "a,b\n\"he said \"\"no\"\"\",\"\"\"x\"\"y\"\n"));
+    REQUIRE(quoted.next());
+    CHECK(quoted.cell(0) == "he said \"no\"");
+    CHECK(quoted.cell(1) == "\"x\"y");
     // Two columns that differ in their unit alone are not one.
     CHECK_FALSE(ForeignTable(foreign_file(folder, "b.tsv", "x [px]\tx [mm]\n1\t2\n")).find("x"));
     CHECK_THROWS_AS(ForeignTable(foreign_file(folder, "c.csv", "words\n")), InputError);
