@@ -224,6 +224,16 @@ TEST_CASE("surfaces, annotations and labels of FreeSurfer are read", "[unit]") {
     const Mesh annotated = labelled_by(mesh, folder.file("lh.a.annot", annotation_of_cube())).mesh;
     CHECK(annotated.part_names == std::vector<std::string>{"none", "top"});
     CHECK(area_of_part(annotated, "top") == Approx(3.0));
+    // The earlier form of a table of colours.
+    std::string earlier = annotation_of_cube();
+    earlier.resize(4 + 8 * 8 + 4);
+    earlier += big_endian(2) + counted_text("table.txt");
+    for (const auto& [name, code] : {std::pair{"bottom", 0}, std::pair{"top", 1}})
+        earlier += counted_text(name) + big_endian(code) + big_endian(2 * code) + big_endian(3 * code) +
+                   big_endian(0);
+    const Mesh of_earlier = labelled_by(mesh, folder.file("lh.b.annot", earlier)).mesh;
+    CHECK(of_earlier.part_names == std::vector<std::string>{"bottom", "top"});
+    CHECK(area_of_part(of_earlier, "top") == Approx(3.0));
     const Mesh region =
         labelled_by(mesh,
                     folder.file("lh.V1.label", "#!ascii label, from subject x\n4\n4 0 0 1 0\n5 1 0 1 0\n6 "
