@@ -190,6 +190,17 @@ TEST_CASE("trials are told by other programs' messages, by pictures, and by onse
     CHECK(onsets.trials[1].words.at("object") == "cube");
 }
 
+TEST_CASE("overt's own messages say when a stimulus came and went, in their earlier form, too", "[unit]") {
+    const test::TemporaryFolder folder;
+    for (const std::string word : {"PRESENTATION_OFFSET", "PRESENTATION_END"}) {
+        const TrialLog log = message_trials_of(recording_in(
+            folder, recorded_asc({{1002, "TRIALID 1"}, {1010, "PRESENTATION_ONSET"}, {1030, "-3 " + word}})));
+        REQUIRE(log.trials.size() == 1);
+        CHECK(log.trials[0].onset == std::chrono::milliseconds(1010));
+        CHECK(log.trials[0].end == LogTime(std::chrono::milliseconds(1033)));
+    }
+}
+
 TEST_CASE("a recording that does not say its trials is refused with its messages", "[unit]") {
     const test::TemporaryFolder folder;
     const auto file =
