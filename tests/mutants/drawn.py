@@ -1,5 +1,6 @@
 """Changes drawn by chance in the sources of a room, all of them in one build, each behind a switch (places.py finds them)."""
 import collections
+import hashlib
 import json
 import os
 import pathlib
@@ -51,6 +52,30 @@ def draw(found, count, seed):
         if len(drawn) >= count + max(3, count // 6):
             break
     return drawn
+
+
+def place_of(change):
+    return change.file, tuple(change.edits)
+
+
+def argued(rows, found, texts):
+    """Why, by place, of the changes that equivalent.toml argues to change nothing: each row is of one place. Where several
+    of a function read the same, `at` says which, from 1."""
+    places_of = collections.defaultdict(list)
+    for change in sorted(found, key=lambda change: change.edits[0][:2]):
+        places_of[change.key()].append(change)
+    reasons = {}
+    for row in rows:
+        if row["file"] not in texts:
+            continue
+        alike = places_of[(row["file"], row["in"], row["from"], row["to"])]
+        at = row.get("at", 1)
+        if not 1 <= at <= len(alike) or len(alike) > 1 and "at" not in row:
+            lines = ", ".join(str(change.line) for change in alike)
+            sys.exit(f"equivalent.toml: {row['file']}, in {row['in']}: \"{row['from']}\": "
+                     + (f"stands in lines {lines}: at = 1 to {len(alike)} says which" if alike else "is not there"))
+        reasons[place_of(alike[at - 1])] = row["why"]
+    return reasons
 
 
 def compiled(root, build, folder, commands, texts, drawn):
@@ -147,21 +172,47 @@ def linked_sessions(build, folder, libraries, switches):
     return tests
 
 
-def reach(program, spec, folder, environment):
-    """What each sound test takes and reaches."""
-    table = folder / f"{program.name}.tests"
+def names_for_catch(names):
+    return "".join(name.replace("\\", "\\\\").replace(",", "\\,") + "\n" for name in names)
+
+
+def reach(program, spec, folder, environment, drawn, longest):
+    """What each sound test takes and reaches. Kept beside the program: of the same changes, only tests whose files are others
+    now are run again; and of any changes, none that took longer than `longest` before."""
+    table, kept_file, times_file = (folder / f"{program.name}.{word}" for word in ("tests", "reached", "seconds"))
+    digest_of = lambda file: hashlib.sha256(pathlib.Path(file).read_bytes()).hexdigest() if pathlib.Path(file).exists() else ""
+    kept = json.loads(kept_file.read_text()) if kept_file.exists() else {}
+    of_drawn = hashlib.sha256(repr([(number, change.key(), change.line) for number, change in sorted(drawn.items())]).encode()).hexdigest()
+    if kept.get("drawn") != of_drawn:
+        kept = {"drawn": of_drawn, "tests": {}}
+    times = json.loads(times_file.read_text()) if times_file.exists() else {}
+    listed = subprocess.run([str(program), "--list-test-names-only", *spec], cwd=folder, capture_output=True, text=True).stdout
+    names = [name.strip() for name in listed.splitlines() if name.strip()]
+    now = {}
+    sound = lambda row: now.setdefault(row["file"], digest_of(row["file"])) == row["digest"]
+    kept["tests"] = {name: row for name, row in kept["tests"].items() if sound(row)}
+    asked = [name for name in names if name not in kept["tests"] and times.get(name, 0.0) <= longest]
     table.unlink(missing_ok=True)
-    ran = subprocess.run([str(program), "-#", *spec], cwd=folder, capture_output=True,
-                         env=environment | {"OVERT_MUTANTS_TESTS": str(table), "OVERT_MUTANTS_REACHED": str(folder / "reached")})
-    tests = []
+    if asked:
+        (folder / "names").write_text(names_for_catch(asked))
+        ran = subprocess.run([str(program), "-f", str(folder / "names")], cwd=folder, capture_output=True,
+                             env=environment | {"OVERT_MUTANTS_TESTS": str(table), "OVERT_MUTANTS_REACHED": str(folder / "reached")})
+        if ran.returncode < 0:
+            print(f"{program.name} ended by a signal without a change", flush=True)
     for row in table.read_text(errors="replace").splitlines() if table.exists() else []:
         name, file, seconds, outcome, reached = row.split("\t")
-        if outcome == "passed":
-            tests.append(Test(program, name, file, float(seconds), frozenset(int(word) for word in reached.split())))
-        else:
-            print(f"fails without a change, and is left out: {name}", flush=True)
-    if ran.returncode < 0:
-        print(f"{program.name} ended by a signal without a change", flush=True)
+        times[name] = min(float(seconds), times.get(name, float(seconds)))
+        kept["tests"][name] = {"file": file, "digest": digest_of(file), "seconds": float(seconds), "outcome": outcome,
+                               "reached": [int(word) for word in reached.split()]}
+    kept_file.write_text(json.dumps(kept))
+    times_file.write_text(json.dumps(times))
+    tests = []
+    for name in names:
+        if row := kept["tests"].get(name):
+            if row["outcome"] == "passed":
+                tests.append(Test(program, name, row["file"], row["seconds"], frozenset(row["reached"])))
+            else:
+                print(f"fails without a change, and is left out: {name}", flush=True)
     return tests
 
 
@@ -205,7 +256,7 @@ def judge(number, change, tests, folder, environment):
         return None, 0
     names = folder / "names"
     for batch in batches(reaching):
-        names.write_text("".join(test.name.replace("\\", "\\\\").replace(",", "\\,") + "\n" for test in batch))
+        names.write_text(names_for_catch([test.name for test in batch]))
         try:
             ran = subprocess.run([str(batch[0].program), "--abort", "-f", str(names)], cwd=folder, capture_output=True,
                                  text=True, errors="replace", timeout=10 + 8 * sum(test.seconds for test in batch),
@@ -248,9 +299,7 @@ def main(root, options):
     build = options.reuse
     if not (build / "compile_commands.json").exists():
         sys.exit(f"{build}: no build there to take the rest of the program from; --reuse FOLDER names one")
-    # Argued once each; every place in a function that reads so is meant, so that edits nearby change nothing.
-    arguments = {(row["file"], row["in"], row["from"], row["to"]): row["why"]
-                 for row in tomllib.loads((here / "equivalent.toml").read_text()).get("equivalent", [])}
+    rows = tomllib.loads((here / "equivalent.toml").read_text()).get("equivalent", [])
     environment = dict(os.environ)
     results = []
     for room in options.generate:
@@ -267,6 +316,7 @@ def main(root, options):
             texts |= read
             for change in changes:
                 found[(change.file, tuple(change.edits))] = change
+        arguments = argued(rows, list(found.values()), texts)
         drawn = draw(list(found.values()), options.count, options.seed)
         print(f"{room}: {len(found)} places", flush=True)
         if options.list:
@@ -290,7 +340,7 @@ def main(root, options):
                     else linked(build, folder, program, libraries, switches))
             if made:
                 began = time.monotonic()
-                tests += reach(made, [options.tests] if options.tests else [], folder, environment)
+                tests += reach(made, ["-#", options.tests] if options.tests else [], folder, environment, left, options.longest)
                 print(f"{program}: run without a change in {time.monotonic() - began:.0f} s", flush=True)
         if not tests:
             sys.exit(f"{room}: no test program has it, or none of its tests passes without a change")
@@ -300,12 +350,12 @@ def main(root, options):
             if chosen and number not in chosen:
                 continue
             began = time.monotonic()
-            argued = arguments.get(change.key())
-            by, reaching = (None, -1) if argued else judge(number, change, tests, folder, environment)
+            why = arguments.get(place_of(change))
+            by, reaching = (None, -1) if why else judge(number, change, tests, folder, environment)
             results.append({"room": room, "number": number, "file": change.file, "line": change.line, "kind": change.kind,
                             "in": change.function, "from": change.before, "to": change.after, "tests": reaching,
-                            "noticed_by": by, "equivalent": argued, "seconds": round(time.monotonic() - began, 1)})
-            word = "noticed" if by else "equivalent" if argued else "UNREACHED" if reaching == 0 else "UNNOTICED"
+                            "noticed_by": by, "equivalent": why, "seconds": round(time.monotonic() - began, 1)})
+            word = "noticed" if by else "equivalent" if why else "UNREACHED" if reaching == 0 else "UNNOTICED"
             print(f"{number:4}/{len(left)}  {word:10} {change.file}:{change.line}: {change.kind}, in {change.function}"
                   + (f"\n{'':17}by: {by}" if by else f"\n{diff(root, change)}"), flush=True)
         if options.json:

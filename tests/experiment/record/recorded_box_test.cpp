@@ -98,3 +98,20 @@ TEST_CASE("the fit of a box's clock gives its drift and its zero back within its
         CHECK(fit.uncertainty < std::chrono::milliseconds(2));
     }
 }
+
+TEST_CASE("a display box is described with all that is known of it, or with why there is none", "[unit]") {
+    RecordedBox box = example_box();
+    CHECK(describe(box) ==
+          "Display++, serial number DPP-1, firmware Mar 14 2018, at /dev/ttyACM3: Mono++ after 1.23 s, "
+          "119.98 Hz");
+    for (const auto& [use, name, words] :
+         {std::tuple(RecordedBox::Use::box, "box", ""),
+          std::tuple(RecordedBox::Use::declined, "declined", "none, as the protocol says"),
+          std::tuple(RecordedBox::Use::simulated, "simulated",
+                     "none: nothing is shown on a real screen in real time"),
+          std::tuple(RecordedBox::Use::no_mode, "not needed", "none: the output needs none")}) {
+        CHECK(name_of(use) == name);
+        box.use = use;
+        CHECK((use == RecordedBox::Use::box || describe(box) == words));
+    }
+}

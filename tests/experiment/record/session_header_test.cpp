@@ -126,3 +126,31 @@ TEST_CASE("the words of the header's enumerations are all that its table takes",
     CHECK_THROWS_AS(database.exec("UPDATE session SET playback = 'back and forth'"), SQLite::Exception);
     CHECK_THROWS_AS(database.exec("UPDATE session SET duration_s = 'long'"), SQLite::Exception);
 }
+
+TEST_CASE("a slot of another size shows a further view, whose screen has its image", "[unit]") {
+    SessionHeader header = example_header();
+    header.views = {{"front", ""}, {"side", ""}};
+    header.slots = {
+        {"a", "", {0, 1}, {300, 400}}, {"b", "", {300, 2}, {300, 400}}, {"c", "", {600, 3}, {200, 100}}};
+    const Stimulus side{1, 0, 0, 0, 1, 0};
+    const auto view_in = [&](int slot) { return header.in_slot({side, slot}).view; };
+    CHECK(view_in(0) == 1);
+    CHECK(view_in(1) == 1);
+    CHECK(view_in(2) == 3);
+    CHECK(view_in(-1) == 1);
+    CHECK(view_in(3) == 1);
+    CHECK(header.in_slot({side, 2}).object == 1);
+    for (const int view : {0, 1, 4, 5})
+        CHECK(header.screen_of_view(view).image_px == header.display.screen.image_px);
+    for (const int view : {2, 3}) {
+        CHECK(header.screen_of_view(view).image_px == glm::ivec2(200, 100));
+        CHECK(header.screen_of_view(view).image_origin_px == glm::ivec2(600, 3));
+    }
+    CHECK(header.screen_of_slot(1).image_origin_px == glm::ivec2(300, 2));
+    for (const int slot : {-1, 3})
+        CHECK(header.screen_of_slot(slot).image_origin_px == header.display.screen.image_origin_px);
+    CHECK(stimulus_name(header, side) == "vase/gold/side");
+    CHECK(stimulus_name(header, header.in_slot({side, 2}), "_") == "vase_gold_side_c");
+    CHECK(stimulus_name(header, {1, 0, 0, 0, 5, 0}) == "vase/gold/side");
+    CHECK(entry_counts(header) == std::array<std::size_t, stimulus_lists.size()>{2, 2, 1, 1, 2, 1});
+}
