@@ -84,6 +84,10 @@ TEST_CASE("a tracker's events stand in their columns, and come back trial by tri
     CHECK(events_of(1) == std::vector{saccade(), message});
     CHECK(events_of(2) == std::vector{right});
     CHECK(events_of(3).empty());
+    // Half a place is none.
+    file.database.exec("UPDATE gaze_event SET y_px = NULL, arrival_x_px = NULL WHERE trial_id = 2");
+    CHECK_FALSE(events_of(2).at(0).place);
+    CHECK_FALSE(events_of(2).at(0).arrival);
 }
 
 TEST_CASE("samples and what a tracker says besides of them are counted from 0 in each trial", "[unit]") {

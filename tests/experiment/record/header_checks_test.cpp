@@ -157,6 +157,17 @@ TEST_CASE("what a header counts off is in the list that it counts", "[unit]") {
                      [](SessionHeader& h, int of) { h.schedule.trials[2].stimulus.object = of; });
     is_whole_between(0, 0, trial,
                      [](SessionHeader& h, int of) { h.schedule.trials[2].stimulus.background = of; });
+    // Each object has the cameras of all views, and each motion its frames.
+    for (const std::size_t cameras : {1u, 2u})
+        changes(cameras, cameras == 2, trial, [](SessionHeader& h, std::size_t of) {
+            h.views = {{"front", ""}, {"side", ""}};
+            h.schedule.trials[2].stimulus.view = 1;
+            h.objects[0].cameras.resize(of);
+        });
+    changes(1, false, trial, [](SessionHeader& h, int of) {
+        h.motions = {{"sway", ""}, {"still", ""}};
+        h.schedule.trials[2].stimulus.motion = of;
+    });
     changes(7, true, trial, [](SessionHeader& h, int of) {
         h.blocks.clear();
         h.schedule.trials[2].block = of;

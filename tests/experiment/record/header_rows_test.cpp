@@ -111,6 +111,11 @@ TEST_CASE("a header that is written again from what is read has the same rows in
     CHECK(read.schedule.trials == header.schedule.trials);
     CHECK(read.slots == header.slots);
     CHECK(read.dataset == header.dataset);
+    REQUIRE(read.animations.size() == 2);
+    REQUIRE(read.animations[0].given.size() == 3);
+    REQUIRE(read.animations[1].given.size() == 2);
+    CHECK(read.animations[0].given[2].object == header.poses.angles[2]);
+    CHECK(read.animations[1].given[1].object == header.poses.angles[1]);
     create_session_file(second, read);
     const auto as_written = tables_in(first), again = tables_in(second);
     REQUIRE(as_written.size() > 40);
@@ -199,6 +204,12 @@ TEST_CASE("headers of earlier programs read with what they did not know", "[unit
     // In version 1 all maps were of triangles.
     CHECK(changed("PRAGMA user_version = 2").maps[0].kind == RecordedMap::Kind::coordinates);
     CHECK(changed("PRAGMA user_version = 1").maps[0].kind == RecordedMap::Kind::triangles);
+    CHECK(changed("UPDATE animation_frame SET light_deg = 4.5 WHERE motion = 1 AND frame = 0")
+              .animations[1]
+              .given[0]
+              .light == Degrees{4.5});
+    CHECK(changed("UPDATE camera SET view = 255 WHERE object = 1 AND view = 1").objects[1].cameras.size() ==
+          256);
     CHECK(changed("DROP TABLE camera").objects[0].cameras.size() == 1);
     CHECK(changed("DROP TABLE point").points.empty());
     CHECK(changed("DROP TABLE block").blocks.empty());

@@ -64,6 +64,10 @@ TEST_CASE("a manifest's text comes back as it was, and with another byte in it n
         CHECK_THROWS_AS(manifest_from(changed, "a"), RecordError);
     }
     CHECK_THROWS_WITH(manifest_from("", "a"), Contains("is not as it was written"));
+    const SessionManifest empty = manifest_from(to_text(SessionManifest()), "a");
+    CHECK(empty.files.empty());
+    CHECK(empty.inputs.empty());
+    CHECK(empty.programs.empty());
 }
 
 TEST_CASE("a manifest of a newer format is told from a damaged one", "[unit]") {

@@ -85,6 +85,9 @@ TEST_CASE("each row is sealed once where its table only grows, and anew where ro
         writer.seal_rest(SealKind::sitting, 1);
         database.exec(
             "INSERT INTO sample VALUES (1, 0, 5, 0, 1, 2, 3), (1, 1, 6, 0, 1, 2, 3), (2, 0, 7, 0, 1, 2, 3)");
+        database.exec(
+            "INSERT INTO gaze_event (trial_id, n, kind, start_us, end_us, duration_us, text) VALUES "
+            "(0, 0, 'message', 0, 0, 0, ''), (-1, 0, 'message', 0, 0, 0, '')");
         event(database, 1);
         writer.seal_trial(1, 1);
         writer.seal_rest(SealKind::other, 1); // nothing new
@@ -103,6 +106,8 @@ TEST_CASE("each row is sealed once where its table only grows, and anew where ro
     CHECK(seals_of(database, "event") ==
           "2|sitting|1||new|0|2|2\n3|trial|1|1|new|2|3|1\n6|sitting|2||new|3|4|1\n");
     CHECK(seals_of(database, "sample") == "3|trial|1|1|trial|1|0|2\n7|trial|2|2|trial|2|0|1\n");
+    CHECK(seals_of(database, "gaze_event") ==
+          "3|trial|1|1|trial|1|0|0\n4|other|1||no trial|0|0|2\n7|trial|2|2|trial|2|0|0\n");
     CHECK(seals_of(database, "sitting") ==
           "1|beginning|0||all|0|0|0\n2|sitting|1||all|0|0|1\n5|end|1||all|0|0|1\n6|sitting|2||all|0|0|2\n");
     CHECK(seals_of(database, "session") == "1|beginning|0||all|0|0|1\n");

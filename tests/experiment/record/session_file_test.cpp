@@ -2,12 +2,15 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <catch2/catch.hpp>
+#include <sqlite3.h>
 
 #include "experiment/base/error.h"
 #include "experiment/base/path_inside.h"
+#include "experiment/record/file_hash.h"
 #include "experiment/record/manifest.h"
 #include "experiment/record/read/session_record.h"
 #include "experiment/record/session_schema.h"
+#include "experiment/record/sql.h"
 #include "tests/experiment/record/session_fixture.h"
 
 using namespace overt;
@@ -99,6 +102,14 @@ TEST_CASE("files that are no session are refused with the reason", "[unit]") {
         CHECK_THROWS_WITH(SessionRecord(root.path()), Contains("newer overt") && Contains("99"));
         CHECK_THROWS_AS(SessionStore(file, patient()), RecordError);
     }
+    SECTION("a session of no format") {
+        create_session_file(file, example_header());
+        SQLite::Database(file.string(), SQLite::OPEN_READWRITE).exec("PRAGMA user_version = 0");
+        CHECK_THROWS_WITH(open_session_file(file, SessionFileUse::as_it_is),
+                          Contains("session format 0 does not exist"));
+        SQLite::Database(file.string(), SQLite::OPEN_READWRITE).exec("PRAGMA user_version = 1");
+        CHECK_NOTHROW(open_session_file(file, SessionFileUse::as_it_is));
+    }
     SECTION("a session whose pages were overwritten") {
         create_session_file(file, example_header());
         const auto size = static_cast<std::streamoff>(fs::file_size(file));
@@ -115,4 +126,107 @@ TEST_CASE("files that are no session are refused with the reason", "[unit]") {
             .exec("UPDATE session SET protocol_text = 'other'");
         CHECK(SessionRecord(root.path()).damages().size() == 1);
     }
+}
+
+TEST_CASE("rows stay in the log when a writer ends, until they are folded into the file", "[unit]") {
+    const TemporaryFolder root;
+    const fs::path file = root.path() / session_file_name, log = file.string() + "-wal";
+    create_session_file(file, example_header());
+    const std::string before = text_of(file);
+    {
+        SQLite::Database database = open_session_file(file, SessionFileUse::write);
+        database.exec("PRAGMA journal_mode = WAL");
+        database.exec("INSERT INTO block VALUES (0, 'one')");
+    }
+    CHECK(fs::file_size(log) > 0);
+    CHECK(text_of(file).substr(100) == before.substr(100)); // the first bytes say how it is written
+    CHECK(fold_session_file(file));
+    CHECK_FALSE(fs::exists(log));
+    SQLite::Database database = open_session_file(file, SessionFileUse::read);
+    CHECK(database.execAndGet("SELECT id FROM block").getString() == "one");
+}
+
+TEST_CASE("the hash of a session's file is that of all its bytes, and stands beside its rows", "[unit]") {
+    const TemporaryFolder root;
+    const fs::path file = root.path() / session_file_name;
+    create_session_file(file, example_header());
+    for (const int bytes : {0, 1 << 20, 3'000'000}) {
+        SQLite::Database database(file.string(), SQLite::OPEN_READWRITE);
+        database.exec("CREATE TABLE more (bytes); INSERT INTO more VALUES (randomblob(" +
+                      std::to_string(bytes) + "))");
+        CHECK(hash_of_folded_rows(database) == hash_of_text(text_of(file)));
+        database.exec("DROP TABLE more; VACUUM");
+    }
+    SQLite::Database database(file.string(), SQLite::OPEN_READWRITE);
+    CHECK_FALSE(noted_file_hash(database));
+    for (const char* const text : {"a", "b"}) {
+        forget_file_hash(database);
+        CHECK_FALSE(noted_file_hash(database));
+        note_file_hash(database, hash_of_text(text));
+        CHECK(noted_file_hash(database) == hash_of_text(text));
+    }
+}
+
+TEST_CASE("times in a file are those of decades, to the last nanosecond", "[unit]") {
+    const SQLite::Database database(":memory:", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+    const auto row = [&](std::int64_t value) {
+        Query query(database, ("SELECT " + std::to_string(value)).c_str());
+        query.step();
+        return query;
+    };
+    constexpr std::int64_t most_ns = 1'000'000'000'000'000'000, most_us = 4'000'000'000'000'000;
+    for (const std::int64_t sign : {-1, 1}) {
+        CHECK(row(sign * most_ns).session_time() == SessionTime(SessionDuration(sign * most_ns)));
+        CHECK_THROWS_AS(row(sign * (most_ns + 1)).session_time(), RecordError);
+        CHECK(row(sign * most_us).tracker_time() == tracker_time(sign * most_us));
+        CHECK_THROWS_AS(row(sign * (most_us + 1)).tracker_time(), RecordError);
+    }
+}
+
+TEST_CASE("an error of the record says what was being done, and what helps", "[unit]") {
+    for (const auto& [code, remedy] : {std::pair(SQLITE_FULL, "The disk is full"),
+                                       {SQLITE_IOERR, "The disk refuses"},
+                                       {SQLITE_IOERR_WRITE, "The disk refuses"},
+                                       {SQLITE_CORRUPT, "The file is damaged"},
+                                       {SQLITE_NOTADB, "not a session file"},
+                                       {SQLITE_CANTOPEN, "Check that the file is there"},
+                                       {SQLITE_READONLY, "Check the permissions"},
+                                       {SQLITE_READONLY_DBMOVED, "in the moved file"},
+                                       {SQLITE_PERM, "Check the permissions"},
+                                       {SQLITE_INTERRUPT, "asked to end"},
+                                       {SQLITE_AUTH, "not read further"},
+                                       {SQLITE_BUSY, "Another program"},
+                                       {SQLITE_LOCKED, "Another program"},
+                                       {SQLITE_NOMEM, "Check the disk and the file's permissions"}})
+        CHECK_THROWS_WITH(throw_record_error("the file", "writing", SQLite::Exception("reason", code)),
+                          Contains("the file: writing failed: reason. ") && Contains(remedy));
+}
+
+TEST_CASE("tables of sessions whose stimuli were of fewer lists get a column for each that came later",
+          "[unit]") {
+    const TemporaryFolder root;
+    const fs::path file = root.path() / session_file_name;
+    create_session_file(file, example_header());
+    SQLite::Database database(file.string(), SQLite::OPEN_READWRITE);
+    database.exec("CREATE TABLE early (object INTEGER, material INTEGER, light INTEGER); INSERT INTO early "
+                  "VALUES (1, 1, 1); "
+                  "CREATE TABLE of_objects (object INTEGER); CREATE TABLE of_materials (material INTEGER); "
+                  "ALTER TABLE flip DROP COLUMN step; ALTER TABLE step DROP COLUMN places; DROP TABLE slot");
+    complete_session_tables(database);
+    complete_session_tables(database); // once more changes nothing
+    const auto columns = [&](const std::string& table) {
+        std::string names;
+        SQLite::Statement row(database, "SELECT name FROM pragma_table_info('" + table + "')");
+        while (row.executeStep())
+            names += row.getColumn(0).getString() + " ";
+        return names;
+    };
+    CHECK(columns("early") == "object material light motion view background ");
+    CHECK(database.execAndGet("SELECT light || motion || view || background FROM early").getString() ==
+          "1000");
+    CHECK(columns("of_objects") == "object ");
+    CHECK(columns("of_materials") == "material ");
+    CHECK(columns("slot") == "slot id title left_px top_px width_px height_px ");
+    CHECK_THAT(columns("flip"), Contains(" step "));
+    CHECK_THAT(columns("step"), Contains(" places "));
 }

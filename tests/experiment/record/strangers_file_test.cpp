@@ -34,6 +34,17 @@ void check_is_refused(const fs::path& session, const std::string& words) {
     CHECK_FALSE(verify_session(session).is_sound());
 }
 
+/// Gives no row.
+void refuses_or_ignores(const SQLite::Database& database, const std::string& sql) {
+    INFO(sql);
+    bool has_row = false;
+    try {
+        has_row = SQLite::Statement(database, sql).executeStep();
+    } catch (const SQLite::Exception&) {
+    }
+    CHECK_FALSE(has_row);
+}
+
 } // namespace
 
 TEST_CASE("views, triggers, virtual tables and names that are statements make a file no session", "[unit]") {
@@ -53,6 +64,28 @@ TEST_CASE("views, triggers, virtual tables and names that are statements make a 
     check_is_refused(session_with(root.path(), "CREATE TABLE extra (x INTEGER, y AS (x + 1))"),
                      "a column \"extra.y\"");
     CHECK_NOTHROW(SessionRecord(session_with(root.path(), "CREATE TABLE extra (x INTEGER)")));
+}
+
+TEST_CASE("names of tables and columns are letters, digits and underscores", "[unit]") {
+    SQLite::Database database(":memory:", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+    const auto is_refused = [&](const std::string& table, const std::string& column) {
+        database.exec("CREATE TABLE \"" + table + "\" (\"" + column + "\")");
+        bool refused = false;
+        try {
+            require_plain_schema(database, "a");
+        } catch (const RecordError&) {
+            refused = true;
+        }
+        database.exec("DROP TABLE \"" + table + "\"");
+        return refused;
+    };
+    for (const char c : std::string("azAZ09_m"))
+        CHECK_FALSE((is_refused(std::string(1, c), "x") || is_refused("t", std::string(1, c))));
+    for (const char c : std::string("`{@[/: '-(\x7f")) // those beside the ranges, too
+        CHECK((is_refused(std::string("t") + c, "x") && is_refused("t", std::string("x") + c)));
+    CHECK_FALSE(is_refused(std::string(64, 't'), std::string(64, 'x')));
+    CHECK(is_refused(std::string(65, 't'), "x"));
+    CHECK(is_refused("t", std::string(65, 'x')));
 }
 
 TEST_CASE("what a seal says of columns is no statement", "[unit]") {
@@ -85,7 +118,14 @@ TEST_CASE("a reader's connection selects and does nothing else", "[unit]") {
     refuses("INSERT INTO extra VALUES (1)");
     refuses("SELECT * FROM counted_trial");
     refuses("WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n) SELECT count(*) FROM n");
-    CHECK(SQLite::Statement(database, "SELECT count(*) FROM trial").executeStep());
+    for (const char* const word : {"selects", "PRAGMA writable_schemas", "PRAGMA foreign_keys = 0",
+                                   "PRAGMA user", "PRAGMA user_versions", "PRAGMA synchronous"})
+        refuses_or_ignores(database, word);
+    for (const char* const tells : {"PRAGMA user_version", "PRAGMA Journal_Mode", "PRAGMA table_info(trial)",
+                                    "PRAGMA page_count", "SELECT upper('a')", "SELECT count(*) FROM trial"}) {
+        INFO(tells);
+        CHECK(SQLite::Statement(database, tells).executeStep());
+    }
 }
 
 TEST_CASE("a statement without an end ends, and each one when the program is asked to", "[unit]") {
