@@ -102,7 +102,7 @@ def compiled(root, build, folder, commands, texts, drawn):
             if object_file.exists() and object_file.stat().st_mtime > newest:
                 break
             words = [word for word in command if word not in ("-Winvalid-pch",)]
-            words = words[:words.index("-o")] + ["-include", str(here / "switch.h"), "-w", "-Wno-narrowing", "-fmax-errors=0",
+            words = words[:words.index("-o")] + ["-O1", "-include", str(here / "switch.h"), "-w", "-Wno-narrowing", "-fmax-errors=0",
                                                  "-o", str(object_file), "-c", str(made)]
             ran = subprocess.run(words, cwd=directory, capture_output=True, text=True)
             if ran.returncode == 0:
