@@ -1,7 +1,10 @@
 /// Objects that the observer turns: by held keys, by the mouse, up to their ends.
 #include "experiment/session/object_turning.h"
 
+#include <cmath>
+
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
 #include "experiment/protocol/slot.h"
 
@@ -280,4 +283,206 @@ TEST_CASE("poses that are drawn are the trial's own, and each comes up", "[unit]
     }
     for (const int one : count)
         CHECK(one > 30);
+}
+
+TEST_CASE("a drag begins on the image, its first pixels included and those after it not", "[unit]") {
+    ObserverTurn by;
+    by.drag_deg = 180.0;
+    Protocol protocol = turned_protocol(by);
+    protocol.slots.front().entry = 0;
+    protocol.slots.front().right_deg = 4.0;
+    protocol.slots.front().up_deg = 2.0;
+    protocol.slots.front().width_deg = 6.0;
+    protocol.slots.front().height_deg = 3.0;
+    const ScreenGeometry screen = slot_geometry(protocol, protocol.slots.front());
+    const double left = screen.image_origin_px.x - 0.5 * screen.screen_px.x;
+    const double top = screen.image_origin_px.y - 0.5 * screen.screen_px.y;
+    const double right = left + screen.image_px.x, bottom = top + screen.image_px.y;
+    CHECK(left > 0.0); // to the right of the middle, and above it
+    CHECK(bottom < 0.0);
+    ObjectTurning turning;
+    turning.begin_trial(protocol, {}, 1, false);
+    turning.begin_show({0});
+    const auto begins = [&](double right_px, double down_px, int button = 1) {
+        ObserverInput press = turning_mouse(0.0, TurningInput::pointer_down, right_px);
+        press.down_px = down_px;
+        press.button = button;
+        return turning.take(press);
+    };
+    const double mid_x = 0.5 * (left + right), mid_y = 0.5 * (top + bottom);
+    CHECK(begins(left, mid_y));
+    CHECK_FALSE(begins(left - 0.01, mid_y));
+    CHECK(begins(right - 0.01, mid_y));
+    CHECK_FALSE(begins(right, mid_y));
+    CHECK(begins(mid_x, top));
+    CHECK_FALSE(begins(mid_x, top - 0.01));
+    CHECK(begins(mid_x, bottom - 0.01));
+    CHECK_FALSE(begins(mid_x, bottom));
+    CHECK_FALSE(begins(mid_x, mid_y, 2)); // another button
+    const std::vector<TurningOffer> offers = turning.offers(3, turned_at_s(2.0), 7.5);
+    REQUIRE(offers.size() == 1);
+    CHECK(offers[0].show == 3);
+    CHECK(offers[0].place == 0);
+    CHECK(offers[0].since == turned_at_s(2.0));
+    CHECK(offers[0].lasts_s == 7.5);
+    CHECK(offers[0].right_px == Approx(mid_x));
+    CHECK(offers[0].down_px == Approx(mid_y));
+    CHECK(offers[0].deg_per_px == Approx(180.0 / screen.image_px.x));
+    CHECK(offers[0].speed_deg_s == by.speed_deg_s);
+    CHECK(offers[0].turn_sd_deg == by.simulated_turn_deg);
+    CHECK(offers[0].pause_s == by.simulated_pause_s);
+    CHECK(offers[0].less.empty());
+    CHECK_FALSE(offers[0].is_elevation);
+    CHECK_FALSE(offers[0].drags_tilt);
+    // The sum of a drag's ways turns it, whatever its pieces.
+    begins(mid_x, mid_y);
+    for (int i = 1; i <= 10; ++i) {
+        ObserverInput moved = turning_mouse(0.1 * i, TurningInput::pointer_moved, mid_x + 2.4 * i);
+        moved.down_px = mid_y;
+        CHECK(turning.take(moved));
+    }
+    CHECK(turned_frame(turning) == std::lround(24.0 * 180.0 / screen.image_px.x / by.step.value));
+}
+
+TEST_CASE("offers to turn name the keys of each direction, and those of an elevation by themselves",
+          "[unit]") {
+    ObserverTurn by = turned_by_keys();
+    by.keys = {"a", "d", "w", "s"};
+    by.elevation_step = Degrees{10.0};
+    by.elevation_from = Degrees{-20.0};
+    by.elevation_to = Degrees{20.0};
+    const Protocol protocol = turned_protocol(by);
+    ObjectTurning turning;
+    turning.begin_trial(protocol, {}, 1, false);
+    CHECK(turning.offers(0, {}, 1.0).empty()); // nothing is lit
+    turning.begin_show({0});
+    const std::vector<TurningOffer> offers = turning.offers(0, {}, 1.0);
+    REQUIRE(offers.size() == 2);
+    CHECK(offers[0].less == "a");
+    CHECK(offers[0].more == "d");
+    CHECK_FALSE(offers[0].is_elevation);
+    CHECK_FALSE(offers[0].drags_tilt);
+    CHECK(offers[1].less == "w");
+    CHECK(offers[1].more == "s");
+    CHECK(offers[1].is_elevation);
+    CHECK_FALSE(turning.shows_pointer());
+    turning.end_show();
+    CHECK(turning.offers(0, {}, 1.0).empty());
+    CHECK_FALSE(turning.is_active());
+}
+
+TEST_CASE("each of two objects is turned where it is, and stands from show to show as it was left",
+          "[unit]") {
+    ObserverTurn by;
+    by.with = TurnedWith::both;
+    by.drag_deg = 180.0;
+    Protocol protocol = turned_protocol(by, 10.0);
+    protocol.slots.resize(2);
+    protocol.slots[0].id = "left";
+    protocol.slots[0].right_deg = -6.0;
+    protocol.slots[1].id = "right";
+    protocol.slots[1].right_deg = 6.0;
+    for (Slot& slot : protocol.slots) {
+        slot.entry = 0;
+        slot.width_deg = slot.height_deg = 5.0;
+    }
+    Trial trial;
+    trial.slot = 0;
+    trial.beside.push_back({Stimulus{}, 1});
+    const ScreenGeometry screen = slot_geometry(protocol, protocol.slots[1]);
+    const double middle = screen.image_origin_px.x - 0.5 * screen.screen_px.x + 0.5 * screen.image_px.x;
+    const auto frame = [](const ObjectTurning& turning, int place) {
+        return turning.pose_of(place)->frame.value;
+    };
+    ObjectTurning turning;
+    turning.begin_trial(protocol, trial, 1, false);
+    CHECK_FALSE(turning.pose_of(2));
+    turning.begin_show({0, 1});
+    CHECK(turning.offers(0, {}, 1.0).size() == 2);
+    CHECK(turning.take(turning_mouse(1.0, TurningInput::pointer_down, middle)));
+    CHECK(turning.take(turning_mouse(1.1, TurningInput::pointer_moved, middle + 0.2 * screen.image_px.x)));
+    CHECK(frame(turning, 0) == 5);  // 10 deg
+    CHECK(frame(turning, 1) == 23); // 36 deg more
+    CHECK_FALSE(turning.pose_of(0)->input_at);
+    CHECK(turning.pose_of(1)->input_at == turned_at_s(1.1));
+    // A key turns both, as long as it is held; a new show lets it go, of all of them.
+    CHECK(turning.take(turning_key(2.0, "right", TurningInput::key_down)));
+    turning.go_to(turned_at_s(2.1));
+    CHECK(frame(turning, 0) == 8);
+    CHECK(frame(turning, 1) == 26);
+    turning.begin_show({1});
+    CHECK_FALSE(turning.pose_of(0)->input_at);
+    CHECK_FALSE(turning.pose_of(1)->input_at);
+    turning.go_to(turned_at_s(3.0));
+    CHECK(frame(turning, 0) == 8);
+    CHECK(frame(turning, 1) == 26);
+    CHECK(turning.offers(0, {}, 1.0).size() == 1);
+    CHECK(turning.offers(0, {}, 1.0).front().place == 1);
+    CHECK_FALSE(turning.take(turning_mouse(3.0, TurningInput::pointer_moved, middle))); // the drag is over
+    CHECK(turning.take(turning_key(4.0, "left", TurningInput::key_down)));
+    turning.go_to(turned_at_s(4.1));
+    CHECK(frame(turning, 0) == 8); // it is not lit
+    CHECK(frame(turning, 1) == 23);
+    ObserverInput gone = turning_key(4.2, "", TurningInput::let_go);
+    turning.take(gone);
+    turning.go_to(turned_at_s(9.0));
+    CHECK(frame(turning, 1) == 20); // until it was let go
+    // What was done is told with the slot and the angle after it.
+    std::vector<AnswerInput> inputs;
+    turning.add_to(inputs);
+    std::vector<std::string> rows;
+    for (const AnswerInput& input : inputs)
+        rows.push_back(fmt::format("{} {} {:.0f}", input.id, input.item, *input.number));
+    CHECK(rows == std::vector<std::string>{"explore right 10", "explore right 46", "explore left 10",
+                                           "explore right 46", "explore right 52"});
+    for (const AnswerInput& input : inputs) {
+        CHECK(input.state == InputState::open);
+        CHECK(input.has_counted);
+    }
+    // A new trial begins as the protocol says, and knows nothing of the one before.
+    turning.begin_trial(protocol, trial, 1, false);
+    turning.begin_show({0, 1});
+    CHECK(frame(turning, 0) == 5);
+    CHECK(frame(turning, 1) == 5);
+    inputs.clear();
+    turning.add_to(inputs);
+    CHECK(inputs.empty());
+}
+
+TEST_CASE("inputs beyond those that find room still turn, are counted, and are the trial's own", "[unit]") {
+    ObserverTurn by;
+    const Protocol protocol = turned_protocol(by);
+    ObjectTurning turning;
+    turning.begin_trial(protocol, {}, 1, false);
+    turning.begin_show({0});
+    ObserverInput wheel = turning_mouse(0.0, TurningInput::wheel, 0.0);
+    wheel.steps = 1.0;
+    for (int i = 0; i < 16384 + 7; ++i)
+        CHECK(turning.take(wheel));
+    CHECK(turning.lost_inputs() == 7);
+    CHECK(turned_frame(turning) == (16384 + 7) % 180);
+    std::vector<AnswerInput> inputs;
+    turning.add_to(inputs);
+    CHECK(inputs.size() == 16384);
+    turning.begin_trial(protocol, {}, 1, false);
+    CHECK(turning.lost_inputs() == 0);
+}
+
+TEST_CASE("a drawn pose in practice is another draw than that of the trial of the same number", "[unit]") {
+    ObserverTurn by = turned_by_keys();
+    by.start = TurnStart::drawn;
+    const Protocol protocol = turned_protocol(by);
+    int alike = 0, seeds = 0;
+    for (int index = 0; index < 50; ++index) {
+        Trial trial;
+        trial.index = index;
+        ObjectTurning turning, practice, other;
+        turning.begin_trial(protocol, trial, 3, false);
+        practice.begin_trial(protocol, trial, 3, true);
+        other.begin_trial(protocol, trial, 4, false);
+        alike += turned_frame(turning) == turned_frame(practice);
+        seeds += turned_frame(turning) == turned_frame(other);
+    }
+    CHECK(alike < 5);
+    CHECK(seeds < 5);
 }

@@ -90,3 +90,60 @@ TEST_CASE("a tracker that does not record is told, and the rest is checked witho
     CHECK(check.refreshes == 12);
     CHECK_THAT(describe(check), Contains("without the eye tracker: it is gone"));
 }
+
+TEST_CASE("the distribution of times is that of their ranks", "[unit]") {
+    PresentationCheck check;
+    for (int i = 100; i >= 0; --i) { // in any order
+        check.intervals_ms.push_back(i);
+        check.work_ms.push_back(0.001 * i);
+    }
+    const std::string said = describe(check);
+    CHECK_THAT(said,
+               Contains("from picture to picture in ms: least 0.000, 1 % 1.000, 5 % 5.000, 25 % 25.000, "
+                        "median 50.000, 75 % 75.000, 95 % 95.000, 99 % 99.000, most 100.000;"));
+    CHECK_THAT(said, Contains("swap in ms: least 0.000, 1 % 0.001, 5 % 0.005"));
+    check.intervals_ms.clear();
+    CHECK_THAT(describe(check), Contains("in ms: none;"));
+}
+
+TEST_CASE("one miss in a hundred refreshes is tolerable, more is not", "[unit]") {
+    PresentationCheck check;
+    check.refreshes = 198;
+    check.missed = 2;
+    CHECK_FALSE(misses_too_many(check));
+    check.refreshes = 197;
+    CHECK(misses_too_many(check));
+    check.missed = 0;
+    CHECK_FALSE(misses_too_many(check));
+}
+
+TEST_CASE("a check says what it counted, and where nothing proves the times", "[unit]") {
+    PresentationCheck check;
+    check.refreshes = 1;
+    check.missed = 3;
+    check.samples = 1;
+    CHECK(counts_of(check) == "1 refresh, 3 missed, 1 sample of gaze");
+    check.has_proven_times = false;
+    CHECK(counts_of(check) ==
+          "1 refresh, 3 refreshes missed, by times that nothing proves, 1 sample of gaze");
+}
+
+TEST_CASE("a check of the presentation tells each part that it is one, in its order", "[unit]") {
+    DarkPresentation dark;
+    dark.tracker.late = 5;
+    const Schedule schedule = make_schedule(dark.protocol, {"P", 1}, 1);
+    PresentationListener* const listeners[] = {&dark.hindrance};
+    const CheckedTracker trackers[] = {{dark.tracker, dark.log}};
+    PresentationCheckPorts ports{dark.clock, dark.presenter, dark.log, listeners, trackers};
+    ports.has_proven_times = false;
+    const PresentationCheck check = check_presentation(dark.protocol, schedule.trials.front(), ports);
+    CHECK_FALSE(check.has_proven_times);
+    CHECK(dark.log.started == std::vector<int>{schedule.trials.front().index});
+    CHECK(dark.presenter.loaded == std::vector<Stimulus>{schedule.trials.front().stimulus});
+    // What came when the recording had ended is counted, too.
+    CHECK(check.samples == dark.tracker.arrived);
+    CHECK(check.samples >= 12 + 5);
+    // The veil comes before the first dark screen and goes before the last.
+    CHECK(dark.presenter.blanks == 3);
+    CHECK(dark.presenter.veiled_blanks == 2);
+}

@@ -1,7 +1,13 @@
 /// Answers by keys, during the stimulus and after it, on ports that do what they are told.
 #include <deque>
+#include <tuple>
 
 #include "experiment/ports/answer_offer.h"
+#include "experiment/ports/marker_sink.h"
+#include "experiment/ports/presentation_listener.h"
+#include "experiment/ports/session_history.h"
+#include "experiment/protocol/slot.h"
+#include "experiment/session/answer_check.h"
 #include "tests/experiment/record/plain_session.h"
 
 using namespace overt;
@@ -316,4 +322,360 @@ when = "end"
             order.push_back(what);
     }
     CHECK(order == std::vector<std::string>{"100 %", "Effort in b?", "2 of 2", "Effort in c?", "Remarks?"});
+}
+
+namespace {
+
+constexpr std::string_view two_slots_text = R"([protocol]
+name = "slots"
+[animation]
+duration_s = 0.5
+[[slot]]
+id = "left"
+right_deg = -6
+up_deg = 2
+size_deg = 5
+[[slot]]
+id = "right"
+right_deg = 6
+up_deg = 2
+size_deg = 5
+[[object]]
+id = "a"
+shipped = "muse"
+[[material]]
+id = "gold"
+kind = "smooth-conductor"
+[[material]]
+id = "clay"
+kind = "diffuse"
+[[task]]
+id = "t"
+question = "Which is nearer?"
+slots = ["left", "right"]
+trials = { rule = "pairs", of = "material" }
+steps = [ { show = ["left", "right"], for_s = 0.5, until = "answer" }, { answer = "which", limit_s = 1 } ]
+[[task.answer]]
+id = "which"
+kind = "choice"
+choices = ["left", "right"]
+)";
+
+Protocol two_slots(std::string_view more) {
+    const ReadText read(two_slots_text, more);
+    INFO(read.diagnostics.print());
+    REQUIRE(read.protocol);
+    return *read.protocol;
+}
+
+/// Where a slot is, from the middle of the screen: its first pixel and the one after its last.
+std::pair<glm::dvec2, glm::dvec2> edges_of(const Protocol& protocol, std::size_t slot) {
+    const ScreenGeometry screen = slot_geometry(protocol, protocol.slots[slot]);
+    const glm::dvec2 first = glm::dvec2(screen.image_origin_px) - 0.5 * glm::dvec2(screen.screen_px);
+    return {first, first + glm::dvec2(screen.image_px)};
+}
+
+/// A click there, half so many milliseconds after the window has opened and then so many; once in a trial.
+auto clicking(glm::dvec2 at, double ms = 100.0) {
+    return [at, ms, done = 0, trial = -2](ScriptedPanel& panel,
+                                          SessionTime now) mutable -> std::optional<ObserverInput> {
+        if (std::exchange(trial, panel.trial) != panel.trial)
+            done = 0;
+        if (!panel.opened || done >= 2)
+            return std::nullopt;
+        const SessionTime due = *panel.opened + from_seconds(1e-3 * ms * (done == 0 ? 0.5 : 1.0));
+        if (now < due)
+            return std::nullopt;
+        ObserverInput input{.kind = done == 0 ? ObserverInput::Kind::pointer_down
+                                              : ObserverInput::Kind::pointer_up,
+                            .at = due,
+                            .device = ShortName("mouse")};
+        input.right_px = at.x;
+        input.down_px = at.y;
+        input.button = 1;
+        ++done;
+        return input;
+    };
+}
+
+} // namespace
+
+TEST_CASE("choices that are slots are clicked on themselves, up to their edges, while they are shown",
+          "[unit]") {
+    const Protocol protocol = two_slots("with = \"mouse\"\n");
+    for (const std::size_t slot : {std::size_t{0}, std::size_t{1}}) {
+        const auto [first, end] = edges_of(protocol, slot);
+        CHECK((first.x > 0.0) == (slot == 1));
+        CHECK(end.y < 200.0);
+        const glm::dvec2 middle = 0.5 * (first + end);
+        const std::pair<glm::dvec2, bool> places[] = {
+            {first, true},
+            {end - 0.01, true},
+            {middle, true},
+            {{first.x - 0.01, middle.y}, false},
+            {{middle.x, first.y - 0.01}, false},
+            {{end.x, middle.y}, false},
+            {{middle.x, end.y}, false},
+        };
+        for (const auto& [at, is_in] : places) {
+            CAPTURE(slot, at.x, at.y);
+            Sitting sitting(protocol);
+            sitting.panel.does = clicking(at);
+            CHECK_FALSE(sitting.run().aborted);
+            REQUIRE_FALSE(sitting.log.outcomes.empty());
+            for (const TrialOutcome& outcome : sitting.log.outcomes) {
+                REQUIRE(outcome.given.size() == 1);
+                CHECK(outcome.given[0].is_missed == !is_in);
+                CHECK(outcome.given[0].value == (!is_in ? "" : slot == 0 ? "left" : "right"));
+                CHECK(outcome.steps[0].ended_by == (is_in ? StepEnd::answer : StepEnd::time));
+            }
+            // The pointer is seen beside the stimuli, without the answer's items, and goes with them.
+            REQUIRE(sitting.presenter.beside.size() == 2 * sitting.log.outcomes.size());
+            for (std::size_t i = 0; i < sitting.presenter.beside.size(); ++i) {
+                const std::optional<AnswerView>& view = sitting.presenter.beside[i];
+                REQUIRE(view.has_value() == (i % 2 == 0));
+                if (!view)
+                    continue;
+                CHECK(view->shows_pointer);
+                CHECK(view->items.empty());
+                CHECK(view->accept.empty());
+                CHECK_FALSE(view->up_deg);
+            }
+        }
+    }
+    // Of a choice by keys no slot is clicked on, and nothing stands beside it.
+    Sitting by_keys(two_slots("keys = [\"f\", \"j\"]\n"));
+    const auto [first, end] = edges_of(protocol, 0);
+    by_keys.panel.does = clicking(0.5 * (first + end));
+    by_keys.run();
+    CHECK(by_keys.log.outcomes.front().given[0].is_missed);
+    CHECK(by_keys.presenter.beside.empty());
+}
+
+TEST_CASE("an answer that stands beside the stimulus is where the protocol says, and is clicked on there",
+          "[unit]") {
+    Sitting sitting(two_slots("with = \"mouse\"\nbeside_up_deg = -7\n"));
+    std::vector<std::pair<double, double>> asked;
+    sitting.presenter.place_at = [&](double right_px, double down_px) {
+        asked.emplace_back(right_px, down_px);
+        return right_px > 0.0 ? AnswerPlace{.item = 0, .option = 1} : AnswerPlace{};
+    };
+    sitting.panel.does = clicking({30.0, 400.0});
+    sitting.run();
+    for (const TrialOutcome& outcome : sitting.log.outcomes)
+        CHECK(outcome.given.at(0).value == "right");
+    REQUIRE_FALSE(asked.empty());
+    for (const auto& [right_px, down_px] : asked) {
+        CHECK(right_px == 30.0);
+        CHECK(down_px == 400.0);
+    }
+    REQUIRE_FALSE(sitting.presenter.beside.empty());
+    REQUIRE(sitting.presenter.beside.front());
+    CHECK(sitting.presenter.beside.front()->up_deg == -7.0);
+    CHECK(sitting.presenter.beside.front()->items.size() == 1);
+}
+
+TEST_CASE("inputs of one look count in the order of their times, whatever device they come from", "[unit]") {
+    // Told in one look, the later ones first.
+    constexpr double ms[] = {240.0, 230.0, 220.0, 235.0};
+    constexpr std::string_view keys[] = {"j", "j", "f", "f"};
+    Sitting sitting(short_protocol(asked_at_stimulus));
+    sitting.panel.does = [&, done = std::size_t{0}, trial = -2](
+                             ScriptedPanel& panel, SessionTime now) mutable -> std::optional<ObserverInput> {
+        if (std::exchange(trial, panel.trial) != panel.trial)
+            done = 0;
+        if (!panel.opened || done >= std::size(ms) || now < *panel.opened + from_seconds(0.25))
+            return std::nullopt;
+        ObserverInput input{.kind = ObserverInput::Kind::key_down,
+                            .at = *panel.opened + from_seconds(1e-3 * ms[done]),
+                            .device = ShortName(done % 2 == 0 ? "box" : "keyboard")};
+        input.key = ShortName(keys[done++]);
+        return input;
+    };
+    CHECK(sitting.run().completed_trials == 2);
+    for (const TrialOutcome& outcome : sitting.log.outcomes) {
+        CHECK(outcome.given.at(0).value == "x"); // the press at 220 ms
+        CHECK(outcome.given[0].response_time() == from_seconds(0.22));
+        CHECK(outcome.given[0].device == "box");
+        REQUIRE(outcome.inputs.size() == 4);
+        for (std::size_t i = 1; i < 4; ++i)
+            CHECK(outcome.inputs[i].input.at >= outcome.inputs[i - 1].input.at);
+    }
+}
+
+namespace {
+
+/// Notes what it is told of presentations.
+struct Follower final : PresentationListener {
+    void presentation_begins(const Trial& lit, int show) noexcept override {
+        shows.emplace_back(lit.index, show, static_cast<int>(lit.shown_count()));
+    }
+    void flipped(const FlipRecord& flip) noexcept override { flips.push_back(flip.shown.value); }
+    void slot_flipped(const SlotFlip& flip) noexcept override {
+        places.push_back(flip.place);
+        frames.push_back(flip.shown.value);
+    }
+    void screen_shown(const Screen&, SessionTime onset) noexcept override { screens.push_back(onset); }
+    std::vector<std::tuple<int, int, int>> shows;
+    std::vector<int> flips, places, frames;
+    std::vector<SessionTime> screens;
+};
+
+} // namespace
+
+TEST_CASE("each listener is told of every show, with the places of what it lights", "[unit]") {
+    Sitting sitting(two_slots("keys = [\"f\", \"j\"]\n"));
+    // The first show lights the right slot alone, the second both.
+    std::string text(two_slots_text);
+    const std::string_view steps = "{ show = [\"left\", \"right\"], for_s = 0.5, until = \"answer\" }";
+    text.replace(
+        text.find(steps), steps.size(),
+        "{ show = \"right\", for_s = 0.1 }, { blank = 0.1 }, { show = [\"left\", \"right\"], for_s = 0.2 }");
+    const ReadText read(text, "keys = [\"f\", \"j\"]\n");
+    INFO(read.diagnostics.print());
+    REQUIRE(read.protocol);
+    sitting.protocol = *read.protocol;
+    Follower one, other;
+    sitting.listeners = {&one, &other};
+    sitting.panel.does = pressing({{20, "f"}, {40, "f", ObserverInput::Kind::key_up}});
+    const int trials = sitting.run().completed_trials;
+    REQUIRE(trials >= 1);
+    CHECK(one.shows == other.shows);
+    CHECK(one.flips == other.flips);
+    CHECK(one.places == other.places);
+    CHECK(one.screens == other.screens);
+    REQUIRE(one.shows.size() == 2 * static_cast<std::size_t>(trials));
+    for (int trial = 0; trial < trials; ++trial) {
+        CHECK(one.shows[static_cast<std::size_t>(2 * trial)] == std::tuple(trial, 0, 1));
+        CHECK(one.shows[static_cast<std::size_t>(2 * trial + 1)] == std::tuple(trial, 1, 2));
+    }
+    // 12 refreshes of one, 24 of two, whose second is the place after the first of what is lit.
+    CHECK(one.flips.size() == static_cast<std::size_t>(36 * trials));
+    CHECK(one.places == std::vector<int>(static_cast<std::size_t>(24 * trials), 1));
+    // Both move together.
+    std::vector<int> seconds;
+    for (int trial = 0; trial < trials; ++trial)
+        seconds.insert(seconds.end(), one.flips.begin() + 36 * trial + 12,
+                       one.flips.begin() + 36 * trial + 36);
+    CHECK(one.frames == seconds);
+    for (std::size_t i = 1; i < one.screens.size(); ++i)
+        CHECK(one.screens[i] > one.screens[i - 1]);
+}
+
+TEST_CASE("while an answer is awaited the next trial's stimulus is expected, and none after the last",
+          "[unit]") {
+    for (const std::string_view text : {std::string_view(), asked_at_stimulus}) {
+        Sitting sitting(short_protocol(text));
+        sitting.panel.does = pressing({{700, "f"}});
+        CHECK(sitting.run().completed_trials == 2);
+        REQUIRE(sitting.presenter.loaded.size() == 2);
+        CHECK(sitting.presenter.expected == std::vector<Stimulus>{sitting.presenter.loaded[1]});
+    }
+}
+
+TEST_CASE("answers of earlier sittings count in a block's feedback, but for a block that began anew",
+          "[unit]") {
+    const std::string text = std::string(asked_at_stimulus) + "feedback = \"{correct} of {trials}\"\n";
+    const auto feedback_after = [&](std::vector<RecordedStep> steps, int counted) {
+        Sitting sitting(short_protocol(text));
+        sitting.panel.does = pressing({{200, "f"}, {210, "f", ObserverInput::Kind::key_up}});
+        SessionHistory history;
+        history.steps = std::move(steps);
+        history.counted_trials = counted;
+        history.is_opened = true;
+        CHECK_FALSE(sitting.run(history).aborted);
+        std::string said;
+        for (const std::string& words : sitting.presenter.texts)
+            if (words.find(" of ") != std::string::npos)
+                said += words + "; ";
+        return fmt::format("{}{}", said, sitting.log.started.size());
+    };
+    GivenAnswer wrong;
+    wrong.id = "which";
+    wrong.kind = "choice";
+    wrong.is_missed = false;
+    wrong.value = "y";
+    wrong.correct = "x";
+    wrong.is_correct = false;
+    using Kind = RecordedStep::Kind;
+    const RecordedStep counted{
+        .kind = Kind::trial, .trial = 0, .fate = AttemptFate::counted, .given = {wrong}};
+    CHECK(feedback_after({}, 0) == "2 of 2; 2");
+    CHECK(feedback_after({counted, {.kind = Kind::resumed, .policy = ResumePolicy::redo}}, 1) == "1 of 2; 1");
+    CHECK(feedback_after({counted, {.kind = Kind::resumed, .policy = ResumePolicy::restart_block}}, 0) ==
+          "2 of 2; 2");
+}
+
+TEST_CASE("what became of each answer is told to the operator's log in its words", "[unit]") {
+    RecordedAnswer answer;
+    answer.samples = 1000;
+    answer.voice_onset = SessionDuration{};
+    const auto said = [](const RecordedAnswer& of) { return warnings_about(of); };
+    using Said = std::vector<std::string>;
+    CHECK(said(answer).empty());
+    RecordedAnswer broken = answer;
+    broken.fault = "the device went";
+    CHECK(said(broken) == Said{"broke off: the device went"});
+    RecordedAnswer clipped = answer;
+    clipped.clipped_samples = 1;
+    CHECK(said(clipped) == Said{"clipped: 1 samples at full scale; turn the microphone down"});
+    RecordedAnswer silent = answer;
+    silent.voice_onset.reset();
+    silent.noise_dbfs = -61.4;
+    silent.peak_dbfs = -40.6;
+    CHECK(said(silent) ==
+          Said{"silent: no voice above the noise of -61 dBFS, the loudest sample is at -41 dBFS"});
+    RecordedAnswer empty;
+    CHECK(said(empty) == Said{"empty: the sound device gave no sample"});
+    empty.fault = "no device";
+    CHECK(said(empty) == Said{"broke off: no device"});
+    RecordedAnswer one = answer;
+    one.samples = 1;
+    one.voice_onset.reset();
+    CHECK(said(one).size() == 1);
+    CHECK_THAT(said(one).front(), Catch::StartsWith("silent"));
+    RecordedAnswer lost = answer;
+    lost.overruns = 1;
+    lost.lost_samples = 480;
+    CHECK(said(lost) == Said{"1 overruns, 480 samples lost"});
+}
+
+namespace {
+
+/// Counts what a marker output is told.
+class ResponseSink final : public MarkerSink {
+  public:
+    const std::string& name() const noexcept override { return name_; }
+    void mark(const Marker& marker) noexcept override {
+        if (marker.text == "RESPONSE")
+            at.push_back(marker.at);
+        texts.emplace_back(marker.text);
+    }
+    std::size_t poll(std::span<SentMarker>) noexcept override { return 0; }
+    std::vector<std::string> finish() override { return {}; }
+    std::vector<SessionTime> at;
+    std::vector<std::string> texts;
+
+  private:
+    std::string name_ = "responses";
+};
+
+} // namespace
+
+TEST_CASE("each answer is marked once, at its time, whether it is spoken or pressed", "[unit]") {
+    const std::string output = "[[marker_output]]\nid = \"out\"\nkind = \"lsl\"\n";
+    for (const std::string_view text : {std::string_view(), asked_at_stimulus}) {
+        Sitting sitting(short_protocol(output + std::string(text)));
+        ResponseSink sink;
+        sitting.markers = {&sink};
+        sitting.panel.does = pressing({{700, "f"}, {710, "f", ObserverInput::Kind::key_up}, {720, "j"}});
+        CHECK(sitting.run().completed_trials == 2);
+        REQUIRE(sink.at.size() == 2);
+        for (std::size_t i = 0; i < 2; ++i)
+            CHECK(sink.at[i] == sitting.log.outcomes[i].responded_at);
+        // The same texts as a tracker is told, but for its frames, which an output has by its flips.
+        CHECK(std::ranges::count(sink.texts, "PRESENTATION_END") == 2);
+        CHECK(std::ranges::count(sink.texts, "TRIALID 1") == 1);
+        CHECK(std::ranges::count(sink.texts, "TRIAL_RESULT 0") == 2);
+    }
 }

@@ -89,3 +89,31 @@ TEST_CASE("an answer has the uncertainty of the press that gave it, and the next
     CHECK(sitting.log.outcomes[0].responded_uncertainty == SessionDuration(std::chrono::milliseconds(4)));
     CHECK_FALSE(sitting.log.outcomes[1].responded_uncertainty);
 }
+
+TEST_CASE("a keyboard that goes a second time is told of a second time", "[unit]") {
+    Sitting sitting(short_protocol("[words]\nkeyboard_lost = \"Click here.\"\n"));
+    int returns = 0;
+    sitting.panel.lacks_keyboard = [&, is_away = false, gone_in = -1](const ScriptedPanel& panel) mutable {
+        if (panel.phase() == SessionPhase::task_screen && panel.trial > gone_in) {
+            gone_in = panel.trial;
+            is_away = true;
+        }
+        if (is_away && panel.phase() == SessionPhase::pause && panel.looks >= 10) {
+            is_away = false;
+            ++returns;
+        }
+        return is_away;
+    };
+    sitting.panel.tell = [](ScriptedPanel& panel) -> std::optional<ResponsePress> {
+        return panel.phase() == SessionPhase::task_screen && panel.looks < 3
+                   ? std::optional(ResponsePress{Pressed::up, {}})
+                   : std::nullopt;
+    };
+    CHECK(sitting.run().completed_trials == 2);
+    CHECK(returns == 2);
+    CHECK(std::ranges::count(sitting.presenter.texts, "Click here.") == 2);
+    CHECK(sitting.panel.times_in(SessionPhase::pause) == 2);
+    // The question is shown again, and the trial is what it was.
+    CHECK(std::ranges::count(sitting.presenter.texts, "Look.") == 4);
+    CHECK(sitting.log.started == std::vector<int>{0, 1});
+}

@@ -208,3 +208,62 @@ TEST_CASE("outputs of the picture have on record when they rose, by the offset t
     CHECK(risen_after("offset_ms = 11.5\n") == from_seconds(0.0115));
     CHECK(risen_after("offset_ms = 0\n") == SessionDuration::zero());
 }
+
+TEST_CASE("markers that find no room are counted, and those after them are told apart", "[unit]") {
+    const Protocol protocol = marked_protocol("[[marker_output]]\nid = \"texts\"\nkind = \"lsl\"\n");
+    NotingSink sink;
+    const std::vector<MarkerSink*> sinks{&sink};
+    SessionMarkers markers(protocol, sinks);
+    MarkerLog log;
+    Trial trial;
+    trial.index = 4;
+    markers.begin_trial(trial, false);
+    const auto tell = [&](int from, int to) {
+        for (int i = from; i < to; ++i)
+            markers.tell(SessionTime(std::chrono::milliseconds(i)), "MARK " + std::to_string(i));
+    };
+    tell(0, 4096 + 3);
+    markers.write_down(log);
+    CHECK(log.events == std::vector<std::string>{"3 markers came too fast for all of it to be recorded"});
+    REQUIRE(log.all.size() == 4096 + 3);
+    for (int i = 0; i < 4096; ++i) {
+        REQUIRE(log.all[static_cast<std::size_t>(i)].text == "MARK " + std::to_string(i));
+        REQUIRE(log.all[static_cast<std::size_t>(i)].trial == 4);
+    }
+    CHECK(log.all.back().text.empty()); // it was sent, and nobody knows what it was
+    // Said once; room was made, and numbers go on.
+    log.events.clear();
+    log.all.clear();
+    tell(5000, 7000);
+    markers.write_down(log);
+    CHECK(log.events.empty());
+    REQUIRE(log.all.size() == 2000);
+    for (int i = 0; i < 2000; ++i)
+        REQUIRE(log.all[static_cast<std::size_t>(i)].text == "MARK " + std::to_string(5000 + i));
+    log.all.clear();
+    tell(8000, 8001);
+    markers.write_down(log);
+    REQUIRE(log.all.size() == 1);
+    CHECK(log.all[0].text == "MARK 8000");
+    CHECK(log.all[0].at == SessionTime(std::chrono::milliseconds(8000)));
+    CHECK(log.all[0].output == "texts");
+}
+
+TEST_CASE("a marker's text is cut at its longest, and practice marks nothing", "[unit]") {
+    const Protocol protocol = marked_protocol("[[marker_output]]\nid = \"texts\"\nkind = \"lsl\"\n");
+    NotingSink sink;
+    const std::vector<MarkerSink*> sinks{&sink};
+    SessionMarkers markers(protocol, sinks);
+    MarkerLog log;
+    markers.begin_trial({}, true);
+    markers.tell(SessionTime(), "practice");
+    CHECK(sink.texts.empty());
+    markers.begin_trial({}, false);
+    const std::string text(longest_marker + 5, 'x');
+    markers.tell(SessionTime(), text);
+    markers.write_down(log);
+    REQUIRE(log.all.size() == 1);
+    CHECK(log.all[0].text == text.substr(0, longest_marker));
+    CHECK_FALSE(log.all[0].planned_refresh);
+    CHECK_FALSE(log.all[0].shown_refresh);
+}

@@ -162,3 +162,124 @@ TEST_CASE("the session shows the form where somebody can type, with what is know
     for (const std::string& text : known.presenter.texts)
         CHECK(text.find("Age in years") == std::string::npos);
 }
+
+TEST_CASE("a form's rows say what each field is, where it is filled in, and what is at fault", "[unit]") {
+    std::vector<ObserverFieldSettings> fields(3);
+    fields[0].id = "age";
+    fields[0].title = "Age";
+    fields[0].kind = FieldKind::number;
+    fields[1].id = "hand";
+    fields[1].title = "Hand";
+    fields[1].kind = FieldKind::choice;
+    fields[1].choices = {"left", "right"};
+    fields[1].required = false;
+    fields[1].note = "Which do you write with?";
+    fields[2].id = "remarks";
+    fields[2].title = "Remarks";
+    fields[2].required = false;
+    for (ObserverFieldSettings& field : fields)
+        complete_field(field, field.kind == FieldKind::choice);
+    fields[2].kind = FieldKind::text;
+    ObserverForm form(fields, {}, {});
+    const auto hints = [&] {
+        std::string all;
+        for (const KeyHint& hint : form.screen().keys)
+            all += "[" + hint.key + "|" + hint.does + "]";
+        return all;
+    };
+    Screen screen = form.screen();
+    CHECK(screen.kind == Screen::Kind::form);
+    REQUIRE(screen.rows.size() == 3);
+    CHECK(screen.rows[0].label == "Age");
+    CHECK(screen.rows[1].label == "Hand (optional)");
+    CHECK(screen.rows[0].choices.empty());
+    CHECK(screen.rows[1].choices == std::vector<std::string>{"left", "right"});
+    for (std::size_t i = 0; i < 3; ++i) {
+        CHECK(screen.rows[i].is_here == (i == 0));
+        CHECK_FALSE(screen.rows[i].is_at_fault);
+    }
+    CHECK(screen.page == 1);
+    CHECK(screen.pages == 3);
+    CHECK(hints() == "[↑ ↓|other fields][enter|next]");
+    // What cannot be is at fault once it is left, or said to be.
+    for (const char32_t letter : std::u32string_view(U"500"))
+        form.take({Key::character, {}, letter});
+    CHECK_FALSE(form.screen().rows[0].is_at_fault);
+    form.take({Key::down, {}});
+    screen = form.screen();
+    CHECK(screen.rows[0].is_at_fault);
+    CHECK(screen.rows[0].value == "500");
+    CHECK(screen.rows[1].is_here);
+    CHECK_FALSE(screen.rows[1].is_at_fault);
+    CHECK(screen.page == 2);
+    CHECK_THAT(screen.text, Contains("Which do you write with?"));
+    CHECK(hints() == "[← →|choose][↑ ↓|other fields][enter|next]");
+    form.take({Key::right, {}});
+    CHECK(form.values()[1] == "left");
+    form.take({Key::right, {}});
+    CHECK(form.values()[1] == "right");
+    form.take({Key::right, {}});
+    CHECK(form.values()[1] == "left");
+    form.take({Key::left, {}});
+    CHECK(form.values()[1] == "right");
+    form.take({Key::character, {}, U'L'});
+    CHECK(form.values()[1] == "left");
+    form.take({Key::character, {}, U' '});
+    CHECK(form.values()[1] == "right");
+    form.take({Key::erase, {}});
+    CHECK(form.values()[1].empty());
+    form.take({Key::left, {}});
+    CHECK(form.values()[1] == "right"); // the last
+    form.take({Key::down, {}});
+    CHECK(form.focus() == 2);
+    CHECK(hints() == "[↑ ↓|other fields][enter|done]");
+    form.take({Key::down, {}});
+    CHECK(form.focus() == 0); // round
+    form.take({Key::up, {}});
+    CHECK(form.focus() == 2);
+    // Submitted with a fault it goes there and says so; "<" and "&" are no emphasis.
+    CHECK_FALSE(form.take({Key::next, {}}));
+    CHECK(form.focus() == 0);
+    CHECK(form.screen().rows[0].is_at_fault);
+    CHECK_THAT(form.message(), Catch::StartsWith("Age: \"500\": this cannot be  "));
+    for (int i = 0; i < 3; ++i)
+        form.take({Key::erase, {}});
+    CHECK(form.message().empty());
+    for (const char32_t letter : std::u32string_view(U"<&"))
+        form.take({Key::character, {}, letter});
+    CHECK_FALSE(form.take({Key::next, {}}));
+    CHECK_THAT(form.message(), Contains("\"&lt;&amp;\""));
+    form.take({Key::erase, {}});
+    form.take({Key::erase, {}});
+    for (const char32_t letter : std::u32string_view(U" 31 "))
+        form.take({Key::character, {}, letter});
+    CHECK_FALSE(form.take({Key::next, {}}));
+    CHECK(form.focus() == 1);
+    CHECK(form.values()[0] == "31");
+    CHECK_FALSE(form.take({Key::next, {}}));
+    CHECK(form.focus() == 2);
+    CHECK(form.take({Key::next, {}}));
+}
+
+TEST_CASE("characters at the edges of what is text are typed, or not", "[unit]") {
+    std::vector<ObserverFieldSettings> fields(1);
+    fields[0].id = fields[0].title = "name";
+    complete_field(fields[0], false);
+    fields[0].kind = FieldKind::text;
+    const std::pair<char32_t, bool> edges[] = {{0x1F, false},  {0x20, true},     {0x7E, true},
+                                               {0x7F, false},  {0x9F, false},    {0xA0, true},
+                                               {0xD7FF, true}, {0xD800, false},  {0xDFFF, false},
+                                               {0xE000, true}, {0x10FFFF, true}, {0x110000, false}};
+    for (const auto& [character, is_typed] : edges) {
+        CAPTURE(static_cast<unsigned>(character));
+        ObserverForm form(fields, {}, {});
+        form.take({Key::character, {}, character});
+        CHECK(form.values()[0].empty() != is_typed);
+        form.take({Key::erase, {}});
+        CHECK(form.values()[0].empty()); // with all its bytes
+    }
+    ObserverForm form(fields, {}, {});
+    for (int i = 0; i < 450; ++i)
+        form.take({Key::character, {}, U'a'});
+    CHECK(form.values()[0].size() == 400);
+}

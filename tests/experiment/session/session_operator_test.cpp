@@ -277,3 +277,142 @@ TEST_CASE("a text stands until a key is pressed, however little time there is to
           std::vector<std::string>{"welcome", "instructions, page 1 of 1", "instructions of block one",
                                    "feedback", "farewell"});
 }
+
+namespace {
+
+/// Presses a key once, at a trial's question; decisions are answered with yes.
+auto press_at_question(Key key, int trial = 0) {
+    return [=, is_pressed = false](ScriptedPanel& panel) mutable -> std::optional<ResponsePress> {
+        if (is_pressed || panel.phase() != SessionPhase::task_screen || panel.trial != trial)
+            return std::nullopt;
+        is_pressed = true;
+        return ResponsePress{key, {}};
+    };
+}
+
+} // namespace
+
+TEST_CASE("a drift check of the operator's says what it found, and the trial goes on where it was",
+          "[unit]") {
+    const auto checked = [](std::function<void(Sitting&)> prepare) {
+        Sitting sitting(short_protocol("[screens]\ndrift_target_s = 0.8\n"));
+        sitting.panel.tell = press_at_question(Key::drift_check);
+        prepare(sitting);
+        CHECK(sitting.run().completed_trials == 2);
+        CHECK(sitting.log.details_of(operator_pressed_event) == std::vector<std::string>{"drift check"});
+        // The target stands for its time before anything is measured, in the trials and here.
+        CHECK(sitting.presenter.targets.size() == 3);
+        CHECK(std::ranges::count(sitting.presenter.texts, "Look.") == 3);
+        std::vector<std::string> said;
+        for (std::size_t i = 0; i < sitting.log.kinds.size(); ++i)
+            if (sitting.log.kinds[i].starts_with("drift check") || sitting.log.kinds[i] == "operator")
+                said.push_back(sitting.log.kinds[i] + ": " + sitting.log.details[i]);
+        return std::pair(said, sitting.tracker.calibrations);
+    };
+    using Said = std::vector<std::string>;
+    CHECK(checked([](Sitting& sitting) { sitting.tracker.first_drifts = {Degrees{0.25}}; }) ==
+          std::pair(Said{"drift checked: 0.250 deg"}, 1));
+    CHECK(checked([](Sitting& sitting) { sitting.tracker.first_drifts = {std::nullopt}; }) ==
+          std::pair(Said{"drift check failed: no eye was found"}, 1));
+    CHECK(checked([](Sitting& sitting) { sitting.tracker.set_ups_wanted = 1; }) ==
+          std::pair(Said{"drift check failed: the tracker asked to be set up"}, 2));
+    CHECK(checked([](Sitting& sitting) {
+              sitting.tracker.fails_at = BlinkingTracker::Step::drift_check;
+          }).second == 2);
+    // Without a tracker there is nothing to check.
+    Sitting without(short_protocol(""));
+    without.tracker.is_there = false;
+    without.panel.tell = press_at_question(Key::drift_check);
+    CHECK(without.run().completed_trials == 2);
+    CHECK(without.log.details_of(operator_event) ==
+          std::vector<std::string>{"a drift check had no effect: the session has no eye tracker"});
+    CHECK(without.presenter.targets.size() == 2);
+    // It takes the time of its target.
+    Sitting timed(short_protocol("[screens]\ndrift_target_s = 0.8\n"));
+    SessionTime pressed;
+    timed.panel.tell = [&, press = press_at_question(Key::drift_check)](
+                           ScriptedPanel& panel) mutable -> std::optional<ResponsePress> {
+        const auto told = press(panel);
+        if (told)
+            pressed = timed.clock.now();
+        return told;
+    };
+    CHECK(timed.run().completed_trials == 2);
+    const auto& kinds = timed.log.kinds;
+    const auto at = std::ranges::find(kinds, drift_checked_event) - kinds.begin();
+    CHECK(to_seconds(timed.log.times[static_cast<std::size_t>(at)] - pressed) == Approx(0.8).margin(0.02));
+}
+
+TEST_CASE("each reason to skip a trial has its digit, from 1 to 9, and a yes gives none", "[unit]") {
+    const std::string reasons = "[operator]\nskip_reasons = [\"a\", \"b\", \"c\", \"d\", \"e\", \"f\", "
+                                "\"g\", \"h\", \"i\"]\n";
+    for (const char32_t digit : {U'1', U'5', U'9', U'0', U':', U'/'}) {
+        const bool is_reason = digit >= U'1' && digit <= U'9';
+        Sitting sitting(short_protocol(reasons));
+        sitting.panel.tell = [digit, looks = 0, press = press_at_question(Key::skip)](
+                                 ScriptedPanel& panel) mutable -> std::optional<ResponsePress> {
+            if (!panel.is_deciding())
+                return press(panel);
+            return looks++ < 3 ? ResponsePress{Key::character, {}, digit} : ResponsePress{Key::yes, {}};
+        };
+        CHECK(sitting.run().completed_trials == 1);
+        const std::string why =
+            is_reason ? std::string(1, static_cast<char>('a' + (digit - U'1'))) : "no reason given";
+        CHECK(sitting.log.details_of(operator_event) == std::vector<std::string>{"skips the trial: " + why});
+        CHECK(sitting.log.details_of(operator_answered_event) == std::vector<std::string>{"yes"});
+        CHECK_THAT(sitting.log.details_of("trial failed").front(), Contains("skipped: " + why));
+    }
+}
+
+TEST_CASE("what the operator decides of a trial or of the session is in the record, in words", "[unit]") {
+    const std::pair<Key, std::string> all[] = {{Key::repeat, "repeats the trial"},
+                                               {Key::reject, "rejects the trial"},
+                                               {Key::abort, "ends the session"}};
+    for (const auto& [key, words] : all) {
+        Sitting sitting(short_protocol(""));
+        sitting.panel.tell = press_at_question(key);
+        const SessionResult result = sitting.run();
+        CHECK(sitting.log.details_of(operator_event) == std::vector<std::string>{words});
+        CHECK(result.aborted == (key == Key::abort));
+        CHECK(result.reason == (key == Key::abort ? "aborted by a key" : ""));
+        // The question is as broad as what it would end.
+        if (key == Key::abort)
+            CHECK(sitting.log.details_of(operator_asked_event) ==
+                  std::vector<std::string>{sitting.protocol.words.abort_in_trial});
+    }
+    Sitting before(short_protocol("[screens]\nwelcome_text = \"Hello.\"\n"));
+    before.panel.tell = press_once(SessionPhase::set_up, -1, Key::abort);
+    CHECK(before.run().aborted);
+    CHECK(before.log.details_of(operator_asked_event) ==
+          std::vector<std::string>{before.protocol.words.abort});
+}
+
+TEST_CASE("pages turn by the arrows, too, and other keys turn none", "[unit]") {
+    Sitting sitting(short_protocol("[screens]\nwelcome_text = \"\"\n"
+                                   "[instructions]\npages = [\"one\", \"two\", \"three\"]\n"));
+    const std::vector<Key> keys{Key::left, Key::right, Key::up,   Key::right, Key::left,
+                                Key::back, Key::right, Key::next, Key::next};
+    std::size_t pressed = 0;
+    sitting.panel.tell = [&](ScriptedPanel& panel) -> std::optional<ResponsePress> {
+        return panel.phase() == SessionPhase::set_up && pressed < keys.size()
+                   ? std::optional(ResponsePress{keys[pressed++], {}})
+                   : std::nullopt;
+    };
+    CHECK(sitting.run().completed_trials == 2);
+    std::vector<std::string> pages;
+    for (const std::string& text : sitting.presenter.texts)
+        if (text == "one" || text == "two" || text == "three")
+            pages.push_back(text);
+    CHECK(pages == std::vector<std::string>{"one", "one", "two", "three", "two", "one", "two", "three"});
+    // A question is ended by none of them but "next".
+    Sitting question(short_protocol(""));
+    question.panel.tell = [](ScriptedPanel& panel) -> std::optional<ResponsePress> {
+        constexpr Key others[] = {Key::left, Key::right, Key::back};
+        return panel.phase() == SessionPhase::task_screen && panel.looks < 100
+                   ? std::optional(ResponsePress{others[panel.looks % 3], {}})
+                   : std::nullopt;
+    };
+    CHECK(question.run().completed_trials == 2);
+    for (const TrialOutcome& outcome : question.log.outcomes)
+        CHECK(to_seconds(*outcome.steps[0].end - *outcome.steps[0].begin) >= 0.004 * 95);
+}

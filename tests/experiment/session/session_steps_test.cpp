@@ -147,3 +147,200 @@ TEST_CASE("a drift check fails beyond its limit, not at it, and where no eye was
           std::vector<std::string>{"no eye was found", "no eye was found"});
     CHECK_FALSE(blind.log.outcomes[0].drift);
 }
+
+TEST_CASE("refreshes that go by are counted in the trial, in the session, and told to the tracker",
+          "[unit]") {
+    // Two before the fourth flip of the first trial, one before the last flip of the second.
+    Sitting sitting(short_protocol("[repeat]\nmissed_refreshes = \"never\"\n"));
+    sitting.presenter.passes = [](int flip) { return flip == 3 ? 2 : flip == 20 ? 1 : 0; };
+    const SessionResult result = sitting.run();
+    CHECK(result.completed_trials == 2);
+    CHECK(result.missed_refreshes == 3);
+    REQUIRE(sitting.log.outcomes.size() == 2);
+    CHECK(sitting.log.outcomes[0].missed_refreshes == 2);
+    CHECK(sitting.log.outcomes[0].shown_refreshes == 10);
+    CHECK(sitting.log.outcomes[1].missed_refreshes == 1);
+    std::vector<std::string> told;
+    for (const auto& [at, text] : sitting.tracker.marks)
+        if (text.starts_with("!V TRIAL_VAR missed_refreshes "))
+            told.push_back(text.substr(30));
+    CHECK(told == std::vector<std::string>{"2", "1"});
+}
+
+TEST_CASE("a trial comes again for missed refreshes where the protocol says so, and the record says how many",
+          "[unit]") {
+    Sitting sitting(short_protocol("[repeat]\nmissed_refreshes = \"now\"\nmissed_refreshes_limit = 1\n"));
+    sitting.presenter.passes = [](int flip) { return flip == 3 ? 2 : flip == 15 ? 1 : 0; };
+    CHECK(sitting.run().completed_trials == 2);
+    CHECK(sitting.log.started == std::vector<int>{0, 0, 1});
+    CHECK(sitting.log.completed == std::vector<bool>{false, true, true});
+    REQUIRE(sitting.log.count("trial failed") == 1);
+    CHECK_THAT(sitting.log.details_of("trial failed").front(),
+               Catch::Contains("2 refreshes missed, 0.0 % of samples without gaze): comes again now"));
+    CHECK(sitting.log.outcomes[0].afterwards == TrialOutcome::Afterwards::now);
+    CHECK(sitting.log.outcomes[1].afterwards == TrialOutcome::Afterwards::never);
+}
+
+TEST_CASE(
+    "steps that only stand last their refreshes, whatever is pressed, and keys end those that wait for one",
+    "[unit]") {
+    Sitting sitting(short_protocol(R"([[task]]
+id = "t"
+question = "Which?"
+steps = [ { text = "Ready?", for_s = 0.25 }, { fixation = 0.3, id = "cross" }, { blank = 0.1 },
+          { show = "centre", frame = 2, for_s = 0.2, until = "key" }, { mask = 0.15 },
+          { answer = "spoken", limit_s = 3 }, { feedback = { answered = "Thanks", missed = "Late" }, for_s = 0.4 } ]
+[[block]]
+id = "b"
+tasks = "t"
+)"));
+    CHECK(sitting.run().completed_trials == 2);
+    for (const TrialOutcome& outcome : sitting.log.outcomes) {
+        std::vector<std::string> rows;
+        for (const AttemptStep& step : outcome.steps)
+            rows.push_back(step.kind + " " + std::string(name_of(*step.ended_by)));
+        CHECK(rows == std::vector<std::string>{"text time", "fixation time", "blank time", "show key",
+                                               "mask time", "answer answer", "feedback time"});
+        REQUIRE(outcome.steps.size() == 7);
+        const int refreshes[] = {30, 36, 12, 24, 18, 360, 48};
+        for (std::size_t i = 0; i < 7; ++i) {
+            CAPTURE(i);
+            CHECK(outcome.steps[i].planned_refreshes.value_or(360) == refreshes[i]);
+            CHECK(outcome.steps[i].still_frame == (i == 3 ? std::optional(2) : std::nullopt));
+            CHECK(outcome.steps[i].places.has_value() == (i == 3));
+            CHECK(outcome.steps[i].id == (i == 1 ? "cross" : ""));
+        }
+        CHECK(outcome.steps[3].places == std::vector<int>{0});
+        // Each begins where the one before ended, but for the lead of the recording and the answer.
+        for (const std::size_t i : {2u, 3u, 4u, 6u})
+            if (i != 6)
+                CHECK(*outcome.steps[i].begin == *outcome.steps[i - 1].end);
+        CHECK(outcome.shown_refreshes == 1); // the key came with the first
+        CHECK(outcome.answer == "yes");
+        CHECK(outcome.task_screen_onset == SessionTime());
+    }
+    using enum SessionPhase;
+    CHECK(sitting.panel.phases == std::vector<SessionPhase>{set_up, calibration, trial, task_screen, stimulus,
+                                                            response_screen, trial, task_screen, stimulus,
+                                                            response_screen, end});
+    const auto& texts = sitting.presenter.texts;
+    CHECK(std::count(texts.begin(), texts.end(), "Thanks") == 2);
+    CHECK(std::count(texts.begin(), texts.end(), "Ready?") == 2);
+}
+
+TEST_CASE("an answer that does not come in time is missed, and the step that follows says so", "[unit]") {
+    Sitting sitting(short_protocol(R"([[task]]
+id = "t"
+question = "Which?"
+steps = [ { show = "centre", for_s = 0.1 }, { answer = "spoken", limit_s = 1.5 },
+          { feedback = { answered = "Thanks", missed = "Late" }, for_s = 0.4 } ]
+[[block]]
+id = "b"
+tasks = "t"
+)"));
+    sitting.panel.tell = [](ScriptedPanel& panel) -> std::optional<ResponsePress> {
+        return panel.phase() == SessionPhase::response_screen
+                   ? std::optional(ResponsePress{ResponsePress::Key::character, {}})
+                   : std::nullopt;
+    };
+    CHECK(sitting.run().completed_trials == 2);
+    CHECK(sitting.log.count("response timed out") == 2);
+    for (const TrialOutcome& outcome : sitting.log.outcomes) {
+        CHECK(outcome.steps[1].ended_by == StepEnd::time);
+        CHECK(to_seconds(outcome.responded_at - outcome.response_screen_onset) == Approx(1.5).margin(1e-6));
+        CHECK(outcome.answer.empty());
+    }
+    const auto& texts = sitting.presenter.texts;
+    CHECK(std::count(texts.begin(), texts.end(), "Late") == 2);
+    CHECK(std::count(texts.begin(), texts.end(), "Thanks") == 0);
+    // It is told at the time that was up.
+    const auto& kinds = sitting.log.kinds;
+    const auto at = std::find(kinds.begin(), kinds.end(), "response timed out") - kinds.begin();
+    CHECK(sitting.log.times[static_cast<std::size_t>(at)] == sitting.log.outcomes[0].responded_at);
+}
+
+TEST_CASE("a press before its screen has stood for its least time does not count", "[unit]") {
+    Sitting sitting(
+        short_protocol("[screens]\ntask_min_s = 0.7\nresponse_min_s = 1.2\nresponse_max_s = 9\n"));
+    CHECK(sitting.run().completed_trials == 2);
+    for (const TrialOutcome& outcome : sitting.log.outcomes) {
+        REQUIRE(outcome.steps.size() == 4);
+        // Keys are pressed all the time: the first that counts is one of the next look.
+        CHECK(to_seconds(*outcome.steps[0].end - *outcome.steps[0].begin) == Approx(0.7).margin(0.02));
+        CHECK(to_seconds(*outcome.steps[0].end - *outcome.steps[0].begin) >= 0.7);
+        CHECK(to_seconds(outcome.responded_at - outcome.response_screen_onset) == Approx(1.2).margin(0.02));
+        CHECK(to_seconds(outcome.responded_at - outcome.response_screen_onset) >= 1.2);
+    }
+}
+
+TEST_CASE("time that the operator takes is not taken from the observer", "[unit]") {
+    // A pause of two seconds a second after the response screen came up.
+    Sitting sitting(short_protocol("[screens]\nresponse_min_s = 1.5\nresponse_max_s = 4\n"));
+    for (const bool answers : {true, false}) {
+        CAPTURE(answers);
+        Sitting paused(sitting.protocol);
+        SessionTime began, ended, again;
+        paused.panel.tell = [&,
+                             is_done = false](ScriptedPanel& panel) mutable -> std::optional<ResponsePress> {
+            using Key = ResponsePress::Key;
+            if (panel.phase() == SessionPhase::response_screen && panel.trial == 0 && !is_done) {
+                if (panel.looks != 250)
+                    return ResponsePress{Key::character, {}};
+                is_done = true;
+                began = paused.clock.now();
+                return ResponsePress{Key::pause, {}};
+            }
+            if (panel.phase() == SessionPhase::pause) {
+                ended = paused.clock.now();
+                if (panel.looks == 500)
+                    return ResponsePress{Key::pause, {}};
+            }
+            if (is_done && panel.phase() == SessionPhase::response_screen && panel.trial == 0 &&
+                panel.looks == 1)
+                again = paused.clock.now();
+            if (panel.phase() == SessionPhase::response_screen && panel.trial == 0 && !answers)
+                return ResponsePress{Key::character, {}};
+            return std::nullopt;
+        };
+        CHECK(paused.run().completed_trials == 2);
+        const TrialOutcome& outcome = paused.log.outcomes[0];
+        const double open_s = to_seconds(outcome.responded_at - outcome.response_screen_onset);
+        const double paused_s = to_seconds(again - began);
+        CHECK(paused_s == Approx(2.0).margin(0.1));
+        CHECK(open_s - paused_s == Approx(answers ? 1.5 : 4.0).margin(0.05));
+    }
+}
+
+TEST_CASE("a break that ends by a key does so after the time in which none works", "[unit]") {
+    Sitting sitting(short_protocol("[breaks]\nevery_trials = 1\npace = \"self\"\nmin_s = 20\n"));
+    CHECK_FALSE(sitting.run().aborted);
+    const auto time_of = [&](std::string_view kind) {
+        const auto at = std::find(sitting.log.kinds.begin(), sitting.log.kinds.end(), kind);
+        return sitting.log.times[static_cast<std::size_t>(at - sitting.log.kinds.begin())];
+    };
+    CHECK(to_seconds(time_of("break ends") - time_of("break begins")) == Approx(20.0).margin(0.05));
+    // Who never comes back is waited for an hour.
+    Sitting left(sitting.protocol);
+    left.panel.tell = [](ScriptedPanel& panel) -> std::optional<ResponsePress> {
+        return panel.phase() == SessionPhase::rest
+                   ? std::optional(ResponsePress{ResponsePress::Key::character, {}})
+                   : std::nullopt;
+    };
+    CHECK_FALSE(left.run().aborted);
+    CHECK(to_seconds(left.clock.now() - SessionTime{}) > 3620.0);
+    CHECK(to_seconds(left.clock.now() - SessionTime{}) < 3660.0);
+}
+
+TEST_CASE("the farewell stands until any key, and no longer than an answer may take", "[unit]") {
+    Sitting sitting(short_protocol("[screens]\nresponse_max_s = 3\n"));
+    SessionTime farewell;
+    sitting.panel.tell = [&](ScriptedPanel& panel) -> std::optional<ResponsePress> {
+        if (panel.phase() == SessionPhase::end && panel.looks == 1)
+            farewell = sitting.clock.now();
+        return std::nullopt;
+    };
+    CHECK_FALSE(sitting.run().aborted);
+    CHECK(sitting.panel.looks == 1);
+    CHECK(to_seconds(sitting.clock.now() - farewell) < 0.01);
+    CHECK(sitting.log.details_of("text shown").back() == "farewell");
+}
