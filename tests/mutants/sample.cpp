@@ -25,7 +25,7 @@ static double sum_of(const std::vector<double>& values) {
         if (value == 3.0) // comparison condition constant
             continue;
         sum += share * value; // arithmetic arithmetic statement term
-    } // loop
+    }                         // loop
     return sum;
 }
 

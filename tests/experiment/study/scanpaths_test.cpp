@@ -112,3 +112,48 @@ TEST_CASE("ways of two observers are more alike where they saw the same, and by 
     const auto duration = std::ranges::find(rows, "multimatch_duration", &ScanpathLikenessRow::measure);
     CHECK(*duration->level_effect.value == Approx(0.0).margin(1e-12));
 }
+
+TEST_CASE("each number of ways is a mean of trials that have it, then of observers", "[unit]") {
+    test::PaintedStudy study(
+        2, 1, 1, [](int, int, RandomStream&) { return test::front; }, 1, "rough", 2);
+    StudyResults& results = study.results;
+    REQUIRE(results.trials.size() == 4);
+    // Trial i has i + 1 fixations; its n-th number is (n + 1) / 10, (n + 1) / 20, none, (n + 1) / 40.
+    const std::array members{
+        &TrialScanpath::fixation_s, &TrialScanpath::step_mm,     &TrialScanpath::step_deg,
+        &TrialScanpath::way_mm,     &TrialScanpath::coverage,    &TrialScanpath::entropy,
+        &TrialScanpath::recurrence, &TrialScanpath::determinism, &TrialScanpath::return_distance};
+    const std::array of_row{
+        &ScanpathRow::fixation_s, &ScanpathRow::step_mm,     &ScanpathRow::step_deg,
+        &ScanpathRow::way_mm,     &ScanpathRow::coverage,    &ScanpathRow::entropy,
+        &ScanpathRow::recurrence, &ScanpathRow::determinism, &ScanpathRow::return_distance};
+    const std::array names{"fixation_s",      "step_mm",    "step_deg",    "way_mm",         "coverage",
+                           "effective_share", "recurrence", "determinism", "return_distance"};
+    const std::array units{"s", "mm", "deg", "mm", "", "", "", "", ""};
+    std::vector<TrialScanpath> scanpaths(4);
+    const std::array divisors{10.0, 20.0, 0.0, 40.0};
+    for (std::size_t trial = 0; trial < 4; ++trial) {
+        scanpaths[trial].fixations = static_cast<int>(trial) + (trial == 0 ? 0 : 1);
+        for (std::size_t n = 0; n < members.size(); ++n)
+            if (trial != 2)
+                scanpaths[trial].*members[n] = (static_cast<double>(n) + 1.0) / divisors[trial];
+    }
+    const auto rows = scanpath_rows(results, scanpaths, {}, study.options);
+    CHECK(rows[0].trials == 3); // with any fixation
+    CHECK(rows[0].observers == 2);
+    CHECK(*rows[0].fixations.value == Approx((1.0 + 3.5) / 2.0));
+    const auto measures = scanpath_measures(scanpaths);
+    REQUIRE(measures.size() == 10);
+    CHECK(measures[0].name == "fixations");
+    CHECK(measures[0].sums(3).sum == 4.0);
+    CHECK(measures[0].sums(3).weight == 1.0);
+    for (std::size_t n = 0; n < members.size(); ++n) {
+        CAPTURE(n);
+        CHECK(*(rows[0].*of_row[n]).value == Approx((static_cast<double>(n) + 1.0) * (0.075 + 0.025) / 2.0));
+        CHECK(measures[n + 1].name == names[n]);
+        CHECK(measures[n + 1].unit == units[n]);
+        CHECK(measures[n + 1].sums(1).sum == Approx((static_cast<double>(n) + 1.0) / 20.0));
+        CHECK(measures[n + 1].sums(1).weight == 1.0);
+        CHECK(measures[n + 1].sums(2).weight == 0.0);
+    }
+}
