@@ -22,6 +22,9 @@ class StandingClock final : public Clock {
   public:
     SessionTime now() const noexcept override { return now_; }
     void wait_until(SessionTime time) noexcept override { now_ = std::max(now_, time); }
+    Disturbance disturbance() const noexcept override { return disturbed; }
+
+    Disturbance disturbed;
 
   private:
     SessionTime now_{};
@@ -66,8 +69,9 @@ class PlainPresenter final : public Presenter {
     void veil(bool is_on) override { is_veiled = is_on; }
     void mark_stimuli(std::span<const StimulusMark> given) noexcept override {
         marks.assign(given.begin(), given.end());
+        all_marks.push_back(marks);
     }
-    bool closed() const noexcept override { return false; }
+    bool closed() const noexcept override { return is_closed && is_closed(); }
 
     std::vector<Stimulus> loaded;
     std::vector<std::string> texts;
@@ -80,7 +84,9 @@ class PlainPresenter final : public Presenter {
     int blanks = 0, veiled_blanks = 0;                   ///< of the screens
     bool is_veiled = false;
     std::vector<int> seen_frames, veiled_frames; ///< of flips
-    std::vector<StimulusMark> marks;             ///< that stand over stimuli now
+    std::function<bool()> is_closed;
+    std::vector<std::vector<StimulusMark>> all_marks; ///< that were ever given
+    std::vector<StimulusMark> marks;                  ///< that stand over stimuli now
     std::function<int(int flip)> passes; ///< how many refreshes go by before a flip of stimuli, from 0
 
   private:
@@ -149,11 +155,15 @@ class BlinkingTracker final : public EyeTracker {
             return count;
         }
         ++arrived;
+        if (arrived == one_double)
+            --samples_;
         GazeSample sample{.sampled_at = doubles ? time_of(samples_ += arrived % 2) : time_of(++samples_),
                           .eye = Eye::left,
                           .gaze = {}};
         if (std::find(blind.begin(), blind.end(), recording_) == blind.end())
             sample.gaze = looks ? looks(recording_) : ScreenPoint{1.0, 2.0};
+        if (stamps)
+            sample.sampled_at = stamps();
         into[0] = sample;
         return 1;
     }
@@ -176,8 +186,10 @@ class BlinkingTracker final : public EyeTracker {
     std::vector<SetupOutcome> set_ups;                 ///< what each calibration gives; then all is well
     std::function<RecordingState(int recording)> says; ///< of the recording under way, by its number from 0
     std::vector<std::pair<SessionTime, std::string>> marks;
-    std::optional<Step> fails_at;                ///< once, as a tracker that is gone
-    bool doubles = false;                        ///< gives every other sample twice
+    std::optional<Step> fails_at;        ///< once, as a tracker that is gone
+    int one_double = 0;                  ///< this one that it hands over has the time of the one before
+    std::function<TrackerTime()> stamps; ///< when a sample is taken
+    bool doubles = false;                ///< gives every other sample twice
     std::function<ClockPair(int reading)> reads; ///< what each reading of the clocks gives
     int set_ups_wanted = 0;                      ///< by so many drift checks
     int reconnections = 0, refused_reconnections = 0;
@@ -243,6 +255,9 @@ class ScriptedPanel final : public ResponsePanel {
         return does ? does(*this, clock_.now()) : std::nullopt;
     }
     std::string answer() override { return "yes"; }
+    void write_down(SessionLog&) override {
+        written_in = phases.empty() ? SessionPhase::set_up : phases.back();
+    }
     bool has_keyboard() const noexcept override { return !lacks_keyboard || !lacks_keyboard(*this); }
 
     SessionPhase phase() const { return phases.back(); }
@@ -264,6 +279,7 @@ class ScriptedPanel final : public ResponsePanel {
     };
     std::vector<Await> awaited;
     std::vector<std::vector<AnswerOffer>> offered;
+    SessionPhase written_in = SessionPhase::set_up; ///< what its devices did was recorded last
     std::vector<TurningOffer> turnings;
     int trial = -1;
     int looks = 0; ///< in this phase
@@ -366,12 +382,14 @@ inline void check_attempt(const TrialOutcome& outcome, const BlinkingTracker& tr
         CHECK(outcome.response_screen_onset == *answer->begin);
     if (answers == 1 && outcome.given.empty())
         CHECK(outcome.responded_at == *answer->end);
-    std::optional<SessionTime> last;
+    const GivenAnswer* last = nullptr;
     for (const GivenAnswer& given : outcome.given)
-        if (!given.is_missed)
-            last = std::max(last, given.answered_at);
-    if (last)
-        CHECK(outcome.responded_at == *last);
+        if (!given.is_missed && (!last || *given.answered_at > *last->answered_at))
+            last = &given;
+    if (last) {
+        CHECK(outcome.responded_at == *last->answered_at);
+        CHECK(outcome.responded_uncertainty == last->uncertainty);
+    }
 }
 
 struct Sitting {
@@ -460,6 +478,9 @@ struct Sitting {
         CHECK(noted == entered);
         CHECK(log.count("operator asked") == log.count("operator answered"));
         check_waits();
+        CHECK(panel.written_in == SessionPhase::end);
+        CHECK((std::ranges::count(panel.awaited, Awaited::setup, &ScriptedPanel::Await::what) > 0) ==
+              (tracker.calibrations > 0));
         CHECK(log.kinds.back() == (result.aborted ? "session aborted" : "session completed"));
         // Each attempt, practice too, is told when it begins and how it ended.
         const auto told = [&](std::string_view beginning) {

@@ -381,6 +381,12 @@ TEST_CASE("gaze is waited for within a distance of a point, for so long, blinks 
     bench.gaze(0, 61, bench.off(0.0));
     bench.gaze(61, 113, {});
     CHECK(bench.gaze(113, 400, bench.off(0.0)) == 213);
+    // What was sampled before the first flip of what is shown does not count, whatever flips follow.
+    bench.watch.begin({.within_deg = 1.5, .for_s = 0.0, .blink_s = 0.0}, {bench.screen.centre(), {}}, 0,
+                      SessionTime(), std::vector{fed_pair(0, 0.0), fed_pair(100'000, 0.0)}, bench.tracker);
+    bench.watch.flipped(bench.lit(1000, 0), {});
+    bench.watch.flipped(bench.lit(1008, 0), {});
+    CHECK(bench.gaze(990, 1020, bench.off(0.0)) == 1000);
     // Of a tracker whose rate is not known samples may be 20 ms apart.
     bench.tracker.sample_rate_hz = 0.0;
     begin();
@@ -514,4 +520,69 @@ TEST_CASE("where gaze does not come the attempt is rejected, or drift is checked
     CHECK(again.run().completed_trials == 2);
     CHECK(again.tracker.drift_checks == 2);
     CHECK(again.log.flips == 24);
+}
+
+TEST_CASE("gaze on an area ends a show, of the slots that are meant, and patience the others", "[unit]") {
+    const auto shown = [](const std::string& slot, const std::string& only) {
+        const ReadText read(R"([protocol]
+name = "areas"
+[[slot]]
+id = "left"
+right_deg = -6
+size_deg = 5
+[[slot]]
+id = "right"
+right_deg = 6
+size_deg = 5
+[[object]]
+id = "a"
+shipped = "muse"
+[[material]]
+id = "gold"
+kind = "smooth-conductor"
+[[material]]
+id = "clay"
+kind = "diffuse"
+[[task]]
+id = "t"
+question = "Find it."
+slots = ["left", "right"]
+trials = { rule = "pairs", of = "material" }
+steps = [ { show = ["left", "right"], until = { gaze_on = "head", )" +
+                            slot + R"(for_s = 0.1, patience_s = 0.5 } } ]
+)");
+        INFO(read.diagnostics.print());
+        REQUIRE(read.protocol);
+        Sitting sitting(*read.protocol);
+        StandingClock& clock = sitting.clock;
+        const auto micros = [&clock] {
+            return TrackerTime(std::chrono::floor<TrackerClock::duration>(clock.now().time_since_epoch()));
+        };
+        sitting.tracker.stamps = micros;
+        sitting.tracker.sample_rate_hz = 120.0; // one in each refresh
+        sitting.tracker.reads = [&, micros](int) { return ClockPair{clock.now(), micros(), clock.now()}; };
+        class Everywhere final : public AreaView {
+          public:
+            bool is_at(PoseIndex, ScreenPoint) const noexcept override { return true; }
+        };
+        std::string asked;
+        sitting.area_of = [&](const PlacedStimulus& placed,
+                              const std::string& area) -> std::shared_ptr<const AreaView> {
+            const std::string& id = sitting.protocol.slots[static_cast<std::size_t>(placed.slot)].id;
+            asked += id + " " + area + "; ";
+            return id == only ? std::make_shared<Everywhere>() : nullptr;
+        };
+        CHECK_FALSE(sitting.run().aborted);
+        REQUIRE(sitting.log.outcomes.size() == 1);
+        const AttemptStep& step = sitting.log.outcomes[0].steps.at(0);
+        CHECK(step.gaze_onset.has_value() == (step.ended_by == StepEnd::gaze));
+        if (step.gaze_onset)
+            CHECK(*step.gaze_detected >= *step.gaze_onset);
+        return fmt::format("{}{}", asked, name_of(*step.ended_by));
+    };
+    CHECK(shown("", "left") == "left head; right head; gaze");
+    CHECK(shown("", "right") == "left head; right head; gaze");
+    CHECK(shown("", "none") == "left head; right head; patience");
+    CHECK(shown("slot = \"right\", ", "right") == "right head; gaze");
+    CHECK(shown("slot = \"right\", ", "left") == "right head; patience");
 }

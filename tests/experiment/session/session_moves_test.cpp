@@ -291,3 +291,84 @@ steps = [ { show = "centre", for_s = 0.5 }, { blank = 0.1 }, { show = "centre", 
                                      : 0.0)); // and in its last pose on
     }
 }
+
+TEST_CASE("objects in two slots are turned together, and who does not see them is told how", "[unit]") {
+    constexpr std::string_view text = R"([protocol]
+name = "explore"
+[[motion]]
+id = "explore"
+kind = "observer"
+with = "WITH"
+step_deg = 3
+angle_deg = 0
+speed_deg_s = 60
+duration_s = 1
+[[slot]]
+id = "left"
+right_deg = -6
+size_deg = 5
+[[slot]]
+id = "right"
+right_deg = 6
+size_deg = 5
+[[object]]
+id = "a"
+shipped = "muse"
+[[material]]
+id = "gold"
+kind = "smooth-conductor"
+[[material]]
+id = "clay"
+kind = "diffuse"
+[[task]]
+id = "t"
+question = "Explore."
+slots = ["left", "right"]
+trials = { rule = "pairs", of = "material" }
+steps = [ { show = ["left", "right"], for_s = 1 } ]
+)";
+    const auto turned_with = [&](std::string_view with) {
+        std::string own(text);
+        own.replace(own.find("WITH"), 4, with);
+        return own;
+    };
+    const MovesLog log =
+        run_moves(turned_with("keys"), {{0.2, "right"}, {0.5, "right", ObserverInput::Kind::key_up}});
+    REQUIRE(log.flips.size() == 120);
+    REQUIRE(log.further.size() == 120);
+    REQUIRE(log.moved.size() == 240);
+    for (std::size_t i = 0; i < 120; ++i) {
+        CHECK(log.further[i].shown == log.flips[i].shown);
+        CHECK(log.further[i].place == 1);
+        CHECK(log.moved[2 * i].place == 0);
+        CHECK(log.moved[2 * i + 1].place == 1);
+        CHECK(log.moved[2 * i].input_at == log.moved[2 * i + 1].input_at);
+    }
+    CHECK(log.flips.back().shown.value == 6); // 18 deg
+    const std::vector<AnswerInput>& inputs = log.outcomes.at(0).inputs;
+    CHECK(inputs.size() == 4); // each of the press and the release turned both
+
+    for (const std::string_view with : {"keys", "mouse"}) {
+        const ReadText read(turned_with(with));
+        REQUIRE(read.protocol);
+        Sitting sitting(*read.protocol);
+        CHECK_FALSE(sitting.run().aborted);
+        REQUIRE(sitting.panel.turnings.size() == 2);
+        for (int place : {0, 1}) {
+            const TurningOffer& offer = sitting.panel.turnings[static_cast<std::size_t>(place)];
+            CHECK(offer.place == place);
+            CHECK(offer.show == 0);
+            CHECK(offer.lasts_s == 1.0);
+            CHECK(offer.since <= sitting.log.outcomes.at(0).presentation_onset);
+            CHECK(offer.less.empty() == (with == "mouse"));
+        }
+        // The mouse's pointer is seen, alone, as long as something can be turned with it.
+        REQUIRE(sitting.presenter.beside.size() == (with == "mouse" ? 2u : 0u));
+        if (with == "mouse") {
+            REQUIRE(sitting.presenter.beside[0]);
+            CHECK(sitting.presenter.beside[0]->shows_pointer);
+            CHECK(sitting.presenter.beside[0]->items.empty());
+            CHECK_FALSE(sitting.presenter.beside[1]);
+        }
+    }
+}

@@ -201,6 +201,10 @@ TEST_CASE("a form's rows say what each field is, where it is filled in, and what
     CHECK(screen.page == 1);
     CHECK(screen.pages == 3);
     CHECK(hints() == "[↑ ↓|other fields][enter|next]");
+    // What is empty is not at fault before it is said to be.
+    form.take({Key::down, {}});
+    CHECK_FALSE(form.screen().rows[0].is_at_fault);
+    form.take({Key::up, {}});
     // What cannot be is at fault once it is left, or said to be.
     for (const char32_t letter : std::u32string_view(U"500"))
         form.take({Key::character, {}, letter});
@@ -282,4 +286,27 @@ TEST_CASE("characters at the edges of what is text are typed, or not", "[unit]")
     for (int i = 0; i < 450; ++i)
         form.take({Key::character, {}, U'a'});
     CHECK(form.values()[0].size() == 400);
+}
+
+TEST_CASE("a form begins at its first empty field, and letters go round the choices that begin with them",
+          "[unit]") {
+    std::vector<ObserverFieldSettings> fields(3);
+    for (std::size_t i = 0; i < 3; ++i) {
+        fields[i].id = fields[i].title = "field_" + std::to_string(i);
+        fields[i].kind = FieldKind::choice;
+        fields[i].choices = {"Ada", "Bea", "Abe", "Amy"};
+        complete_field(fields[i], true);
+    }
+    CHECK(ObserverForm(fields, {"Ada", "", ""}, {}).focus() == 1);
+    CHECK(ObserverForm(fields, {"", "Bea", ""}, {}).focus() == 0);
+    CHECK(ObserverForm(fields, {"Ada", "Bea", "Amy"}, {}).focus() == 0);
+    ObserverForm form(fields, {}, {});
+    std::vector<std::string> seen;
+    for (int i = 0; i < 4; ++i) {
+        form.take({Key::character, {}, U'a'});
+        seen.push_back(form.values()[0]);
+    }
+    CHECK(seen == std::vector<std::string>{"Ada", "Abe", "Amy", "Ada"});
+    form.take({Key::character, {}, U'z'});
+    CHECK(form.values()[0] == "Ada");
 }

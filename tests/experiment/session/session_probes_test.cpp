@@ -213,3 +213,124 @@ TEST_CASE("the screens of a session are those that its steps show", "[unit]") {
             CHECK(screen.text == "Late");
     }
 }
+
+TEST_CASE("a gauge lies where its probe is, in the attitude that is set, with the probe's light, and not "
+          "where that is hidden",
+          "[unit]") {
+    for (const int frame : {2, 3}) {
+        CAPTURE(frame);
+        Sitting sitting(
+            probed(fmt::format("{{ show = \"centre\", frame = {}, until = \"answer\" }}", frame), a_lean));
+        sitting.probe_of = [](const PlacedStimulus&, const std::string&) {
+            return std::make_shared<GoingPlace>();
+        };
+        using Kind = ObserverInput::Kind;
+        sitting.panel.does = doing({{100, mouse_at(Kind::pointer_down, 0, 0)},
+                                    {120, mouse_at(Kind::pointer_moved, 30, 10)},
+                                    {140, mouse_at(Kind::pointer_up, 30, 10)},
+                                    {300, key_at("space")}});
+        CHECK(sitting.run().completed_trials == 3);
+        // Before the first flip the lights are made known, and nothing is drawn.
+        REQUIRE_FALSE(sitting.presenter.all_marks.empty());
+        REQUIRE(sitting.presenter.all_marks[0].size() == 1);
+        CHECK(sitting.presenter.all_marks[0][0].count == 0);
+        const GivenAnswer& given = sitting.log.outcomes.back().given.at(0);
+        REQUIRE(given.gauge);
+        CHECK(given.gauge->frame == frame);
+        CHECK(given.gauge->is_visible == (frame == 2));
+        const std::vector<StimulusMark>& last = sitting.presenter.marks;
+        REQUIRE(last.size() == (frame == 2 ? 2 : 0));
+        if (frame == 3)
+            continue;
+        const GoingPlace view;
+        const TaskAnswer& answer = sitting.protocol.tasks.back().answers.at(0);
+        const ProbeSettings& probe = sitting.protocol.tasks.back().probes.at(0);
+        const double px_per_deg = screen_geometry_of(sitting.protocol).px_per_deg_at_centre();
+        const StimulusMark wanted = gauge_mark(view, view.seen_in({frame}), given.gauge->set,
+                                               answer.size_deg * px_per_deg, probe.line_deg * px_per_deg);
+        REQUIRE(last[1].count == wanted.count);
+        for (std::size_t line = 0; line < static_cast<std::size_t>(wanted.count); ++line) {
+            REQUIRE(last[1].lines[line].count == wanted.lines[line].count);
+            for (std::size_t i = 0; i < static_cast<std::size_t>(wanted.lines[line].count); ++i) {
+                CHECK(last[1].lines[line].points[i].x_px == Approx(wanted.lines[line].points[i].x_px));
+                CHECK(last[1].lines[line].points[i].y_px == Approx(wanted.lines[line].points[i].y_px));
+            }
+        }
+        CHECK(last[1].light == last[0].light);
+        CHECK(last[1].rim_px == last[0].rim_px);
+    }
+}
+
+TEST_CASE("each of two probes has its row and its mark, and only in the steps that name it", "[unit]") {
+    Sitting sitting(
+        probed("{ show = \"centre\", for_s = 0.1, frame = 2, probes = [\"place\"] }, "
+               "{ show = \"centre\", for_s = 0.1, frame = 4, probes = [\"other\"] }, "
+               "{ show = \"centre\", for_s = 0.1, frame = 6 }, { show = \"centre\", for_s = 0.1, frame = 5 }",
+               "[[task.probe]]\nid = \"other\"\npoints = \"seen\"\n"));
+    sitting.probe_of = [](const PlacedStimulus&, const std::string&) {
+        return std::make_shared<GoingPlace>();
+    };
+    CHECK_FALSE(sitting.run().aborted);
+    REQUIRE_FALSE(sitting.log.outcomes.empty());
+    for (const TrialOutcome& outcome : sitting.log.outcomes) {
+        std::string rows;
+        for (const ShownProbe& probe : outcome.probes) {
+            rows += fmt::format("{} {} {} {}; ", probe.step, probe.id, probe.shown_refreshes,
+                                probe.visible_refreshes);
+            if (probe.step < 4)
+                CHECK(probe.at.x_px == Approx(960.0 + 20.0 * probe.step));
+        }
+        CHECK(rows ==
+              "1 place 12 12; 2 other 12 12; 3 place 12 12; 3 other 12 12; 4 place 12 0; 4 other 12 0; ");
+    }
+    // Of the first trial: two lights made known, then a mark in each flip; both in the third show, none in
+    // the last.
+    std::vector<std::size_t> drawn;
+    for (std::size_t i = 0; i < 4 * 13; ++i) {
+        const std::vector<StimulusMark>& marks = sitting.presenter.all_marks.at(i);
+        drawn.push_back(static_cast<std::size_t>(
+            std::ranges::count_if(marks, [](const StimulusMark& mark) { return mark.count > 0; })));
+        if (i % 13 == 0)
+            CHECK(marks.size() == 2);
+    }
+    std::vector<std::size_t> wanted;
+    for (const std::size_t count : {1u, 1u, 2u, 0u}) {
+        wanted.push_back(0);
+        wanted.insert(wanted.end(), 12, count);
+    }
+    CHECK(drawn == wanted);
+}
+
+TEST_CASE("screens of answers and of feedback have their words, numbered where a task has several",
+          "[unit]") {
+    const Protocol protocol = short_protocol(R"([[task]]
+id = "t"
+question = "Rate it."
+steps = [ { show = "centre", for_s = 0.1 }, { answer = "gloss" }, { answer = "sure" },
+          { feedback = { answered = "Thanks", correct = "Right", wrong = "Wrong", missed = "Late" }, for_s = 1 } ]
+[[task.answer]]
+id = "gloss"
+kind = "choice"
+question = "Glossy?"
+choices = ["yes", "no"]
+keys = ["f", "j"]
+correct = "yes"
+[[task.answer]]
+id = "sure"
+kind = "scale"
+steps = 7
+[[block]]
+id = "b"
+tasks = "t"
+)");
+    std::string all;
+    for (const auto& [name, screen] : screens::all_of(protocol))
+        if (name.starts_with("answers_t") || name.starts_with("feedback_t")) {
+            all += name + ": " + screen.text;
+            for (const AnswerItem& item : screen.answers.items)
+                all += fmt::format(" [{} {}]", item.question, item.options.size());
+            all += "; ";
+        }
+    CHECK(all == "feedback_t_answered: Thanks; feedback_t_correct: Right; feedback_t_wrong: Wrong; "
+                 "feedback_t_missed: Late; answers_t_1:  [Glossy? 2]; answers_t_2: Rate it. [ 7]; ");
+}

@@ -1,6 +1,7 @@
 /// Practice, breaks and repeated trials, on ports that do what they are told.
 #include "experiment/ports/response_panel.h"
 #include "experiment/ports/session_phase.h"
+#include "experiment/protocol/all_stimuli.h"
 #include "tests/experiment/record/plain_session.h"
 
 using namespace overt;
@@ -343,4 +344,98 @@ TEST_CASE("the farewell stands until any key, and no longer than an answer may t
     CHECK(sitting.panel.looks == 1);
     CHECK(to_seconds(sitting.clock.now() - farewell) < 0.01);
     CHECK(sitting.log.details_of("text shown").back() == "farewell");
+}
+
+TEST_CASE("a machine that slept in a trial, and a wall clock that was set, are said with how much",
+          "[unit]") {
+    const auto said = [](double slept_s, double moved_s) {
+        Sitting sitting(short_protocol(""));
+        sitting.panel.tell = [&](ScriptedPanel& panel) -> std::optional<ResponsePress> {
+            if (panel.phase() == SessionPhase::stimulus && panel.trial == 1)
+                sitting.clock.disturbed = {from_seconds(slept_s), from_seconds(moved_s)};
+            return std::nullopt;
+        };
+        CHECK(sitting.run().completed_trials == 2);
+        std::string all;
+        for (const std::string_view kind : {"machine slept", "wall clock was set"})
+            for (const std::string& detail : sitting.log.details_of(kind))
+                all += fmt::format("{}: {}. ", kind, detail);
+        return all;
+    };
+    CHECK(said(0.0, 0.0).empty());
+    CHECK(said(0.005, 0.1).empty());
+    CHECK(said(0.005, -0.1).empty());
+    CHECK(said(0.006, 0.0) == "machine slept: 0.006 s, in which nothing was shown or recorded. ");
+    CHECK(said(0.0, 0.101) == "wall clock was set: by +0.101 s; session time went on as before. ");
+    CHECK(said(2.5, -3.0) == "machine slept: 2.500 s, in which nothing was shown or recorded. "
+                             "wall clock was set: by -3.000 s; session time went on as before. ");
+}
+
+TEST_CASE("a display that goes away ends the session wherever it is, and the record says so", "[unit]") {
+    using enum SessionPhase;
+    for (const SessionPhase phase :
+         {set_up, calibration, task_screen, drift_check, stimulus, response_screen, rest}) {
+        CAPTURE(name_of(phase));
+        Sitting sitting(short_protocol("[breaks]\nevery_trials = 1\n[screens]\nwelcome_text = \"Hello.\"\n"
+                                       "response_min_s = 0.2\ntask_min_s = 0.2\ndrift_target_s = 0.3\n"));
+        if (phase == calibration)
+            sitting.tracker.set_ups = {{SetupOutcome::Kind::failed, {}, {}, "no eye"}};
+        bool is_gone = false;
+        sitting.presenter.is_closed = [&] { return is_gone; };
+        sitting.panel.tell = [&](ScriptedPanel& panel) -> std::optional<ResponsePress> {
+            is_gone = is_gone || (panel.phase() == phase && panel.looks >= 3);
+            return is_gone || (panel.phase() == phase && panel.trial <= 0)
+                       ? std::optional(ResponsePress{ResponsePress::Key::character, {}})
+                       : std::nullopt;
+        };
+        const SessionResult result = sitting.run();
+        CHECK(is_gone);
+        CHECK(result.aborted);
+        CHECK(result.reason == "the display was closed");
+        CHECK(sitting.log.details_of("session aborted") ==
+              std::vector<std::string>{"the display was closed"});
+        CHECK(result.completed_trials == (phase == rest ? 1 : 0));
+        if (phase == stimulus) {
+            REQUIRE(sitting.log.outcomes.size() == 1);
+            CHECK(sitting.log.outcomes[0].shown_refreshes < 12);
+            CHECK(sitting.log.outcomes[0].steps.back().ended_by == StepEnd::stopped);
+        }
+    }
+}
+
+TEST_CASE("one sample that came twice is said in the singular", "[unit]") {
+    Sitting sitting(short_protocol(""));
+    sitting.tracker.one_double = 8;
+    CHECK(sitting.run().completed_trials == 2);
+    CHECK(sitting.log.details_of("eye tracker") ==
+          std::vector<std::string>{"1 sample came twice and was left out the second time"});
+}
+
+TEST_CASE("practice is noted with its number, its task and what it shows", "[unit]") {
+    Sitting sitting(short_protocol("[[practice]]\ntask = \"free\"\nobject = \"a\"\nmaterial = \"gold\"\n"
+                                   "[[practice]]\ntask = \"free\"\nobject = \"a\"\nmaterial = \"clay\"\n"));
+    CHECK(sitting.run().completed_trials == 2);
+    CHECK(sitting.log.details_of("practice") ==
+          std::vector<std::string>{"1: free, " + stimulus_in_words(sitting.protocol, {0, 0}),
+                                   "2: free, " + stimulus_in_words(sitting.protocol, {0, 1})});
+    CHECK(sitting.log.details_of("practice answered") == std::vector<std::string>{"yes", "yes"});
+    const auto told = [&](const std::string& text) {
+        return std::ranges::count(sitting.tracker.marks, text, &std::pair<SessionTime, std::string>::second);
+    };
+    CHECK(told("TRIALID practice 1") == 1);
+    CHECK(told("TRIALID practice 2") == 1);
+    CHECK(told("TRIALID 1") == 1);
+    // A skipped trial is told as one that came to nothing.
+    Sitting skipped(short_protocol(""));
+    skipped.panel.tell = [is_pressed = false](ScriptedPanel& panel) mutable -> std::optional<ResponsePress> {
+        if (is_pressed || panel.phase() != SessionPhase::task_screen)
+            return std::nullopt;
+        is_pressed = true;
+        return ResponsePress{ResponsePress::Key::skip, {}};
+    };
+    CHECK(skipped.run().completed_trials == 1);
+    CHECK(std::ranges::count(skipped.tracker.marks, std::string("TRIAL_RESULT 1"),
+                             &std::pair<SessionTime, std::string>::second) == 1);
+    CHECK(std::ranges::count(skipped.tracker.marks, std::string("TRIAL_RESULT 0"),
+                             &std::pair<SessionTime, std::string>::second) == 1);
 }
