@@ -50,7 +50,8 @@ void add_screens(std::vector<DoctorFinding>& lines) {
             lines.push_back({fmt::format("monitor {}, {}{}", monitor.number, monitor.name,
                                          monitor.edid_name.empty() ? "" : ", " + monitor.edid_name),
                              finding});
-            const bool changes = !facts.gamma_ramp.red.empty() && !is_identity(facts.gamma_ramp.red);
+            const bool changes = facts.gamma_ramp.server_gamma != ServerGamma{} ||
+                                 (!facts.gamma_ramp.red.empty() && !is_identity(facts.gamma_ramp));
             lines.push_back({"  gamma table", describe(facts.gamma_ramp),
                              changes
                                  ? fmt::format("xrandr --output {} --gamma 1:1:1, and switch colour profiles "

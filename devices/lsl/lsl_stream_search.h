@@ -27,8 +27,9 @@ LslStreamChoice parse_lsl_choice(std::string_view address);
 bool is_lsl_type_of_gaze(std::string_view type);
 
 /// The one that is meant. Looks for `patience` until one is there, and then long enough to see that it is the
-/// only one: two seconds, or no longer than one that is told by its uid. Throws DeviceError for none, and for
-/// several with a list of them and of what tells them apart. `library` must outlive the result.
+/// only one: two seconds more, since liblsl misses one now and then; not for one that is told by its uid.
+/// Throws DeviceError for none, and for several with a list of them and of what tells them apart. `library`
+/// must outlive the result.
 LslOwned<LslStreamInfo> find_lsl_stream(const LslLibrary& library, const LslStreamChoice& choice,
                                         SessionDuration patience);
 

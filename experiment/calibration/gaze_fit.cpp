@@ -7,6 +7,7 @@
 #include <Eigen/Dense>
 #include <fmt/format.h>
 
+#include "experiment/base/counted.h"
 #include "experiment/base/error.h"
 
 namespace overt {
@@ -43,8 +44,8 @@ GazeFit::GazeFit(std::span<const CalibrationPair> pairs, CalibrationModel model,
     const int order = is_homography_ ? 1 : order_for(pairs.size());
     const Eigen::Index terms = order == 1 ? 3 : 6, unknowns = is_homography_ ? 8 : 2 * terms;
     if (2 * count < unknowns)
-        throw InputError(
-            fmt::format("{} targets are too few for a calibration by a {}", pairs.size(), name_of(model)));
+        throw InputError(fmt::format("{} are too few for a calibration by a {}",
+                                     counted(pairs.size(), "target"), name_of(model)));
     Equations all{Eigen::MatrixXd::Zero(2 * count, unknowns), Eigen::VectorXd(2 * count)};
     for (Eigen::Index i = 0; i < count; ++i) {
         const CalibrationPair& pair = pairs[static_cast<std::size_t>(i)];

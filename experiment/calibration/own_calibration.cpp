@@ -284,15 +284,19 @@ SetupOutcome CalibratedTracker::set_up(SetupScreen& setup_screen) {
     if (!visit(setup_screen, visits, to_visit_again(visits, screen_)))
         return ended(SetupOutcome::Kind::cancelled, "cancelled");
     std::string method;
+    std::size_t rested = 0; // targets of the eye that is fitted
     try {
         Fits fits;
         for (const Eye eye : eyes()) {
-            fits[index_of(eye)] = GazeFit(pairs_of(visits, eye), settings_.model, screen_);
+            const std::vector<CalibrationPair> pairs = pairs_of(visits, eye);
+            rested = pairs.size();
+            fits[index_of(eye)] = GazeFit(pairs, settings_.model, screen_);
             method = fmt::format("{} of {} points", fits[index_of(eye)].description(), settings_.points);
         }
         fits_ = fits;
     } catch (const InputError& error) {
-        return ended(SetupOutcome::Kind::failed, error.what());
+        return ended(SetupOutcome::Kind::failed, fmt::format("gaze rested at {} of {} targets: {}", rested,
+                                                             settings_.points, error.what()));
     }
     visits = visits_to(validation_targets(settings_, screen_));
     if (!visit_all(setup_screen, visits)) {

@@ -1,4 +1,4 @@
-/// The mark by which a tracker knows which trial is recorded.
+/// Marks by which a tracker, and whoever reads what it recorded, know a trial and what it shows.
 #pragma once
 
 #include <charconv>
@@ -8,6 +8,9 @@
 namespace overt {
 
 inline constexpr std::string_view trial_mark = "TRIALID "; ///< followed by the trial's number, from 1
+/// When a stimulus was taken away. No word that ends in END: readers of recordings look for that anywhere in
+/// a line, and take it for the end of a recording.
+inline constexpr std::string_view presentation_end_mark = "PRESENTATION_OFFSET";
 
 /// Whether a mark begins a trial, or a practice trial.
 inline bool begins_trial(std::string_view mark) noexcept { return mark.starts_with(trial_mark); }

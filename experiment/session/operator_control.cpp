@@ -281,6 +281,11 @@ std::string about(const UsedTracker& used, const std::string& question) {
     return used.is_further() ? used.id + ": " + question : question;
 }
 
+/// A question with what is known of its reason below it.
+std::string with_reason(std::string question, const std::string& why) {
+    return why.empty() ? question : question + "\n" + why;
+}
+
 } // namespace
 
 void OperatorControl::begin_calibration() {
@@ -333,7 +338,7 @@ void OperatorControl::calibrate(UsedTracker& used) {
         state_.note_of(used, calibration_failed_event, outcome.message);
         if (state_.ends_by_itself())
             return;
-        if (!confirm(about(used, state_.protocol.words.not_calibrated))) {
+        if (!confirm(with_reason(about(used, state_.protocol.words.not_calibrated), outcome.message))) {
             give_up(used, "the eye tracker was not calibrated");
             return;
         }
@@ -407,11 +412,11 @@ void OperatorControl::give_up(UsedTracker& used, const std::string& why) {
 }
 
 /// Until it is reached; false: it was given up, or the session is over.
-bool OperatorControl::connect_again(UsedTracker& used, const std::string& why) {
+bool OperatorControl::connect_again(UsedTracker& used, std::string why) {
     if (!std::exchange(used.is_lost, false))
         state_.note_of(used, tracker_lost_event, why);
     while (!state_.is_over()) {
-        if (!confirm(about(used, state_.protocol.words.tracker_lost))) {
+        if (!confirm(with_reason(about(used, state_.protocol.words.tracker_lost), why))) {
             give_up(used, "the eye tracker was lost");
             return false;
         }
@@ -420,7 +425,8 @@ bool OperatorControl::connect_again(UsedTracker& used, const std::string& why) {
             state_.note_of(used, tracker_regained_event, used.tracker.description().model);
             return true;
         } catch (const DeviceError& error) {
-            state_.note_of(used, tracker_lost_event, error.what());
+            why = error.what();
+            state_.note_of(used, tracker_lost_event, why);
         }
     }
     return false;
@@ -439,7 +445,7 @@ void OperatorControl::regain_tracker(const std::string& why) {
 void OperatorControl::regain_further_trackers() {
     for (UsedTracker& used : state_.trackers())
         if (used.is_further() && !used.is_left_out && (used.is_lost || used.tracker.lost()) &&
-            !state_.is_over() && connect_again(used, "between trials"))
+            !state_.is_over() && connect_again(used, used.is_lost ? used.why_lost : "between trials"))
             calibrate(used);
 }
 

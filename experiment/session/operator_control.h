@@ -109,7 +109,7 @@ class OperatorControl {
     void pause();
     bool end_trial(ResponsePress::Key key);
     bool accepts(UsedTracker& used, const SetupOutcome& outcome);
-    bool connect_again(UsedTracker& used, const std::string& why);
+    bool connect_again(UsedTracker& used, std::string why);
     void give_up(UsedTracker& used, const std::string& why);
     void begin_calibration();
     void rest_a_little(SessionTime latest);

@@ -25,6 +25,7 @@ struct UsedTracker {
     SessionLog& record;
     PracticeLog practice;
     bool is_lost = false;     ///< in a trial, which the record says; the operator was not asked yet
+    std::string why_lost;     ///< by then, as far as it is known
     bool is_left_out = false; ///< a further one that the operator gave up, until it is calibrated again
 
     bool is_further() const { return !id.empty(); }

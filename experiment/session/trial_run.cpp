@@ -311,7 +311,8 @@ void TrialRun::note_lost_trackers() {
     for (Feed& feed : feeds_)
         if (feed.used.is_further() && !feed.used.is_left_out && feed.items.state() == RecordingState::lost) {
             feed.used.is_lost = true;
-            state_.note_of(feed.used, tracker_lost_event, feed.items.why_lost());
+            feed.used.why_lost = feed.items.why_lost();
+            state_.note_of(feed.used, tracker_lost_event, feed.used.why_lost);
         }
 }
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "experiment/ports/event_kinds.h"
+#include "experiment/ports/trial_mark.h"
 #include "experiment/session/session_screens.h"
 #include "experiment/session/step_screens.h"
 
@@ -386,7 +387,7 @@ void TrialRun::end_watching(Running& running) {
         outcome.presentation_end = last == outcome.steps.rend() ? dark : last->end.value_or(dark);
         if (const std::optional<SwapModes> swaps = state_.ports.presenter.take_swap_modes())
             outcome.swaps = outcome.swaps.value_or(SwapModes()) + *swaps;
-        mark(MarkedEvent::end, outcome.presentation_end, "PRESENTATION_END");
+        mark(MarkedEvent::end, outcome.presentation_end, presentation_end_mark);
     }
     state_.ends_by_itself();
     wait_and_take_items(running.trial.index,

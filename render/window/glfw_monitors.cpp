@@ -126,13 +126,15 @@ GammaRamp ramp_of(GLFWmonitor* monitor) {
     const auto channel = [&](const unsigned short* values) {
         return std::vector<std::uint16_t>(values, values + ramp->size);
     };
-    const GammaRamp read{channel(ramp->red), channel(ramp->green), channel(ramp->blue)};
+    GammaRamp read{channel(ramp->red), channel(ramp->green), channel(ramp->blue), server_gamma()};
     // A server without a screen gives whatever stands in its memory: by no such table could one see anything.
     const auto is_table = [](const std::vector<std::uint16_t>& values) {
         return values.front() != values.back() &&
                (std::ranges::is_sorted(values) || std::ranges::is_sorted(values, std::ranges::greater()));
     };
-    return is_table(read.red) && is_table(read.green) && is_table(read.blue) ? read : GammaRamp{};
+    if (!is_table(read.red) || !is_table(read.green) || !is_table(read.blue))
+        read.red = read.green = read.blue = {};
+    return read;
 }
 
 std::vector<MonitorInfo> list_monitors() {

@@ -19,13 +19,13 @@ std::size_t level_of(std::uint16_t entry, std::size_t entries) {
 ScreenFinding gamma_finding(const ScreenFacts& facts, const DisplaySettings& display) {
     const GammaRamp& ramp = facts.gamma_ramp;
     const std::string found = describe(ramp);
-    if (ramp.red.empty())
+    if (ramp.red.empty() && ramp.server_gamma == ServerGamma{})
         return {Weight::risk, "gamma table", found};
-    if (is_identity(ramp.red) && is_identity(ramp.green) && is_identity(ramp.blue))
+    if (is_identity(ramp))
         return {Weight::good, "gamma table", found};
     return {row_of(display.output).is_packed ? Weight::refusal : Weight::risk, "gamma table",
             found + ": take the colour profile and the night light off this screen "
-                    "(xrandr --output NAME --gamma 1:1:1)"};
+                    "(xrandr --output NAME --gamma 1:1:1, xgamma -gamma 1)"};
 }
 
 ScreenFinding linearisation_finding(const DisplaySettings& display) {
@@ -162,7 +162,17 @@ bool is_identity(const std::vector<std::uint16_t>& ramp) {
     return !ramp.empty();
 }
 
+bool is_identity(const GammaRamp& ramp) {
+    return is_identity(ramp.red) && is_identity(ramp.green) && is_identity(ramp.blue) &&
+           ramp.server_gamma == ServerGamma{};
+}
+
 std::string describe(const GammaRamp& ramp) {
+    if (const ServerGamma& gamma = ramp.server_gamma; gamma != ServerGamma{})
+        return fmt::format(
+            "not the identity: the X server reckons a gamma of {:g} (red), {:g} (green) and {:g} (blue) "
+            "into it, as xgamma sets it",
+            gamma.red, gamma.green, gamma.blue);
     if (ramp.red.empty())
         return "cannot be read here";
     const std::pair<const char*, const std::vector<std::uint16_t>*> channels[] = {

@@ -51,6 +51,8 @@ std::vector<ScreenFinding> judge_screen(const ScreenFacts& facts, const DisplayS
 /// Whether each value of a channel leaves as itself, in the table's own depth (256 entries: 8 bits). In the
 /// 16 bits of an entry, drivers write the others as zeros or repeat the first.
 bool is_identity(const std::vector<std::uint16_t>& ramp);
+/// Of all channels, with nothing reckoned in besides.
+bool is_identity(const GammaRamp& ramp);
 
 /// "the gamma table is the identity", or which channel first changes what; "cannot be read".
 std::string describe(const GammaRamp& ramp);

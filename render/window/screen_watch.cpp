@@ -12,8 +12,9 @@
 namespace overt {
 namespace {
 
-GammaRamp gamma_of(xcb_connection_t* link, std::uint32_t crtc) {
+GammaRamp gamma_of(xcb_connection_t* link, std::uint32_t crtc, int screen) {
     GammaRamp ramp;
+    ramp.server_gamma = server_gamma(link, screen);
     const auto reply =
         owned(xcb_randr_get_crtc_gamma_reply(link, xcb_randr_get_crtc_gamma(link, crtc), nullptr));
     if (!reply)
@@ -28,10 +29,6 @@ GammaRamp gamma_of(xcb_connection_t* link, std::uint32_t crtc) {
     ramp.blue = channel(xcb_randr_get_crtc_gamma_blue(reply.get()),
                         xcb_randr_get_crtc_gamma_blue_length(reply.get()));
     return ramp;
-}
-
-bool is_same(const GammaRamp& one, const GammaRamp& other) {
-    return one.red == other.red && one.green == other.green && one.blue == other.blue;
 }
 
 std::string compositor_of(const WindowSystem& system) {
@@ -64,7 +61,7 @@ std::string ScreenWatch::State::monitor() const {
 ScreenWatch::ScreenWatch(const NativeWindow& window) : window_(window) {
     if (window_.x11_server.empty())
         return;
-    link_ = link_to(window_.x11_server.c_str());
+    link_ = {xcb_connect(window_.x11_server.c_str(), &screen_), &xcb_disconnect};
     if (xcb_connection_has_error(link_.get()) != 0) {
         link_.reset();
         return;
@@ -99,7 +96,7 @@ ScreenWatch::State ScreenWatch::look() const {
         state.height_px = crtc->height;
         state.rotation = crtc->rotation;
     }
-    state.gamma = gamma_of(link_.get(), window_.randr_crtc);
+    state.gamma = gamma_of(link_.get(), window_.randr_crtc, screen_);
     ScreenOutput output = examine_output(window_);
     state.refresh_hz = output.refresh_hz;
     state.neighbours = std::move(output.neighbours);
@@ -149,7 +146,7 @@ std::vector<std::string> ScreenWatch::take_changes() {
     else if (news.has_mode_changed)
         changes.push_back(
             fmt::format("the monitor's mode was set meanwhile, and is {} as before", now.monitor()));
-    if (!is_same(now.gamma, before_.gamma))
+    if (now.gamma != before_.gamma)
         changes.push_back(fmt::format("the gamma table is {}, where it was {}", describe(now.gamma),
                                       describe(before_.gamma)));
     if (now.compositor != before_.compositor)
@@ -173,7 +170,8 @@ std::vector<std::string> ScreenWatch::take_changes() {
         changes.emplace_back("the session's window is not shown: it was hidden, or made an icon");
     else if (news.was_hidden)
         changes.emplace_back("the session's window was hidden for a time, and is shown again");
-    else if (news.was_covered)
+    // A server that sets a screen to another size tells of its windows as covered meanwhile.
+    else if (news.was_covered && !news.has_mode_changed && !news.has_monitor_changed)
         changes.emplace_back("another window lay over a part of the session's window");
     before_ = std::move(now);
     return changes;

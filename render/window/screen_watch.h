@@ -46,6 +46,7 @@ class ScreenWatch {
 
     NativeWindow window_;
     XcbLink link_{nullptr, &xcb_disconnect};
+    int screen_ = 0; ///< the X screen's number
     bool has_randr_ = false;
     State before_;
 };

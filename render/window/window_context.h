@@ -12,6 +12,7 @@
 
 #include "render/gl/gl_context.h"
 #include "render/window/native_window.h"
+#include "render/window/server_gamma.h"
 #include "render/window/window_inputs.h"
 
 namespace overt {
@@ -93,6 +94,9 @@ std::string describe(const MonitorInfo& monitor);
 /// The system's table from a channel's value to what is sent, in 16 bits; empty if it cannot be read.
 struct GammaRamp {
     std::vector<std::uint16_t> red, green, blue;
+    /// What an X server reckons into the table besides and does not tell as part of it: as xgamma sets it.
+    ServerGamma server_gamma = {};
+    bool operator==(const GammaRamp&) const = default;
 };
 
 /// Of a monitor by its number in list_monitors(). Main thread only.

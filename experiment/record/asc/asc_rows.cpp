@@ -12,9 +12,14 @@
 namespace overt {
 namespace {
 
-/// When the stimulus came, by a message "SYNCTIME". A whole number before it says by how many milliseconds
-/// the message came too late; less than 0: it was sent beforehand.
-std::optional<TrackerTime> synctime(const GazeEvent& message) {
+/// What a message says first, and when that was. A whole number before the word says by how many
+/// milliseconds the message came too late; less than 0: it was sent beforehand.
+struct SaidAt {
+    std::string_view word;
+    TrackerTime at;
+};
+
+SaidAt said_at(const GazeEvent& message) {
     Words words(message.text);
     std::string_view word = words.next();
     std::int64_t late_ms = 0;
@@ -24,8 +29,7 @@ std::optional<TrackerTime> synctime(const GazeEvent& message) {
         word = words.next();
     else
         late_ms = 0;
-    return word == "SYNCTIME" ? std::optional(message.start - std::chrono::milliseconds(late_ms))
-                              : std::nullopt;
+    return {word, message.start - std::chrono::milliseconds(late_ms)};
 }
 
 } // namespace
@@ -77,15 +81,15 @@ void AscRows::event(const GazeEvent& event) {
         if (is_trial_id(event))
             times_.first = event.start;
         const std::string_view text = event.text;
-        const std::string_view word = text.substr(0, text.find(' '));
+        const auto [word, at] = said_at(event);
         constexpr std::array words{task_screen_message, onset_message, end_message, response_screen_message,
                                    response_message};
         if (word == earlier_end_message)
-            times_.screens.emplace(end_message, event.start);
+            times_.screens.emplace(end_message, at);
         if (std::find(words.begin(), words.end(), word) != words.end())
-            times_.screens.emplace(word, event.start);
-        if (const std::optional<TrackerTime> onset = synctime(event))
-            times_.screens.emplace(onset_message, *onset);
+            times_.screens.emplace(word, at);
+        if (word == "SYNCTIME")
+            times_.screens.emplace(onset_message, at);
         times_.is_aborted |= text == "TRIAL_RESULT aborted" || text == "TRIAL_RESULT open";
     }
     if (into_)

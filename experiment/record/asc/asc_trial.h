@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "experiment/ports/trial_mark.h"
 #include "experiment/record/asc/asc_recordings.h"
 #include "experiment/record/read/session_record.h"
 
@@ -78,12 +79,12 @@ class AscTrial {
 
 /// Messages by which a session's own exports name a trial's screens, and its imports know them again.
 inline constexpr std::string_view task_screen_message = "TASK_SCREEN_ONSET",
-                                  onset_message = "PRESENTATION_ONSET", end_message = "PRESENTATION_OFFSET",
+                                  onset_message = "PRESENTATION_ONSET", end_message = presentation_end_mark,
                                   response_screen_message = "RESPONSE_SCREEN_ONSET",
                                   response_message = "RESPONSE";
 /// In the header of a session's own export, before the name of the tracker that was there.
 inline constexpr std::string_view own_tracker_remark = "** REMARK: overt recorded this with the tracker: ";
-/// In exports of earlier programs. Readers that look for END anywhere in a line took it for a recording's.
+/// In exports and recordings of earlier programs.
 inline constexpr std::string_view earlier_end_message = "PRESENTATION_END";
 
 /// The screens that an attempt got to, by their messages.

@@ -11,6 +11,9 @@ namespace {
 
 using Info = std::shared_ptr<FakeStream>;
 
+/// By this search; counts it.
+bool is_heard(FakeStream& stream) { return stream.unheard == 0 || stream.unheard-- <= 0; }
+
 FakeXml& nowhere() {
     static FakeXml empty;
     return empty;
@@ -45,7 +48,8 @@ LSL_CALL std::int32_t lsl_resolve_byprop(Info** buffer, std::uint32_t size, cons
     };
     std::uint32_t count = 0;
     for (const Info& stream : fake_lsl()->network)
-        if (property_of(*stream) == value && count < size && static_cast<std::int32_t>(count) < minimum) {
+        if (property_of(*stream) == value && is_heard(*stream) && count < size &&
+            static_cast<std::int32_t>(count) < minimum) {
             buffer[count++] = new Info(stream);
             ++fake_lsl()->infos;
         }
@@ -56,7 +60,7 @@ LSL_CALL std::int32_t lsl_resolve_all(Info** buffer, std::uint32_t size, double)
     const std::scoped_lock lock(fake_lsl()->mutex);
     std::uint32_t count = 0;
     for (const Info& stream : fake_lsl()->network)
-        if (count < size) {
+        if (is_heard(*stream) && count < size) {
             buffer[count++] = new Info(stream);
             ++fake_lsl()->infos;
         }

@@ -25,14 +25,21 @@ struct FakeXml {
     }
 };
 
+/// No two streams have the same.
+inline std::string next_uid() {
+    static std::atomic<int> streams{0};
+    return "uid of stream " + std::to_string(++streams);
+}
+
 struct FakeStream {
-    std::string name, type, source, host = "tracker-pc", uid;
+    std::string name, type, source, host = "tracker-pc", uid = next_uid();
     int channels = 0, format = 2;
     double rate_hz = 0.0;
     FakeXml desc{"desc", {}, {}, nullptr};
 
     // Of one that is received.
     std::atomic<bool> is_lost{false}, answers{true};
+    int unheard = 0; ///< so many searches do not find it, as if their packets were lost
     bool is_open = false;
     double correction_s = 0.0, uncertainty_s = 0.0002; ///< of its clock to this machine's
     struct Sample {

@@ -123,6 +123,30 @@ TEST_CASE("of two streams of one name none is taken silently, and each can be to
     CHECK(parse_lsl_choice("").is_open());
 }
 
+TEST_CASE("of two streams none is taken silently where a search misses one of them", "[unit]") {
+    FedStream fed;
+    fed.bench.add_gaze("tracker")->unheard = 1;
+    for (const char* choice : {"tracker", "type=Gaze", ""}) {
+        fed.settings.stream = parse_lsl_choice(choice);
+        INFO(choice);
+        CHECK_THROWS_WITH(fed.connect(), Contains("2 streams could be meant"));
+        fed.bench.fake().network.back()->unheard = 1;
+    }
+}
+
+TEST_CASE("a stream that is told by more than one thing is found behind others that have one of them",
+          "[unit]") {
+    FedStream fed;
+    for (const char* other : {"EEG", "markers", "keys"}) {
+        const auto stream = fed.bench.add_gaze(other);
+        stream->type = other;
+        fed.bench.fake().network.reverse(); // it answers first
+    }
+    fed.settings.patience = 100ms;
+    fed.settings.stream = parse_lsl_choice("host=tracker-pc, type=Gaze");
+    CHECK_THAT(fed.connect().model, Contains("\"tracker\" on tracker-pc"));
+}
+
 TEST_CASE("samples of a stream keep their own times, each once and in order", "[unit]") {
     FedStream fed;
     fed.connect();

@@ -111,7 +111,8 @@ TEST_CASE("a trial's events go to every output with its own codes, and stimuli a
     CHECK(coded == expected);
     CHECK(texts.texts.front() == "TRIALID 1");
     CHECK(std::ranges::count(texts.texts, "SYNCTIME") == static_cast<long>(schedule.trials.size()));
-    CHECK(std::ranges::count(texts.texts, "PRESENTATION_END") == static_cast<long>(schedule.trials.size()));
+    CHECK(std::ranges::count(texts.texts, "PRESENTATION_OFFSET") ==
+          static_cast<long>(schedule.trials.size()));
     CHECK(std::ranges::count(texts.texts, "!V TRIAL_VAR material clay") > 0);
 
     // Every fate is in the record, with the output, the text and the refresh.

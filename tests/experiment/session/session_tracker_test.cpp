@@ -81,6 +81,9 @@ TEST_CASE("a session does not go on uncalibrated", "[unit]") {
         CHECK(again.run().completed_trials == 2); // the operator says yes: calibrate again
         CHECK(again.tracker.calibrations == 2);
         CHECK(again.log.details_of("calibration failed") == std::vector<std::string>{"no eye"});
+        // Whoever is asked reads why.
+        CHECK_THAT(again.log.details_of("operator asked").at(0),
+                   Contains("The eye tracker is not calibrated.") && Contains("no eye"));
 
         Sitting ended(short_protocol(""));
         ended.tracker.set_ups = {{kind, {}, {}, "no eye"}};
@@ -128,6 +131,10 @@ TEST_CASE("a tracker that is lost in a trial is asked for, connected and calibra
     CHECK(sitting.log.details_of("eye tracker lost") ==
           std::vector<std::string>{"", "it is still not there"});
     CHECK(sitting.log.count("eye tracker regained") == 1);
+    const std::vector<std::string> asked = sitting.log.details_of("operator asked");
+    REQUIRE(asked.size() == 2);
+    CHECK_THAT(asked[0], !Contains("it is still not there"));
+    CHECK_THAT(asked[1], Contains("The eye tracker was lost.") && Contains("it is still not there"));
 
     Sitting ended(short_protocol(""));
     ended.tracker.says = [](int) { return RecordingState::lost; };
@@ -163,7 +170,7 @@ TEST_CASE("a tracker is told of trials, onsets, frames and results at the times 
     // 0.1 s at 30 frames a second, each said once.
     for (const char* const frame : {"FRAME 0", "FRAME 1", "FRAME 2"})
         CHECK(std::count(begin, second, frame) == 1);
-    CHECK(std::count(begin, second, "PRESENTATION_END") == 1);
+    CHECK(std::count(begin, second, "PRESENTATION_OFFSET") == 1);
     const auto tells = [&](const std::string& beginning) {
         return std::count_if(begin, second,
                              [&](const std::string& text) { return text.starts_with(beginning); });

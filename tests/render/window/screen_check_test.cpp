@@ -76,6 +76,12 @@ TEST_CASE("gamma tables are the identity in every form that drivers write it, an
     for (std::uint16_t& value : night.blue)
         value = static_cast<std::uint16_t>(value * 9 / 10);
     CHECK_THAT(describe(night), Contains("not the identity: of blue"));
+    CHECK_FALSE(is_identity(night));
+    CHECK(is_identity(ramp(256)));
+    GammaRamp reckoned = ramp(256);
+    reckoned.server_gamma.blue = 1.2;
+    CHECK_FALSE(is_identity(reckoned));
+    CHECK_THAT(describe(reckoned), Contains("1.2 (blue)"));
 }
 
 TEST_CASE("what changes a 16-bit signal for good is refused, and all of it at once", "[unit]") {
@@ -85,6 +91,9 @@ TEST_CASE("what changes a 16-bit signal for good is refused, and all of it at on
     DisplaySettings native;
     native.output = OutputMode::native_8bit;
     CHECK(weight_of(facts, "gamma table", native) == Weight::risk);
+    facts.gamma_ramp = {};
+    facts.gamma_ramp.server_gamma.red = 1.5; // told even where the table is not
+    CHECK(weight_of(facts, "gamma table") == Weight::refusal);
     facts.framebuffer_px = {2400, 1350};
     facts.monitor.refresh_hz = 60;
     CHECK(weight_of(facts, "scaling") == Weight::refusal);

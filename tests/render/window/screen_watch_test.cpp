@@ -7,6 +7,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "render/window/screen_check.h"
 #include "tests/support/skip.h"
 #include "tests/support/two_monitors.h"
 #include "tests/support/virtual_screen.h"
@@ -121,9 +122,19 @@ TEST_CASE("another mode, gamma table or monitor is told once, and what was chang
     CHECK_THAT(joined(watch.take_changes()), Contains("the gamma table is not the identity: of red"));
     CHECK(watch.take_changes().empty());
 
+    // RandR's table stays as it is.
+    REQUIRE(std::system("xgamma -ggamma 2 >/dev/null 2>&1") == 0);
+    CHECK_THAT(joined(watch.take_changes()), Contains("a gamma of 1 (red), 2 (green) and 1 (blue)"));
+    CHECK(watch.take_changes().empty());
+    const ScreenFacts facts = facts_of(window);
+    CHECK(facts.gamma_ramp.server_gamma.green == 2.0);
+    CHECK_FALSE(is_identity(facts.gamma_ramp));
+
     REQUIRE(TwoMonitors::xrandr("--output DUMMY0 --mode fast"));
-    CHECK_THAT(joined(watch.take_changes()), Contains("1920 x 1080 px at 119.98 Hz") &&
-                                                 Contains("where it was 1920 x 1080 px at 59.93 Hz"));
+    const std::string faster = joined(watch.take_changes());
+    CHECK_THAT(faster, !Contains("another window"));
+    CHECK_THAT(faster, Contains("1920 x 1080 px at 119.98 Hz") &&
+                           Contains("where it was 1920 x 1080 px at 59.93 Hz"));
     REQUIRE(TwoMonitors::xrandr("--output DUMMY0 --mode slow"));
     REQUIRE(TwoMonitors::xrandr("--output DUMMY0 --mode fast"));
     CHECK_THAT(joined(watch.take_changes()),

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "experiment/base/error.h"
+#include "experiment/ports/trial_mark.h"
 #include "experiment/record/asc/asc_export.h"
 #include "experiment/record/tables/table_export.h"
 #include "tests/experiment/record/eye_session.h"
@@ -300,6 +301,20 @@ TEST_CASE("SYNCTIME says when the stimulus came, by as many milliseconds earlier
     }
 }
 
+TEST_CASE("messages that overt sends to a tracker say when the stimulus was taken away, however late they "
+          "were sent",
+          "[unit]") {
+    const test::TemporaryFolder root;
+    const auto end_by = [&](const std::string& words) {
+        std::string text = asc_text({});
+        text.insert(text.find("EFIX"), "MSG\t5038 " + words + "\n");
+        return imported(root, text).trials()[0].outcome.presentation_end;
+    };
+    const SessionTime end = end_by(std::string(presentation_end_mark));
+    CHECK(end_by("3 " + std::string(presentation_end_mark)) == end - std::chrono::milliseconds(3));
+    CHECK(end_by("-2 PRESENTATION_END") == end + std::chrono::milliseconds(2)); // of earlier recordings
+}
+
 TEST_CASE("a malformed line between the two samples of a millisecond leaves both in their places", "[unit]") {
     const test::TemporaryFolder root;
     AscExample example;
@@ -376,7 +391,8 @@ TEST_CASE("an imported session can be exported as tables", "[unit]") {
     AscExample example;
     example.right = true;
     const auto counts = export_tables(
-        imported(root, asc_text(example)), [](const ViewedObject&) { return nullptr; }, root.path() / "tables");
+        imported(root, asc_text(example)), [](const ViewedObject&) { return nullptr; },
+        root.path() / "tables");
     CHECK(counts.samples == 240);
     CHECK(counts.samples_without_gaze == 40);
     // The tracker's own events have a table.
