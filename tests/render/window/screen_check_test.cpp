@@ -71,7 +71,7 @@ TEST_CASE("gamma tables are the identity in every form that drivers write it, an
         CHECK_FALSE(is_identity(ramp(entries, 0.99).red));
         CHECK_FALSE(is_identity(ramp(entries, 1.01).red));
     }
-    CHECK_FALSE(is_identity({}));
+    CHECK_FALSE(is_identity(std::vector<std::uint16_t>()));
     GammaRamp night = ramp(256);
     for (std::uint16_t& value : night.blue)
         value = static_cast<std::uint16_t>(value * 9 / 10);
