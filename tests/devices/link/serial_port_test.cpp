@@ -1,9 +1,14 @@
 #include "devices/link/serial_port.h"
 
 #include <array>
+#include <cstdarg>
+#include <optional>
 
 #include <catch2/catch.hpp>
+#include <linux/serial.h>
+#include <sys/ioctl.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
 #include "devices/display_box/display_plus_plus.h"
@@ -18,6 +23,32 @@ using namespace overt;
 using namespace overt::test;
 using namespace std::chrono_literals;
 using Catch::Matchers::Contains;
+
+namespace {
+
+/// The flags of a chip's driver, behind every terminal while there are any: one of the kernel's own has none.
+std::optional<int> chip_flags;
+
+} // namespace
+
+/// Takes the place of the C library's for this program, and answers for the chip.
+extern "C" int ioctl(int descriptor, unsigned long request, ...) noexcept {
+    va_list rest;
+    va_start(rest, request);
+    void* const argument = va_arg(rest, void*);
+    va_end(rest);
+    if (chip_flags && (request == TIOCGSERIAL || request == TIOCSSERIAL)) {
+        auto& state = *static_cast<serial_struct*>(argument);
+        if (request == TIOCGSERIAL) {
+            state = {};
+            state.flags = *chip_flags;
+        } else {
+            chip_flags = state.flags;
+        }
+        return 0;
+    }
+    return static_cast<int>(syscall(SYS_ioctl, descriptor, request, argument));
+}
 
 namespace {
 
@@ -49,6 +80,21 @@ TEST_CASE("a serial port carries every byte both ways unchanged", "[unit]") {
     CHECK(std::string(there.begin(), there.end()) == all);
     REQUIRE(write(terminal.master(), all.data(), all.size()) == 256);
     CHECK(read_some(port, clock, 256) == all);
+}
+
+TEST_CASE("the driver of a serial chip is asked for low latency, and keeps what else it was told", "[unit]") {
+    const SteadyClock clock;
+    const Terminal terminal;
+    const int low = static_cast<int>(ASYNC_LOW_LATENCY),
+              others = static_cast<int>(ASYNC_SPD_HI | ASYNC_SKIP_TEST);
+    for (const int before : {others, others | low}) {
+        chip_flags = before;
+        const SerialPort port(terminal.path(), clock);
+        const int after = chip_flags.value_or(0);
+        chip_flags.reset();
+        CHECK(after == (others | low));
+    }
+    CHECK_NOTHROW(SerialPort(terminal.path(), clock)); // of a terminal, which has no such thing
 }
 
 TEST_CASE("a serial port waits no longer than the deadline and not at all for one that is past", "[unit]") {
