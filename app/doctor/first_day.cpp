@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 #include <unistd.h>
 
+#include "app/cli/interruption.h"
 #include "app/cli/this_program.h"
 #include "app/doctor/first_day_steps.h"
 #include "app/doctor/rig_page_html.h"
@@ -210,7 +211,7 @@ int run_first_day(const FirstDayOptions& options) {
         fmt::print("the first day of {} is finished: --step STEP measures one again, --anew begins another\n",
                    day.page().begun_utc);
     const RigFacts facts = facts_of_protocol(protocol);
-    bool is_ended = false;
+    bool is_ended = false, is_broken_off = false;
     for (const FirstDayStep& step : first_day_steps()) {
         RigStep& kept = *std::ranges::find(day.page().steps, step.name, &RigStep::name);
         const bool is_wanted =
@@ -220,6 +221,7 @@ int run_first_day(const FirstDayOptions& options) {
         if (!options.json) {
             fmt::print("\n== {}: {} (about {})\n{}\n", step.name, step.title,
                        counted(static_cast<std::size_t>(step.minutes), "minute"), step.needs);
+            std::fflush(stdout); // a step takes minutes
             const Answer answer = ask_before(step, options.asks);
             is_ended = answer == Answer::end;
             if (answer != Answer::begin)
@@ -229,6 +231,13 @@ int run_first_day(const FirstDayOptions& options) {
             const SaidBeside beside(options.json);
             return measured(step, {options, protocol, folder, day.page()});
         }();
+        // What was broken off has measured nothing that could be kept.
+        if (Interruption::requested()) {
+            is_ended = is_broken_off = true;
+            if (!options.json)
+                fmt::print("\n{} was broken off, and stays as it was\n", step.name);
+            continue;
+        }
         found.name = step.name;
         found.measured_utc = utc_now();
         RigFacts all = facts_for(step, facts);
@@ -247,10 +256,9 @@ int run_first_day(const FirstDayOptions& options) {
                    day.page().is_finished() ? "" : "steps are open: the same command goes on with them\n",
                    day.html_file().string());
     }
-    return std::ranges::any_of(day.page().steps,
-                               [](const RigStep& step) { return step.verdict == StepVerdict::failed; })
-               ? 1
-               : 0;
+    const bool has_failed = std::ranges::any_of(
+        day.page().steps, [](const RigStep& step) { return step.verdict == StepVerdict::failed; });
+    return has_failed || is_broken_off ? 1 : 0;
 }
 
 } // namespace overt

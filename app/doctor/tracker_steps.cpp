@@ -38,7 +38,7 @@ RigStep with_model(RigStep step, const FirstDay& day, const TrackerDescription& 
 
 constexpr const char* to_look_at =
     "see that an observer sits before the tracker and that its cable and network carry it (overt tracker "
-    "test), and repeat this step";
+    "test); where its rate alone is another, write that as [tracker] rate_hz; repeat this step";
 
 } // namespace
 

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <memory>
 #include <mutex>
+#include <thread>
 #include <utility>
 
 #include <catch2/catch.hpp>
@@ -21,6 +22,7 @@
 #include "tests/app/small_experiment.h"
 #include "tests/devices/link/terminal_device.h"
 #include "tests/support/hurried_observer.h"
+#include "tests/support/running_program.h"
 #include "tests/support/seen_screen.h"
 #include "tests/support/virtual_screen.h"
 
@@ -323,6 +325,27 @@ TEST_CASE("a first day is rehearsed, broken off, gone on with, and named in sess
     for (const auto& entry : std::filesystem::directory_iterator(state / "rig"))
         kept += entry.path().filename().string().starts_with("rig_") ? 1 : 0;
     CHECK(kept == 2);
+}
+
+TEST_CASE("a step that is broken off stays open, and ends the day", "[session][waits]") {
+    const SmallExperiment experiment;
+    const std::filesystem::path state = experiment.folder().path() / "state",
+                                said = experiment.folder().path() / "said";
+    RunningProgram day({"doctor", experiment.protocol().string(), "--first-day", "--context", "osmesa",
+                        "--simulate-observer", "5", "--clock-minutes", "5", "--step", "clock", "--step",
+                        "boxes"},
+                       {"OVERT_STATE=" + state.string(), "OVERT_CACHE=" + experiment.cache().string()}, said);
+    // The clock's step has three readings after 3 s, by which it could be judged.
+    for (int i = 0; i < 600 && text_of(said).find("== clock") == std::string::npos; ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    std::this_thread::sleep_for(std::chrono::seconds(4));
+    day.signal(SIGINT);
+    CHECK(day.wait() != 0);
+    const std::string words = text_of(said);
+    INFO(words);
+    CHECK_THAT(words, !Contains("== boxes"));
+    for (const RigStep& step : rig_page_from(text_of(rig_page_file(state / "rig")), "rig.json").steps)
+        CHECK(step.verdict == StepVerdict::open);
 }
 
 TEST_CASE("at a terminal each step waits until it is begun, left open, or the day ended", "[session]") {
