@@ -201,6 +201,9 @@ def reach(program, spec, folder, environment, drawn, longest):
             print(f"{program.name} ended by a signal without a change", flush=True)
     for row in table.read_text(errors="replace").splitlines() if table.exists() else []:
         name, file, seconds, outcome, reached = row.split("\t")
+        if outcome == "before":
+            kept["before"] = [int(word) for word in reached.split()]
+            continue
         times[name] = min(float(seconds), times.get(name, float(seconds)))
         kept["tests"][name] = {"file": file, "digest": digest_of(file), "seconds": float(seconds), "outcome": outcome,
                                "reached": [int(word) for word in reached.split()]}
@@ -213,6 +216,11 @@ def reach(program, spec, folder, environment, drawn, longest):
                 tests.append(Test(program, name, row["file"], row["seconds"], frozenset(row["reached"])))
             else:
                 print(f"fails without a change, and is left out: {name}", flush=True)
+    # A number with a name has its value before any test begins: it is for those that reach its file.
+    before = set(kept.get("before", [])) & set(drawn)
+    for test in tests:
+        files = {drawn[number].file for number in test.reached - before if number in drawn}
+        test.reached |= {number for number in before if drawn[number].file in files}
     return tests
 
 

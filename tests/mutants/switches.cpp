@@ -17,6 +17,10 @@ struct Reached : Catch::TestEventListenerBase {
 
     void testCaseStarting(const Catch::TestCaseInfo& info) override {
         TestEventListenerBase::testCaseStarting(info);
+        // Numbers with a name are asked for before the first test.
+        if (const char* const path = std::getenv("OVERT_MUTANTS_TESTS"); path != nullptr && is_first_)
+            write_row(path, "\t\t0\tbefore\t");
+        is_first_ = false;
         std::memset(overt_mutants_reached, 0, overt_mutants_count);
         timer_.start();
     }
@@ -29,6 +33,11 @@ struct Reached : Catch::TestEventListenerBase {
         std::string row = stats.testInfo.name + "\t" + stats.testInfo.lineInfo.file + "\t" +
                           std::to_string(timer_.getElapsedSeconds()) + "\t" +
                           (stats.totals.assertions.failed > 0 ? "failed" : "passed") + "\t";
+        write_row(path, row);
+    }
+
+  private:
+    static void write_row(const char* path, std::string row) {
         for (unsigned i = 1; i < overt_mutants_count; ++i)
             if (overt_mutants_reached[i] != 0)
                 row += std::to_string(i) + " ";
@@ -38,8 +47,8 @@ struct Reached : Catch::TestEventListenerBase {
         }
     }
 
-  private:
     Catch::Timer timer_;
+    bool is_first_ = true;
 };
 
 CATCH_REGISTER_LISTENER(Reached)

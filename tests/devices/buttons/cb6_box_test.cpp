@@ -59,3 +59,35 @@ TEST_CASE("a CB6's stream ends with the box", "[unit]") {
     { Cb6Box box(display, bench.clock); }
     CHECK_FALSE(bench.box.model.streaming);
 }
+
+TEST_CASE(
+    "a CB6's buttons are letters and its digital inputs are counted from 0, and few are given at a time",
+    "[unit]") {
+    Bench bench;
+    DisplayPlusPlus display = bench.open();
+    Cb6Box box(display, bench.clock);
+    const char* const names[] = {"A", "B", "C", "D", "E", "F", "Din0", "Din1", "Din2"};
+    for (int button = 1; button <= 9; ++button)
+        CHECK(box.button_name(button) == names[button - 1]);
+    box.begin();
+    std::array<ButtonChange, 8> changes;
+    const auto after = [&](std::size_t room) {
+        bench.clock.wait_until(bench.clock.now() + 20ms);
+        return box.poll(std::span(changes).first(room));
+    };
+    CHECK(after(8) == 0);
+    // A, C and F of the CB6 and the third digital input.
+    bench.box.model.inputs = "1111111011"
+                             "011010";
+    std::string all;
+    for (int i = 0; i < 4; ++i)
+        for (std::size_t n = after(1), k = 0; k < n; ++k)
+            all += box.button_name(changes[k].button) + (changes[k].is_down ? "+ " : "- ");
+    CHECK(after(1) == 0);
+    CHECK(std::ranges::count(all, '+') == 4);
+    // What was held back before a trial is not told in it.
+    bench.box.model.inputs = "1111111111111111";
+    CHECK(after(1) == 1);
+    box.begin();
+    CHECK(after(8) == 0);
+}

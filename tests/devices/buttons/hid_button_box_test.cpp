@@ -80,3 +80,35 @@ TEST_CASE("a HID device without buttons is no response box", "[unit]") {
     CHECK_THROWS_WITH(HidButtonBox(std::make_unique<InMemoryHidLine>(far), descriptor, "", clock),
                       Catch::Contains("neither buttons nor keys"));
 }
+
+TEST_CASE("an element of an array holds which usage is down, counted from its logical minimum", "[unit]") {
+    DescriptorText text;
+    // Two elements of which each is one of the keys a to f, told as 10 to 15; in a report with an id.
+    text.page(0x01).open(0x06, 1).id(7).page(0x07);
+    text.item(0x18, 0x04).item(0x28, 0x09).logical(10, 15).size(8, 2).input(0x00);
+    text.close();
+    HidButtons keys(parse_report_descriptor(text.bytes));
+    CHECK(changes_of(keys, {7, 10, 0}) == "+a");
+    CHECK(changes_of(keys, {7, 15, 10}) == "+f");
+    CHECK(changes_of(keys, {7, 12, 9}) == "-a +c -f");
+    CHECK(changes_of(keys, {7, 16, 0}) == "-c");  // beyond the last
+    CHECK(changes_of(keys, {6, 10, 10}).empty()); // another report
+    CHECK(changes_of(keys, {7, 11, 13}) == "+b +d");
+    CHECK(changes_of(keys, {7, 11}).empty()); // cut off
+    CHECK(changes_of(keys, {7, 0, 13}) == "-b");
+}
+
+TEST_CASE("keys have the names that stand on them, and others their numbers", "[unit]") {
+    const std::pair<int, const char*> names[] = {{0x03, "key 3"}, {0x04, "a"},
+                                                 {0x1D, "z"},     {0x1E, "1"},
+                                                 {0x26, "9"},     {0x27, "0"},
+                                                 {0x28, "enter"}, {0x29, "escape"},
+                                                 {0x2C, "space"}, {0x4F, "right"},
+                                                 {0x50, "left"},  {0x51, "down"},
+                                                 {0x52, "up"},    {0x58, "keypad enter"},
+                                                 {0x2D, "key 45"}};
+    for (const auto& [key, name] : names)
+        CHECK(hid_button_name(first_key_number + key) == name);
+    CHECK(hid_button_name(first_key_number) == "key 0");
+    CHECK(hid_button_name(first_key_number - 1) == std::to_string(first_key_number - 1));
+}

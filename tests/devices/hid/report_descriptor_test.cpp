@@ -1,6 +1,7 @@
 #include "devices/hid/report_descriptor.h"
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
 #include "experiment/base/error.h"
 #include "experiment/base/random.h"
@@ -182,4 +183,109 @@ TEST_CASE("damaged report descriptors are refused or understood, and reports are
     }
     CHECK(refused > 0);
     CHECK(refused < 3000);
+}
+
+TEST_CASE("physical numbers lie between their ends as logical ones do, in their unit", "[unit]") {
+    HidField field;
+    field.logical_minimum = 0;
+    field.logical_maximum = 200;
+    CHECK(hid_physical(field, 50) == 50.0); // without physical ends they are the logical ones
+    field.physical_minimum = -10;
+    field.physical_maximum = 30;
+    CHECK(hid_physical(field, 0) == Approx(-10.0));
+    CHECK(hid_physical(field, 50) == Approx(0.0).margin(1e-12));
+    CHECK(hid_physical(field, 200) == Approx(30.0));
+    CHECK_FALSE(hid_physical(field, -1));
+    CHECK_FALSE(hid_physical(field, 201));
+    field.unit_exponent = 2;
+    CHECK(hid_physical(field, 200) == Approx(3000.0));
+    field.unit_exponent = -3;
+    CHECK(hid_physical(field, 200) == Approx(0.03));
+    field.physical_minimum = 0;
+    CHECK(hid_physical(field, 100) == Approx(0.015));
+    field.physical_maximum = 0;
+    field.physical_minimum = -40;
+    CHECK(hid_physical(field, 100) == Approx(-0.02));
+    field.unit_exponent = 0;
+    field.unit = 0x11; // cm
+    CHECK(hid_millimetres(field, 100) == Approx(-200.0));
+    field.unit = 0x13; // in
+    CHECK(hid_millimetres(field, 100) == Approx(-20.0 * 25.4));
+    field.unit = 0x21;
+    CHECK_FALSE(is_length(field));
+    CHECK_FALSE(hid_millimetres(field, 100));
+    field.logical_maximum = 0; // no range at all
+    CHECK(hid_physical(field, 5000) == 5000.0);
+}
+
+TEST_CASE("a descriptor's globals hold until they change, and are pushed and popped; locals do not",
+          "[unit]") {
+    DescriptorText text;
+    text.page(0x01).open(0x04, 1);
+    text.usage(0x30).logical(-5, 5).unit(0x11, -2).size(4, 1).input(0x02);                           // 0
+    text.item(0xA4);                                                                                 // push
+    text.page(0x09).usage(1).logical(0, 1).item(0x64, 0, 1).item(0x54, 7, 1).size(1, 3).input(0x02); // 1 to 3
+    text.item(0xB4);                                                                                 // pop
+    text.usage(0x31).usage(0x32).item(0x94, 3).input(0x06);          // 4 to 6, relative
+    text.size(5, 1).input(0x01);                                     // fills up, and is no field
+    text.item(0x18, 0x20).item(0x28, 0x21).size(8, 2).feature(0x02); // 7, 8: another report
+    text.size(0, 4).usage(0x33).input(0x02);
+    text.close();
+    const HidDescriptor descriptor = parse_report_descriptor(text.bytes);
+    REQUIRE(descriptor.fields.size() == 9);
+    std::string all;
+    for (const HidField& field : descriptor.fields)
+        all += fmt::format("{}.{:x} at {} of {}, {} to {}, 10^{}{}; ", field.usage.page, field.usage.id,
+                           field.bit_offset, field.bit_size, field.logical_minimum, field.logical_maximum,
+                           field.unit_exponent, field.is_relative ? ", relative" : "");
+    CHECK(all == "1.30 at 0 of 4, -5 to 5, 10^-2; 9.1 at 4 of 1, 0 to 1, 10^7; 9.1 at 5 of 1, 0 to 1, 10^7; "
+                 "9.1 at 6 of 1, 0 to 1, 10^7; 1.31 at 7 of 4, -5 to 5, 10^-2, relative; "
+                 "1.32 at 11 of 4, -5 to 5, 10^-2, relative; 1.32 at 15 of 4, -5 to 5, 10^-2, relative; "
+                 "1.20 at 0 of 8, -5 to 5, 10^-2; 1.21 at 8 of 8, -5 to 5, 10^-2; ");
+    CHECK(descriptor.report_bytes(HidReportKind::input, 0) == 3); // 24 bits
+    CHECK(descriptor.report_bytes(HidReportKind::feature, 0) == 2);
+    CHECK(descriptor.collections.size() == 1);
+}
+
+TEST_CASE("collections lie within each other up to 64 deep, and as many beside each other as may be",
+          "[unit]") {
+    const auto nested = [](int depth) {
+        DescriptorText text;
+        text.page(0x01);
+        for (int i = 0; i < depth; ++i)
+            text.open(0x04, 1);
+        for (int i = 0; i < depth; ++i)
+            text.close();
+        return text.bytes;
+    };
+    CHECK(parse_report_descriptor(nested(64)).collections.size() == 64);
+    CHECK_THROWS_AS(parse_report_descriptor(nested(65)), DeviceError);
+    DescriptorText beside;
+    beside.page(0x01).open(0x04, 1);
+    for (int i = 0; i < 200; ++i)
+        beside.open(0x02, 0).close();
+    beside.close();
+    const HidDescriptor descriptor = parse_report_descriptor(beside.bytes);
+    CHECK(descriptor.collections.size() == 201);
+    for (std::size_t i = 1; i < descriptor.collections.size(); ++i)
+        CHECK(descriptor.collections[i].parent == 0);
+    DescriptorText pushes;
+    for (int i = 0; i < 65; ++i)
+        pushes.item(0xA4);
+    CHECK_THROWS_AS(parse_report_descriptor(pushes.bytes), DeviceError);
+    for (const int wrong : {0, 256}) {
+        DescriptorText id;
+        CHECK_THROWS_AS(parse_report_descriptor(id.item(0x84, wrong, 2).bytes), DeviceError);
+    }
+    DescriptorText wide;
+    wide.page(0x01).usage(0x30).size(65, 1).input(0x02);
+    CHECK_THROWS_AS(parse_report_descriptor(wide.bytes), DeviceError);
+    DescriptorText fits;
+    fits.page(0x01).usage(0x30).size(64, 1).input(0x02);
+    CHECK(parse_report_descriptor(fits.bytes).fields.size() == 1);
+    DescriptorText long_report;
+    long_report.page(0x01).usage(0x30).size(32, 4096).input(0x02);
+    CHECK(parse_report_descriptor(long_report.bytes).report_bytes(HidReportKind::input, 0) == 16384);
+    long_report.size(1, 1).input(0x02);
+    CHECK_THROWS_AS(parse_report_descriptor(long_report.bytes), DeviceError);
 }

@@ -241,3 +241,95 @@ TEST_CASE("a level that was read darker than the one below it becomes level with
     CHECK(fit.display.xyz_of_signal({low, 0.0, 0.0}).y == Approx(between).epsilon(1e-6));
     CHECK(fit.display.xyz_of_signal({high, 0.0, 0.0}).y == Approx(between).epsilon(1e-6));
 }
+
+TEST_CASE("a display that is known by its numbers gives the light that they say", "[unit]") {
+    DisplayTruth truth;
+    truth.black_xyz = {0.1, 0.2, 0.3};
+    truth.primaries_xyz = {glm::dvec3(40.0, 20.0, 2.0), glm::dvec3(30.0, 70.0, 10.0),
+                           glm::dvec3(18.0, 7.0, 95.0)};
+    truth.exponents = {2.0, 2.2, 2.4};
+    const auto same = [](const glm::dvec3& a, const glm::dvec3& b) {
+        for (int axis = 0; axis < 3; ++axis)
+            CHECK(a[axis] == Approx(b[axis]).margin(1e-12));
+    };
+    same(truth.xyz_of(glm::dvec3(0.0)), truth.black_xyz);
+    same(truth.xyz_of({-0.5, 0.0, 0.0}), truth.black_xyz);
+    const glm::dvec3 white =
+        truth.black_xyz + truth.primaries_xyz[0] + truth.primaries_xyz[1] + truth.primaries_xyz[2];
+    same(truth.xyz_of(glm::dvec3(1.0)), white);
+    same(truth.xyz_of(glm::dvec3(1.7)), white);
+    for (std::size_t i = 0; i < 3; ++i) {
+        glm::dvec3 signal(0.0);
+        signal[static_cast<int>(i)] = 0.5;
+        same(truth.xyz_of(signal),
+             truth.black_xyz + std::pow(0.5, truth.exponents[i]) * truth.primaries_xyz[i]);
+    }
+    // A shoulder bends the middle by a quarter of itself, an offset lifts or cuts the low end.
+    truth.shoulders[0] = 0.12;
+    same(truth.xyz_of({0.5, 0.0, 0.0}), truth.black_xyz + 0.25 * 1.03 * truth.primaries_xyz[0]);
+    same(truth.xyz_of({0.2, 0.0, 0.0}),
+         truth.black_xyz + 0.04 * (1.0 + 0.12 * 0.16) * truth.primaries_xyz[0]);
+    same(truth.xyz_of({1.0, 0.0, 0.0}), truth.black_xyz + truth.primaries_xyz[0]);
+    truth.shoulders[0] = 0.0;
+    truth.offsets[0] = 0.1;
+    same(truth.xyz_of({0.5, 0.0, 0.0}),
+         truth.black_xyz + (0.55 * 0.55 - 0.01) / 0.99 * truth.primaries_xyz[0]);
+    truth.offsets[0] = -0.1;
+    same(truth.xyz_of({0.05, 0.0, 0.0}), truth.black_xyz);
+    same(truth.xyz_of({0.5, 0.0, 0.0}), truth.black_xyz + 0.45 * 0.45 * truth.primaries_xyz[0]);
+    truth.offsets[0] = 0.0;
+    // By crosstalk a channel sinks by half the share for each other one that is fully lit.
+    truth.crosstalk = 0.1;
+    same(truth.xyz_of({1.0, 0.0, 0.0}), truth.black_xyz + truth.primaries_xyz[0]);
+    same(truth.xyz_of({1.0, 1.0, 0.0}),
+         truth.black_xyz + 0.95 * (truth.primaries_xyz[0] + truth.primaries_xyz[1]));
+    same(truth.xyz_of(glm::dvec3(1.0)), truth.black_xyz + 0.9 * (white - truth.black_xyz));
+}
+
+TEST_CASE("displays that are drawn lie within what is usual, each its own", "[unit]") {
+    const std::array<glm::dvec3, 3> usual{glm::dvec3(43.0, 22.5, 2.1), glm::dvec3(35.0, 70.0, 11.5),
+                                          glm::dvec3(18.5, 7.5, 97.0)};
+    const glm::dvec3 black(0.1, 0.11, 0.17);
+    glm::dvec3 lowest(10.0), highest(0.0);
+    for (std::uint64_t seed = 0; seed < 200; ++seed) {
+        const DisplayTruth truth = DisplayTruth::drawn(seed);
+        for (std::size_t i = 0; i < 3; ++i) {
+            for (int axis = 0; axis < 3; ++axis) {
+                CHECK(truth.primaries_xyz[i][axis] >= usual[i][axis] * 0.9 * 0.97);
+                CHECK(truth.primaries_xyz[i][axis] <= usual[i][axis] * 1.1 * 1.03);
+            }
+            CHECK(truth.exponents[i] >= 1.9);
+            CHECK(truth.exponents[i] <= 2.5);
+            CHECK(truth.offsets[i] >= -0.02);
+            CHECK(truth.offsets[i] <= 0.01);
+            CHECK(std::abs(truth.shoulders[i]) <= 0.15);
+        }
+        for (int axis = 0; axis < 3; ++axis) {
+            CHECK(truth.black_xyz[axis] >= 0.7 * black[axis]);
+            CHECK(truth.black_xyz[axis] <= 1.3 * black[axis]);
+        }
+        lowest = glm::min(lowest, truth.black_xyz / black);
+        highest = glm::max(highest, truth.black_xyz / black);
+        CHECK(truth.crosstalk == 0.0);
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+        CHECK(lowest[axis] < 0.75);
+        CHECK(highest[axis] > 1.25);
+    }
+    // A photometer's readings are true on average, and spread by its shares.
+    DisplayTruth truth = DisplayTruth::drawn(1);
+    truth.reading_noise = 0.01;
+    truth.dark_noise_cd_m2 = 0.0;
+    SimulatedPhotometer photometer(truth, 2);
+    const glm::dvec3 wanted = truth.xyz_of({0.7, 0.5, 0.3});
+    glm::dvec3 sum(0.0), squares(0.0);
+    for (int i = 0; i < 4000; ++i) {
+        const glm::dvec3 off = photometer.measure_xyz({0.7, 0.5, 0.3}) / wanted - 1.0;
+        sum += off / 4000.0;
+        squares += off * off / 4000.0;
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+        CHECK(std::abs(sum[axis]) < 4.0 * 0.01 / std::sqrt(4000.0));
+        CHECK(std::sqrt(squares[axis]) == Approx(0.01).epsilon(0.05));
+    }
+}

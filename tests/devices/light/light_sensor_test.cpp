@@ -68,3 +68,37 @@ TEST_CASE("light that comes before its change is told as such where it is looked
     const std::vector<LightEdge> edges = sensor.edges();
     CHECK(compare_light(changes, std::span(edges).subspan(2), -33.0).unseen == 2);
 }
+
+TEST_CASE("delays, their mean and their spread are those of the edges, by hand", "[unit]") {
+    const auto at_ms = [](double ms) { return SessionTime(from_seconds(1e-3 * ms)); };
+    const std::vector<LightEdge> changes{{at_ms(1000), true}, {at_ms(1100), false}, {at_ms(1200), true}};
+    const std::vector<LightEdge> edges{
+        {at_ms(990), true}, {at_ms(1004), true}, {at_ms(1106), false}, {at_ms(1211), true}};
+    LightLatency found = compare_light(changes, edges);
+    REQUIRE(found.delays_ms.size() == 3);
+    CHECK(found.delays_ms[0] == Approx(4.0));
+    CHECK(found.delays_ms[1] == Approx(6.0));
+    CHECK(found.delays_ms[2] == Approx(11.0));
+    CHECK(found.mean_ms == Approx(7.0));
+    CHECK(found.sd_ms == Approx(std::sqrt((9.0 + 1.0 + 16.0) / 2.0)));
+    CHECK(found.lowest_ms == Approx(4.0));
+    CHECK(found.highest_ms == Approx(11.0));
+    CHECK(found.unasked == 1);
+    CHECK(found.unseen == 0);
+    // One delay alone has no spread.
+    found = compare_light(std::span(changes).first(1), std::span(edges).subspan(1, 1));
+    CHECK(found.matched == 1);
+    CHECK(found.mean_ms == Approx(4.0));
+    CHECK(found.sd_ms == 0.0);
+    // An edge at the very time of the next change of its kind is that one's.
+    const std::vector<LightEdge> late{{at_ms(1200), true}};
+    found = compare_light(changes, late);
+    CHECK(found.matched == 1);
+    CHECK(found.unseen == 2);
+    CHECK(found.mean_ms == Approx(0.0).margin(1e-9));
+    // Nothing was seen, or asked for.
+    found = compare_light({}, edges);
+    CHECK(found.matched == 0);
+    CHECK(found.unasked == 4);
+    CHECK(found.mean_ms == 0.0);
+}

@@ -131,3 +131,108 @@ TEST_CASE("what an experimenter writes of a channel is eye, meaning and channel"
     for (const char* wrong : {"", "left", "left x", "x", "both x 3", "left depth 3"})
         CHECK_THROWS_WITH(parse_lsl_assignment(wrong), Contains("meanings are x, y, confidence, pupil"));
 }
+
+TEST_CASE("places are in px by the unit that a stream tells or a protocol names, and eyes in mm", "[unit]") {
+    const auto place = [](const char* unit, StreamUnit named, double x, double y) {
+        LslLayoutSettings settings;
+        settings.unit = named;
+        const LslGazeLayout layout({{"x", "", "ScreenX", unit, ""}, {"y", "", "ScreenY", unit, ""}}, settings,
+                                   {}, "s");
+        return samples_of(layout, {x, y}).front().gaze.value();
+    };
+    for (const char* pixels : {"pixels", "px", "Pixel"})
+        CHECK(place(pixels, StreamUnit::as_told, 10.0, 20.0) == ScreenPoint{10.0, 20.0});
+    for (const char* shares : {"normalized", "normalised", "ScreenCoords"})
+        CHECK(place(shares, StreamUnit::as_told, 0.5, 0.25) == ScreenPoint{960.0, 270.0});
+    for (const char* percent : {"percent", "%"})
+        CHECK(place(percent, StreamUnit::as_told, 50.0, 25.0) == ScreenPoint{960.0, 270.0});
+    // What the protocol names holds whatever is told.
+    CHECK(place("normalized", StreamUnit::px, 10.0, 20.0) == ScreenPoint{10.0, 20.0});
+    CHECK(place("px", StreamUnit::normalized, 0.5, 0.5) == ScreenPoint{960.0, 540.0});
+    CHECK(place("", StreamUnit::percent, 100.0, 100.0) == ScreenPoint{1920.0, 1080.0});
+    CHECK_THROWS_AS(place("", StreamUnit::as_told, 0.5, 0.5), DeviceError);
+    CHECK_THROWS_AS(place("degrees", StreamUnit::as_told, 0.5, 0.5), DeviceError);
+    const auto eye_mm = [](const char* unit) {
+        const LslGazeLayout layout({{"x", "", "ScreenX", "px", ""},
+                                    {"y", "", "ScreenY", "px", ""},
+                                    {"eye_x", "", "PositionX", unit, ""},
+                                    {"eye_y", "", "PositionY", unit, ""},
+                                    {"eye_z", "", "PositionZ", unit, ""}},
+                                   {}, {}, "s");
+        test::KeptItems items;
+        layout.take(std::vector<double>{1.0, 2.0, 3.0, 4.0, 5.0}, tracker_time(5), items);
+        return items.all<SampleDetail>().front().eye_mm.value();
+    };
+    CHECK(eye_mm("m") == glm::vec3(3000.0f, 4000.0f, 5000.0f));
+    CHECK(eye_mm("meters") == glm::vec3(3000.0f, 4000.0f, 5000.0f));
+    CHECK(eye_mm("cm") == glm::vec3(30.0f, 40.0f, 50.0f));
+    CHECK(eye_mm("centimeters") == glm::vec3(30.0f, 40.0f, 50.0f));
+    CHECK(eye_mm("mm") == glm::vec3(3.0f, 4.0f, 5.0f));
+    CHECK(eye_mm("") == glm::vec3(3.0f, 4.0f, 5.0f));
+}
+
+TEST_CASE("numbers that stand for what is missing are missing, all together or off the screen", "[unit]") {
+    LslLayoutSettings settings;
+    settings.missing = {-1.0};
+    const LslGazeLayout layout({{"x", "", "ScreenX", "px", ""},
+                                {"y", "", "ScreenY", "px", ""},
+                                {"p", "", "Diameter", "mm", ""},
+                                {"eye_x", "", "PositionX", "mm", ""},
+                                {"eye_y", "", "PositionY", "mm", ""},
+                                {"eye_z", "", "PositionZ", "mm", ""}},
+                               settings, {}, "s");
+    struct Told {
+        bool gaze, pupil, place;
+        auto operator<=>(const Told&) const = default;
+    };
+    const auto told = [&](const std::vector<double>& values) {
+        test::KeptItems items;
+        layout.take(values, tracker_time(5), items);
+        const GazeSample sample = items.all<GazeSample>().front();
+        const auto details = items.all<SampleDetail>();
+        return Told{sample.gaze.has_value(), sample.pupil_area != 0.0f,
+                    !details.empty() && details[0].eye_mm.has_value()};
+    };
+    CHECK(told({10, 20, 3, 1, 2, 3}) == Told{true, true, true});
+    CHECK(told({-1, -1, -1, -1, -1, -1}) == Told{false, false, false});
+    CHECK(told({-1, 20, 3, -1, 2, 3}) ==
+          Told{false, true, true}); // beside the screen, and a place for an eye
+    CHECK(told({10, -1, 3, 1, -1, -1}) == Told{false, true, true});
+    CHECK(told({-5, 20, 3, 1, 2, 3}) == Told{true, true, true}); // beside the screen, and told as that
+    CHECK(told({10, 20, 3, missing, 2, 3}) == Told{true, true, false});
+    CHECK(told({10, 20, missing, 1, 2, 3}) == Told{true, false, true});
+    // 0 as a number that is missing may be the edge of the screen, where the other one is told.
+    settings.missing = {0.0};
+    const LslGazeLayout at_edge({{"x", "", "ScreenX", "px", ""}, {"y", "", "ScreenY", "px", ""}}, settings,
+                                {}, "s");
+    CHECK(samples_of(at_edge, {0.0, 20.0}).front().gaze == ScreenPoint{0.0, 20.0});
+    CHECK_FALSE(samples_of(at_edge, {0.0, 0.0}).front().gaze);
+}
+
+TEST_CASE("each eye has its own channels, and what belongs to neither is both's", "[unit]") {
+    const LslGazeLayout layout({{"lx", "left", "ScreenX", "px", ""},
+                                {"ly", "left", "ScreenY", "px", ""},
+                                {"x", "", "ScreenX", "px", ""},
+                                {"y", "", "ScreenY", "px", ""},
+                                {"lp", "left", "Diameter", "mm", ""},
+                                {"p", "", "Diameter", "mm", ""},
+                                {"lx2", "left", "ScreenX", "px", ""}},
+                               {}, {.eye = Eye::left}, "s");
+    CHECK_FALSE(layout.measures_both_eyes());
+    auto samples = samples_of(layout, {1, 2, 3, 4, 5, 6, 7});
+    REQUIRE(samples.size() == 1);
+    CHECK(samples[0].eye == Eye::left);
+    CHECK(samples[0].gaze == ScreenPoint{1.0, 2.0}); // of several the first
+    CHECK(samples[0].pupil_area == 5.0f);
+    samples = samples_of(layout, {1, 2, 3, 4, missing, 6, 7});
+    CHECK(samples[0].pupil_area == 6.0f);
+    const LslGazeLayout right({{"lx", "left", "ScreenX", "px", ""},
+                               {"ly", "left", "ScreenY", "px", ""},
+                               {"x", "", "ScreenX", "px", ""},
+                               {"y", "", "ScreenY", "px", ""}},
+                              {}, {.eye = Eye::right}, "s");
+    samples = samples_of(right, {1, 2, 3, 4});
+    REQUIRE(samples.size() == 1);
+    CHECK(samples[0].eye == Eye::right);
+    CHECK(samples[0].gaze == ScreenPoint{3.0, 4.0});
+}

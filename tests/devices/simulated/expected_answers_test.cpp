@@ -259,3 +259,91 @@ TEST_CASE("answers come later by as much as the level of their factor says", "[u
     CHECK(answers.expected(offer_of(protocol, protocol.tasks[0].answers[0], "", trial), trial).after_s ==
           Approx(0.3 + 0.5 * std::exp(0.125)));
 }
+
+TEST_CASE("an answer is offered with its values, its ends and the step between them", "[unit]") {
+    Protocol protocol = sided();
+    const Trial trial = trial_of(0, 1, 2);
+    TaskAnswer answer = protocol.tasks[0].answers[0];
+    answer.limit_s = 2.5;
+    AnswerOffer offer = offer_of(protocol, answer, "item", trial);
+    CHECK(offer.id == "which");
+    CHECK(offer.item == "item");
+    CHECK(offer.kind == "choice");
+    CHECK(offer.limit_s == 2.5);
+    CHECK(offer.values == answer.choices);
+    CHECK_FALSE(offer.low);
+    TaskAnswer key = answer;
+    key.kind = kind_named("key");
+    key.choices.clear();
+    CHECK(offer_of(protocol, key, "", trial).values == answer.keys);
+    TaskAnswer scale;
+    scale.id = "scale";
+    scale.kind = kind_named("scale");
+    scale.steps = 5;
+    scale.min = 10.0;
+    scale.max = 20.0;
+    offer = offer_of(protocol, scale, "", trial);
+    CHECK(offer.low == 10.0);
+    CHECK(offer.high == 20.0);
+    CHECK(offer.step == 2.5);
+    CHECK(offer.numbers == std::vector<double>{10.0, 12.5, 15.0, 17.5, 20.0});
+    CHECK(offer.values == std::vector<std::string>{"10", "12.5", "15", "17.5", "20"});
+    TaskAnswer line = scale;
+    line.steps.reset();
+    line.step = 0.5;
+    offer = offer_of(protocol, line, "", trial);
+    CHECK(offer.values.empty());
+    CHECK(offer.numbers.empty());
+    CHECK(offer.step == 0.5);
+    CHECK(offer.low == 10.0);
+    TaskAnswer number;
+    number.id = "number";
+    number.kind = kind_named("number");
+    number.min = -3.0;
+    offer = offer_of(protocol, number, "", trial);
+    CHECK(offer.low == -3.0);
+    CHECK_FALSE(offer.high);
+    CHECK(offer.step == 0.0);
+    number.max = 7.0;
+    CHECK(offer_of(protocol, number, "", trial).high == 7.0);
+    CHECK(offer_of(protocol, protocol.tasks[0].answers[3], "", trial).correct == "stone");
+}
+
+TEST_CASE("a number without ends, or with one alone, is judged where something says around what", "[unit]") {
+    Protocol protocol = sided();
+    protocol.tasks[0].answers.resize(1);
+    TaskAnswer& number = protocol.tasks[0].answers[0];
+    number = TaskAnswer();
+    number.id = "number";
+    number.kind = kind_named("number");
+    number.truth.noise = 0.5;
+    const Trial trial = trial_of(0, 3, 2);
+    const auto mean = [&] {
+        const SimulatedAnswers answers(protocol, 11);
+        return answers.expected(offer_of(protocol, number, "", trial), trial).mean;
+    };
+    CHECK_FALSE(mean()); // nobody knows
+    number.min = 4.0;    // then around the middle of what is known
+    CHECK(mean().value() == Approx(4.0).margin(0.01));
+    number.min = -10.0;
+    number.max = 30.0;
+    CHECK(mean().value() == Approx(10.0).margin(0.01));
+    number.truth.offset = 3.0;
+    CHECK(mean().value() == Approx(3.0).margin(0.01));
+    number.truth.by = "gloss";
+    number.truth.gain = 2.0;
+    CHECK(mean().value() == Approx(9.0).margin(0.01));
+    number.truth.offset.reset();
+    CHECK(mean().value() == Approx(6.0).margin(0.01));
+    // Cuts part what is judged into steps: of a judgement of 6 with a noise of 0.5 all lies between 4 and 8.
+    number.kind = kind_named("scale");
+    number.steps = 3;
+    number.min = 1.0;
+    number.max = 3.0;
+    number.truth.cuts = {4.0, 8.0};
+    CHECK(mean().value() == Approx(2.0).margin(0.001));
+    number.truth.cuts = {2.0, 4.0, 5.0};
+    CHECK(mean().value() == Approx(3.0).margin(0.1)); // above them all: the last step
+    number.truth.cuts = {6.0, 12.0};
+    CHECK(mean().value() == Approx(1.5).margin(0.01));
+}

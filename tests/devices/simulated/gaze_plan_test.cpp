@@ -2,6 +2,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "devices/simulated/eye_movements.h"
+
 #include <array>
 #include <cmath>
 #include <map>
@@ -170,4 +172,127 @@ TEST_CASE("a spread of gaze prefers places far from the middle or near it, in he
             CHECK(found == Approx(expected / weights).epsilon(0.02));
         }
     }
+}
+
+TEST_CASE("spreads and spots of the effects that hold in a trial add up", "[unit]") {
+    const ObservedScene scene = scene_with({{.task = 0, .entries = entries(-1, 1), .spread = 0.4},
+                                            {.entries = entries(2, -1), .spot_share = 0.2, .spread = -0.1},
+                                            {.entries = entries(-1, -1), .spot_share = 0.1}});
+    const auto plan = [&](int task, Stimulus stimulus) { return gaze_plan(scene, 7, task, stimulus); };
+    CHECK(plan(0, {0, 0}).spread == 0.0);
+    CHECK(plan(0, {0, 1}).spread == 0.4);
+    CHECK(plan(0, {2, 0}).spread == -0.1);
+    CHECK(plan(0, {2, 1}).spread == Approx(0.3));
+    CHECK(plan(1, {0, 1}).spread == 0.0);
+    CHECK(plan(0, {0, 0}).spot_count == 1);
+    const GazePlan both = plan(0, {2, 1});
+    REQUIRE(both.spot_count == 2);
+    CHECK(both.spots[0].effect == 1);
+    CHECK(both.spots[0].share == 0.2);
+    CHECK(both.spots[1].effect == 2);
+    CHECK(both.spots[1].share == 0.1);
+}
+
+TEST_CASE("an area that is favoured gains by its odds what all others lose in proportion", "[unit]") {
+    GazePlan plan;
+    plan.area_count = 2;
+    plan.shares = {0.2, 0.4};
+    GazePlan favoured = plan;
+    favour_area(favoured, {.area = 1, .odds = 3.0});
+    // Odds of 0.4 are 2 / 3, three times that is 2.
+    CHECK(favoured.shares[1] == Approx(2.0 / 3.0));
+    CHECK(favoured.shares[0] == Approx(0.2 / 0.6 * (1.0 / 3.0)));
+    for (const int area : {-1, 2}) {
+        favoured = plan;
+        favour_area(favoured, {.area = area, .odds = 3.0});
+        CHECK(favoured.shares == plan.shares);
+    }
+    favoured = plan;
+    favour_area(favoured, {.area = 0, .odds = 1.0});
+    CHECK(favoured.shares[0] == Approx(0.2));
+}
+
+TEST_CASE("the eye closes once in each stretch of a minute over the rate, for 0.1 to 0.2 s", "[unit]") {
+    for (const double rate : {15.0, 40.0, 400.0}) {
+        CAPTURE(rate);
+        const BlinkTrain blinks(5, rate);
+        const double stretch_s = 60.0 / rate;
+        constexpr double step_s = 0.001;
+        double shortest_s = 1.0, longest_s = 0.0, earliest = 1.0, latest = 0.0;
+        for (int stretch = 0; stretch < 200; ++stretch) {
+            int begins = 0;
+            double closed_s = 0.0;
+            bool was_closed = false;
+            for (double at = 0.5 * step_s; at < stretch_s; at += step_s) {
+                const bool is_closed =
+                    blinks.eye_closed_at(SessionTime() + from_seconds(stretch * stretch_s + at));
+                if (is_closed && !was_closed) {
+                    ++begins;
+                    earliest = std::min(earliest, at / stretch_s);
+                    latest = std::max(latest, at / stretch_s);
+                }
+                closed_s += is_closed ? step_s : 0.0;
+                was_closed = is_closed;
+            }
+            CHECK(begins == 1);
+            shortest_s = std::min(shortest_s, closed_s);
+            longest_s = std::max(longest_s, closed_s);
+        }
+        CHECK(shortest_s >= 0.1 - step_s);
+        CHECK(longest_s <= std::min(0.2, stretch_s) + step_s);
+        CHECK(shortest_s < 0.11);
+        CHECK(longest_s > (rate < 400.0 ? 0.19 : 0.14));
+        if (rate == 15.0) {
+            CHECK(earliest < 0.05); // anywhere in it
+            CHECK(latest > 0.9);
+        }
+    }
+    CHECK_FALSE(BlinkTrain(5, 0.0).eye_closed_at(SessionTime() + from_seconds(1.0)));
+    int different = 0;
+    for (int i = 0; i < 4000; ++i) {
+        const SessionTime at = SessionTime() + from_seconds(0.05 * i);
+        different += BlinkTrain(5, 15.0).eye_closed_at(at) != BlinkTrain(6, 15.0).eye_closed_at(at);
+    }
+    CHECK(different > 50);
+}
+
+TEST_CASE("a fixating eye wanders with the standard deviations that are asked for, slowly and fast",
+          "[unit]") {
+    for (const auto& [drift_deg, tremor_deg] : {std::pair{0.1, 0.0}, {0.0, 0.02}, {0.1, 0.04}}) {
+        const FixationalMotion motion(9, Degrees{drift_deg}, Degrees{tremor_deg});
+        constexpr int count = 400'000;
+        constexpr double step_s = 0.0013;
+        glm::dvec2 sum(0.0), squares(0.0);
+        int turns = 0;
+        double before = 0.0, slope = 0.0;
+        for (int i = 0; i < count; ++i) {
+            const glm::dvec2 at = motion.displacement_deg(SessionTime() + from_seconds(step_s * i));
+            sum += at;
+            squares += at * at;
+            turns += i > 1 && (at.x - before) * slope < 0.0;
+            slope = at.x - before;
+            before = at.x;
+        }
+        for (int axis = 0; axis < 2; ++axis) {
+            CHECK(std::abs(sum[axis] / count) < 0.01 * (drift_deg + tremor_deg));
+            CHECK(std::sqrt(squares[axis] / count) ==
+                  Approx(std::hypot(drift_deg, tremor_deg)).epsilon(0.03));
+        }
+        const double turns_per_s = turns / (count * step_s);
+        if (tremor_deg == 0.0)
+            CHECK(turns_per_s < 6.0); // below 3 Hz
+        else if (drift_deg == 0.0)
+            CHECK(turns_per_s == Approx(2.0 * 85.0).margin(2.0 * 20.0));
+    }
+    RandomStream random(4, "log-normal");
+    std::vector<double> drawn;
+    for (int i = 0; i < 20'000; ++i)
+        drawn.push_back(log_normal_within(random, 0.25, 0.4, 0.1, 0.6));
+    std::ranges::sort(drawn);
+    CHECK(drawn.front() >= 0.1);
+    CHECK(drawn.back() <= 0.6);
+    CHECK(drawn[10'000] == Approx(0.25).epsilon(0.02));
+    // Of the logarithms between the quartiles a normal number has 1.349 standard deviations.
+    CHECK(std::log(drawn[15'000] / drawn[5'000]) == Approx(1.349 * 0.4).epsilon(0.06));
+    CHECK(log_normal_within(random, 0.25, 0.4, 5.0, 6.0) == 5.0);
 }

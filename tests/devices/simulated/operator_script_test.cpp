@@ -130,3 +130,55 @@ TEST_CASE("a scripted key is pressed once, at its time in its phase, and its que
     panel.entered(SessionPhase::stimulus, 1);
     CHECK(operators(2.0).empty());
 }
+
+TEST_CASE("each phase and each of the operator's keys is read by its name, and digits up to 9", "[unit]") {
+    for (int i = 0; i < session_phase_count; ++i) {
+        const auto phase = static_cast<SessionPhase>(i);
+        CHECK(read_operator_key(std::string(name_of(phase)) + "+1=pause", 4).phase == phase);
+    }
+    using Key = ResponsePress::Key;
+    for (const Key key :
+         {Key::pause, Key::recalibrate, Key::drift_check, Key::repeat, Key::reject, Key::skip, Key::abort})
+        CHECK(read_operator_key("rest+1=" + std::string(name_of(key)), 4).key == key);
+    CHECK(read_operator_key("rest+1=skip,1", 9).answer == U'1');
+    CHECK(read_operator_key("rest+1=skip,9", 9).answer == U'9');
+    CHECK(read_operator_key("rest+1=skip,4", 4).answer == U'4');
+    CHECK(read_operator_key("rest+1=skip,no", 4).answer == U'n');
+    CHECK(read_operator_key("rest+1=abort,yes", 4).answer == U'y');
+    for (const char* wrong : {"rest+1=skip,11", "rest+1=skip,1x", "rest+1=skip,x",
+                              "rest+1=skip,:", "rest+1=skip,5", "rest@0+1=pause", "rest+1=next"}) {
+        CAPTURE(wrong);
+        CHECK_THROWS_AS(read_operator_key(wrong, 4), InputError);
+    }
+}
+
+TEST_CASE("scripted inputs come at the times that their words have", "[unit]") {
+    using InputKind = ObserverInput::Kind;
+    const auto inputs = [](const std::string& words) {
+        return read_operator_key("response screen+1=" + words, 4).inputs;
+    };
+    const auto ms = [](const ScriptedInput& input) { return input.after / std::chrono::milliseconds(1); };
+    const auto pressed = inputs("press a");
+    CHECK(ms(pressed.front()) == 0);
+    CHECK(ms(pressed.back()) == 80);
+    const auto typed = inputs("type abc");
+    REQUIRE(typed.size() == 3);
+    for (std::size_t i = 0; i < 3; ++i) {
+        CHECK(ms(typed[i]) == 50 * static_cast<long>(i));
+        CHECK(typed[i].input.kind == InputKind::text);
+    }
+    const auto dragged = inputs("drag 10 20 110 -30");
+    REQUIRE(dragged.size() == 13);
+    CHECK(dragged[0].input.kind == InputKind::pointer_moved);
+    CHECK(dragged[0].input.right_px == 10.0);
+    CHECK(dragged[0].input.down_px == 20.0);
+    CHECK(dragged[1].input.kind == InputKind::pointer_down);
+    for (std::size_t i = 1; i <= 10; ++i) {
+        CHECK(ms(dragged[i + 1]) == 20 * static_cast<long>(i));
+        CHECK(dragged[i + 1].input.kind == InputKind::pointer_moved);
+        CHECK(dragged[i + 1].input.right_px == Approx(10.0 + 10.0 * static_cast<double>(i)));
+        CHECK(dragged[i + 1].input.down_px == Approx(20.0 - 5.0 * static_cast<double>(i)));
+    }
+    CHECK(dragged.back().input.kind == InputKind::pointer_up);
+    CHECK(ms(dragged.back()) == 200);
+}

@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -350,4 +351,84 @@ TEST_CASE("a tracker with a rate that no tracker has is refused", "[unit]") {
     CHECK_THROWS_AS(SimulatedEyeTracker(sitting.clock, sitting.observer, 1, settings), InputError);
     settings.rate_hz = std::nan("");
     CHECK_THROWS_AS(SimulatedEyeTracker(sitting.clock, sitting.observer, 1, settings), InputError);
+}
+
+TEST_CASE("gaze that is not calibrated is bent by a known way, which grows from the middle", "[unit]") {
+    Sitting sitting(4, test::without_wandering());
+    SimulatedTrackerSettings settings = perfect();
+    settings.uncalibrated = true;
+    SimulatedEyeTracker tracker(sitting.clock, sitting.observer, 4, settings);
+    const ScreenPoint centre = sitting.observer.scene().screen.centre();
+    int compared = 0;
+    for (const GazeSample& sample : record(sitting, tracker, {0, 0, {}})) {
+        const TrueGaze truth = sitting.observer.gaze_at(tracker.session_time_at(sample.sampled_at));
+        if (!sample.gaze)
+            continue;
+        // In halves of the screen's width.
+        const double x = (truth.place.x_px - centre.x_px) / centre.x_px;
+        const double y = (truth.place.y_px - centre.y_px) / centre.x_px;
+        const double right = (sample.gaze->x_px - centre.x_px) / centre.x_px;
+        const double down = (sample.gaze->y_px - centre.y_px) / centre.x_px;
+        REQUIRE(right == Approx(0.06 + 1.1 * x + 0.05 * y + 0.04 * x * y).margin(1e-9));
+        REQUIRE(down == Approx(-0.03 - 0.05 * x + 0.85 * y + 0.05 * x * x - 0.03 * y * y).margin(1e-9));
+        compared += x != 0.0 && y != 0.0;
+    }
+    CHECK(compared > 1000);
+}
+
+TEST_CASE("pupils have about 1100 units, with two slow waves and even noise of up to four", "[unit]") {
+    Sitting sitting(5);
+    SimulatedEyeTracker tracker(sitting.clock, sitting.observer, 5, perfect());
+    std::vector<double> off;
+    for (int trial = 0; trial < 6; ++trial)
+        for (const GazeSample& sample : record(sitting, tracker, {trial, 0, {}})) {
+            if (!sample.gaze)
+                continue;
+            CHECK(sample.pupil_area == std::round(sample.pupil_area));
+            const double t = 2.0 * 3.14159265358979 *
+                             to_seconds(tracker.session_time_at(sample.sampled_at) - SessionTime());
+            off.push_back(static_cast<double>(sample.pupil_area) -
+                          (1100.0 + 70.0 * std::sin(0.07 * t) + 40.0 * std::sin(0.23 * t + 1.0)));
+        }
+    REQUIRE(off.size() > 10'000);
+    const Spread spread = spread_of(off);
+    CHECK(spread.mean == Approx(0.0).margin(0.2));
+    // Even noise has a third of its square as variance, and rounding a twelfth.
+    CHECK(spread.sd == Approx(std::sqrt(16.0 / 3.0 + 1.0 / 12.0)).epsilon(0.02));
+    CHECK(*std::ranges::max_element(off) <= 4.5);
+    CHECK(*std::ranges::min_element(off) >= -4.5);
+}
+
+TEST_CASE("a validation's targets are a grid of nine, and its errors those between gaze and target",
+          "[unit]") {
+    Sitting sitting(6);
+    SimulatedTrackerSettings settings;
+    settings.accuracy_deg = 0.4;
+    SimulatedEyeTracker tracker(sitting.clock, sitting.observer, 6, settings);
+    const ScreenGeometry screen = sitting.observer.scene().screen;
+    const double px_per_deg = px_per_deg_at_centre(screen).x;
+    test::StillSetupScreen setup_screen;
+    std::vector<double> right, down;
+    for (int i = 0; i < 200; ++i) {
+        const SetupOutcome outcome = tracker.set_up(setup_screen);
+        CHECK(outcome.kind == SetupOutcome::Kind::done);
+        CHECK(outcome.method == "tracker");
+        REQUIRE(outcome.validation);
+        REQUIRE(outcome.validation->targets.size() == 9);
+        for (std::size_t k = 0; k < 9; ++k) {
+            const ValidatedTarget& target = outcome.validation->targets[k];
+            CHECK(target.target.x_px ==
+                  Approx(screen.screen_px.x * (0.1 + 0.4 * static_cast<double>(k % 3))));
+            CHECK(target.target.y_px ==
+                  Approx(screen.screen_px.y * (0.1 + 0.4 * static_cast<double>(k / 3))));
+            REQUIRE(target.gaze);
+            right.push_back((target.gaze->x_px - target.target.x_px) / px_per_deg);
+            down.push_back((target.gaze->y_px - target.target.y_px) / px_per_deg);
+            CHECK(target.error.value == Approx(std::hypot(right.back(), down.back())).epsilon(0.01));
+        }
+    }
+    for (const std::vector<double>& axis : {right, down}) {
+        CHECK(spread_of(axis).mean == Approx(0.0).margin(4.0 * 0.4 / std::sqrt(1800.0)));
+        CHECK(spread_of(axis).sd == Approx(0.4).epsilon(0.07));
+    }
 }

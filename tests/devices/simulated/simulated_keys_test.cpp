@@ -2,6 +2,9 @@
 #include "devices/simulated/simulated_keys.h"
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
+
+#include "experiment/ports/recorded_key_press.h"
 
 using namespace overt;
 using namespace std::chrono_literals;
@@ -107,4 +110,225 @@ TEST_CASE("clicks on places go to where the eye points then, but for a few pixel
     CHECK(inputs[1].down_px == Approx(-100.0).margin(20.0));
     CHECK(inputs[1].right_px != 200.0);
     CHECK(asked_at == inputs[2].at);
+}
+
+namespace {
+
+AnswerOffer offer_called(std::string kind) {
+    AnswerOffer offer;
+    offer.id = "what";
+    offer.kind = std::move(kind);
+    return offer;
+}
+
+/// What comes of one offer, after its window opened at 2 s; a line each, with its time after that in ms.
+std::vector<std::string> lines_of(const AnswerOffer& offer, const Trial& trial, std::uint64_t seed = 3) {
+    const Protocol protocol = asked();
+    const SimulatedAnswers answers(protocol, seed);
+    SimulatedKeys keys;
+    keys.awaited(SessionTime(1s));
+    keys.plan(answers, {offer}, trial);
+    keys.window_opened(SessionTime(2s));
+    std::vector<std::string> lines;
+    const SessionDuration after = answers.answer(offer, trial).after;
+    for (const ObserverInput& input : until(keys, SessionTime(300s))) {
+        CHECK(input.device.view() == simulated_observer_device);
+        const auto ms = (input.at - SessionTime(2s) - after) / 1ms;
+        constexpr std::string_view names[] = {"down", "up", "text", "moved", "pressed", "released"};
+        using Kind = ObserverInput::Kind;
+        const std::size_t name = input.kind == Kind::key_down        ? 0
+                                 : input.kind == Kind::key_up        ? 1
+                                 : input.kind == Kind::text          ? 2
+                                 : input.kind == Kind::pointer_moved ? 3
+                                 : input.kind == Kind::pointer_down  ? 4
+                                                                     : 5;
+        lines.push_back(fmt::format("{} {} {}{}", ms, names[name], input.key.view(),
+                                    name == 2 ? std::string(1, static_cast<char>(input.character)) : ""));
+    }
+    return lines;
+}
+
+/// The names of keys that go down, in turn.
+std::vector<std::string> pressed_of(const std::vector<std::string>& lines) {
+    std::vector<std::string> names;
+    for (const std::string& line : lines)
+        if (const std::size_t at = line.find(" down "); at != std::string::npos)
+            names.push_back(line.substr(at + 6));
+    return names;
+}
+
+} // namespace
+
+TEST_CASE("a choice is the key of what is meant, held for 70 ms, and accepted 300 ms after it", "[unit]") {
+    AnswerOffer offer = offer_called("choice");
+    offer.values = {"near", "far", "same"};
+    offer.keys = {"f", "j", "space"};
+    const Protocol protocol = asked();
+    const SimulatedAnswers answers(protocol, 3);
+    std::array<int, 3> often{};
+    for (int index = 0; index < 30; ++index) {
+        Trial trial;
+        trial.index = index;
+        const auto meant = static_cast<std::size_t>(answers.answer(offer, trial).choice);
+        ++often[meant];
+        const std::string& key = offer.keys[meant];
+        offer.accept_key.clear();
+        CHECK(lines_of(offer, trial) == std::vector<std::string>{"0 down " + key, "70 up " + key});
+        offer.accept_key = "enter";
+        CHECK(lines_of(offer, trial) ==
+              std::vector<std::string>{"0 down " + key, "70 up " + key, "300 down enter", "370 up enter"});
+    }
+    for (const int count : often)
+        CHECK(count > 0);
+    offer.keys.clear(); // by the mouse alone: simulated observers have none
+    CHECK(lines_of(offer, {}).empty());
+}
+
+TEST_CASE("a number is its nearest step's key, or is typed, and words are", "[unit]") {
+    const Protocol protocol = asked();
+    const SimulatedAnswers answers(protocol, 3);
+    AnswerOffer steps = number_keys();
+    AnswerOffer number = offer_called("number");
+    number.low = 2.0;
+    number.high = 9.0;
+    number.step = 0.5;
+    for (int index = 0; index < 20; ++index) {
+        Trial trial;
+        trial.index = index;
+        const double judged = answers.answer(steps, trial).number.value();
+        CHECK(pressed_of(lines_of(steps, trial)) ==
+              std::vector<std::string>{fmt::format("{:.0f}", judged), "enter"});
+        const std::string typed = fmt::format("{:.10g}", answers.answer(number, trial).number.value());
+        const std::vector<std::string> lines = lines_of(number, trial);
+        REQUIRE(lines.size() == typed.size());
+        for (std::size_t i = 0; i < typed.size(); ++i)
+            CHECK(lines[i] == fmt::format("{} text {}", 120 * i, typed[i]));
+    }
+    CHECK(lines_of(offer_called("text"), {}) ==
+          std::vector<std::string>{"0 text s", "120 text e", "240 text e", "360 text n"});
+}
+
+TEST_CASE("the marker of a line comes by arrows and coarse steps to where it is meant, on either side",
+          "[unit]") {
+    const Protocol protocol = asked();
+    for (const bool is_turned : {false, true})
+        for (std::uint64_t seed = 0; seed < 30; ++seed) {
+            const SimulatedAnswers answers(protocol, seed);
+            AnswerOffer offer = offer_called("scale");
+            offer.low = -1.0;
+            offer.high = 5.0;
+            offer.step = seed % 3 == 0 ? 0.05 : seed % 3 == 1 ? 0.5 : 2.0;
+            offer.is_turned = is_turned;
+            Trial trial;
+            trial.index = static_cast<int>(seed);
+            const int moves = static_cast<int>(std::lround(6.0 / offer.step));
+            const double judged = answers.answer(offer, trial).number.value();
+            const int target = static_cast<int>(std::lround((judged + 1.0) / offer.step));
+            // The first press has the marker come up in the middle.
+            int at = moves / 2;
+            const std::vector<std::string> pressed = pressed_of(lines_of(offer, trial, seed));
+            REQUIRE_FALSE(pressed.empty());
+            for (std::size_t i = 1; i < pressed.size(); ++i) {
+                const std::string& key = pressed[i];
+                const int right = key == "right" ? 1 : key == "left" ? -1 : key == "page up" ? 10 : -10;
+                CHECK((key == "right" || key == "left" || key == "page up" || key == "page down"));
+                at += is_turned ? -right : right;
+                CHECK(at >= 0);
+                CHECK(at <= moves);
+            }
+            CHECK(at == target);
+            CHECK(pressed.size() <= 3 + 10 + static_cast<std::size_t>(moves / 10));
+        }
+}
+
+TEST_CASE("a match is set column by column, by coarse steps first, with no step too many", "[unit]") {
+    const Protocol protocol = asked();
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+        const SimulatedAnswers answers(protocol, seed);
+        AnswerOffer offer = offer_called("match");
+        for (int i = 0; i < 3; ++i) {
+            OfferedAxis axis;
+            for (int k = 0; k < 20; ++k)
+                axis.values.push_back(k);
+            axis.start = i == 0 ? 0 : 19;
+            axis.less = i == 2 ? "" : fmt::format("less {}", i);
+            axis.more = i == 2 ? "" : fmt::format("more {}", i);
+            if (i == 0) {
+                axis.much_less = "down";
+                axis.much_more = "up";
+                axis.coarse = 4;
+            }
+            offer.axes.push_back(axis);
+        }
+        const std::vector<int> at = answers.answer(offer, {}).at;
+        REQUIRE(at.size() == 3);
+        std::array<int, 2> here{0, 19};
+        const std::vector<std::string> pressed = pressed_of(lines_of(offer, {}, seed));
+        for (const std::string& key : pressed) {
+            if (key == "up" || key == "down")
+                here[0] += key == "up" ? 4 : -4;
+            else
+                here[key.back() == '0' ? 0 : 1] += key.starts_with("more") ? 1 : -1;
+        }
+        CHECK(here[0] == at[0]);
+        CHECK(here[1] == at[1]);
+        CHECK(static_cast<int>(pressed.size()) == at[0] / 4 + at[0] % 4 + (19 - at[1]));
+    }
+}
+
+TEST_CASE("a gauge is leaned by one drag from the attitude that it has to that which is meant", "[unit]") {
+    const Protocol protocol = asked();
+    const SimulatedAnswers answers(protocol, 3);
+    AnswerOffer offer = offer_called("gauge");
+    offer.attitude = Attitude{{20.0}, {90.0}}; // up
+    offer.true_attitude = Attitude{{40.0}, {0.0}};
+    offer.slant_per_px_deg = 0.5;
+    SimulatedKeys keys;
+    keys.plan(answers, {offer}, {});
+    keys.window_opened(SessionTime(2s));
+    const Attitude meant = answers.answer(offer, {}).attitude.value();
+    const std::vector<ObserverInput> inputs = until(keys, SessionTime(300s));
+    REQUIRE(inputs.size() == 3);
+    CHECK(inputs[0].kind == ObserverInput::Kind::pointer_down);
+    CHECK(inputs[0].right_px == 0.0);
+    CHECK(inputs[1].kind == ObserverInput::Kind::pointer_moved);
+    CHECK(inputs[2].kind == ObserverInput::Kind::pointer_up);
+    CHECK(inputs[1].at - inputs[0].at == 120ms);
+    CHECK(inputs[2].at - inputs[1].at == 120ms);
+    const double tilt = to_radians(meant.tilt).value;
+    for (const std::size_t i : {1u, 2u}) {
+        CHECK(inputs[i].right_px == Approx(meant.slant.value * std::cos(tilt) / 0.5));
+        CHECK(inputs[i].down_px == Approx(-(meant.slant.value * std::sin(tilt) - 20.0) / 0.5));
+        CHECK(inputs[i].button == 1);
+    }
+    offer.true_attitude.reset(); // nobody knows what is meant
+    CHECK(lines_of(offer, {}).empty());
+}
+
+TEST_CASE("who misses presses nothing, and who is too early presses before the window too", "[unit]") {
+    Protocol protocol = asked();
+    protocol.tasks[0].answers.resize(1);
+    TaskAnswer& answer = protocol.tasks[0].answers[0];
+    answer.id = "what";
+    AnswerOffer offer = offer_called("choice");
+    offer.values = {"near", "far"};
+    offer.keys = {"f", "j"};
+    const auto inputs_with = [&](double missing, double early) {
+        answer.truth.missing = missing;
+        answer.truth.early = early;
+        const SimulatedAnswers answers(protocol, 3);
+        SimulatedKeys keys;
+        keys.awaited(SessionTime(1s));
+        keys.plan(answers, {offer}, {});
+        keys.window_opened(SessionTime(2s));
+        return until(keys, SessionTime(300s));
+    };
+    CHECK(inputs_with(1.0, 0.0).empty());
+    CHECK(inputs_with(0.0, 0.0).size() == 2);
+    const auto early = inputs_with(1.0, 1.0);
+    REQUIRE(early.size() == 2);
+    CHECK(early[0].at == SessionTime(1s) + 20ms);
+    CHECK(early[1].at == SessionTime(1s) + 90ms);
+    CHECK(early[0].key.view() == "f");
+    CHECK(inputs_with(0.0, 1.0).size() == 4);
 }
