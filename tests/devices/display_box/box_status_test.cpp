@@ -171,3 +171,47 @@ TEST_CASE("status fields that are switched off on the box are said to be the rea
     };
     CHECK_THAT(message_of([&] { display.read_clocks(); }), Contains("config.xml") && Contains("#sample;"));
 }
+
+TEST_CASE("a status line's numbers are taken up to what can be, and refused beyond", "[unit]") {
+    const auto line = [](const std::string& number, const std::string& time, const std::string& bits,
+                         const std::string& volts) {
+        std::string text = "#sample;" + number + ";" + time + ";" + bits + ";";
+        StatusSample none;
+        for (std::size_t i = 0; i < none.digital.size() + none.infrared.size(); ++i)
+            text += "1;";
+        for (std::size_t i = 0; i < none.analogue_v.size(); ++i)
+            text += volts + ";";
+        return parse_status_line(text);
+    };
+    const auto sample = line("18446744073709551615", "999999999.5", "1", "-999.5");
+    REQUIRE(sample);
+    CHECK(sample->number == 18446744073709551615u);
+    CHECK(sample->at == BoxTime(999999999500000us));
+    CHECK(sample->trigger);
+    CHECK(sample->digital.all());
+    CHECK(sample->infrared.all());
+    for (const float volts : sample->analogue_v)
+        CHECK(volts == -999.5f);
+    CHECK(line("1", "0", "0", "1000"));
+    CHECK_FALSE(line("1", "0", "0", "1000.5"));
+    CHECK(line("1", "1000000000", "0", "0"));
+    CHECK_FALSE(line("1", "1000000001", "0", "0"));
+    CHECK_FALSE(line("1", "-1", "0", "0"));
+    CHECK_FALSE(line("1", "0", "2", "0"));
+    CHECK_FALSE(line("x", "0", "0", "0"));
+    CHECK_FALSE(line("1", "", "0", "0"));
+    // An edge detector tells no volts with edges that have none.
+    BoxEdgeDetector edges;
+    StatusSample before = *line("1", "1", "0", "0.5");
+    CHECK(edges.feed(before).empty());
+    StatusSample after = *line("2", "2", "1", "0.9");
+    after.digital[0] = after.infrared[2] = false;
+    const auto events = edges.feed(after);
+    REQUIRE(events.size() == 3); // and none for volts without a threshold
+    for (const BoxEvent& event : events) {
+        CHECK(event.analogue_v == 0.0f);
+        CHECK(event.active);
+        CHECK(event.not_before == BoxTime(1s));
+        CHECK(event.at == BoxTime(2s));
+    }
+}

@@ -146,3 +146,69 @@ TEST_CASE("what keeps an EyeLink from connecting or sending its file is said in 
     for (const std::int32_t result : {0, -110, -111, -112, -113, -7})
         CHECK(eyelink_transfer_problem(result));
 }
+
+TEST_CASE(
+    "the rate that is granted is the nearest below the wish, or the lowest, of the modes with both eyes",
+    "[unit]") {
+    const std::vector<EyelinkMode> modes{{.rate_hz = 250, .can_both_eyes = true},
+                                         {.rate_hz = 2000, .can_both_eyes = false},
+                                         {.rate_hz = 500, .can_both_eyes = true},
+                                         {.rate_hz = 1000, .can_both_eyes = false}};
+    const auto granted = [&](double rate_hz, bool both_eyes, bool knows = true) {
+        TrackerWish wish;
+        wish.rate_hz = rate_hz;
+        wish.both_eyes = both_eyes;
+        const EyelinkGrant grant =
+            eyelink_grant(knows ? std::span(modes) : std::span<const EyelinkMode>(), wish);
+        return std::pair(grant.rate_hz, grant.both_eyes);
+    };
+    CHECK(granted(1000, false) == std::pair(1000, false));
+    CHECK(granted(999, false) == std::pair(500, false));
+    CHECK(granted(5000, false) == std::pair(2000, false));
+    CHECK(granted(100, false) == std::pair(250, false));
+    CHECK(granted(1, false) == std::pair(250, false));
+    CHECK(granted(2000, true) == std::pair(500, true));
+    CHECK(granted(250, true) == std::pair(250, true));
+    CHECK(granted(100, true) == std::pair(250, true));
+    // A host that does not tell its modes has 1000 Hz with both eyes.
+    CHECK(granted(2000, false, false) == std::pair(2000, false));
+    CHECK(granted(2000, true, false) == std::pair(1000, true));
+    CHECK(granted(500, true, false) == std::pair(500, true));
+}
+
+TEST_CASE("a message has how long ago it was, but for those that viewers read, and is cut at its room",
+          "[unit]") {
+    std::array<char, 24> room{};
+    const auto message = [&](std::string_view text, double ms, std::size_t length = 24) {
+        return std::string(eyelink_message(text, from_seconds(1e-3 * ms), std::span(room).first(length)));
+    };
+    CHECK(message("SYNCTIME", 0.0) == "SYNCTIME");
+    CHECK(message("SYNCTIME", 0.4) == "SYNCTIME");
+    CHECK(message("SYNCTIME", 12.0) == "12 SYNCTIME");
+    CHECK(message("SYNCTIME", 12.6) == "13 SYNCTIME");
+    CHECK(message("SYNCTIME", -3.0) == "-3 SYNCTIME");
+    // What begins with a number would be taken for a time.
+    for (const char* number : {"0 a", "9 a", "-a", "+a"})
+        CHECK(message(number, 0.0) == std::string("0 ") + number);
+    CHECK(message("/a", 0.0) == "/a");
+    CHECK(message(":a", 0.0) == ":a");
+    CHECK(message("", 0.0).empty());
+    CHECK(message("!V TRIAL_VAR a b", 12.0) == "!V TRIAL_VAR a b");
+    CHECK(message("SYNCTIME", 0.0, 4) == "SYNC");
+    CHECK(message("SYNCTIME", 12.0, 6) == "12 SYN");
+    CHECK(message("SYNCTIME", 12.0, 2) == "12");
+    CHECK(message("SYNCTIME", 12.0, 0).empty());
+}
+
+TEST_CASE("a validation's sentence tells mean and largest error, or nothing", "[unit]") {
+    const auto found =
+        eyelink_validation("VALIDATION HV9 LR LEFT GOOD ERROR 0.35 avg. 0.80 max OFFSET 0.1 deg.");
+    REQUIRE(found);
+    CHECK(found->mean_error.value == 0.35);
+    CHECK(found->max_error.value == 0.8);
+    CHECK(eyelink_validation("ERROR 0.5 avg. 0.5 max")->max_error.value == 0.5);
+    CHECK(eyelink_validation("ERROR 0 avg. 0 max")->mean_error.value == 0.0);
+    CHECK_FALSE(eyelink_validation("ERROR 0.9 avg. 0.8 max"));
+    CHECK_FALSE(eyelink_validation("ERROR -0.1 avg. 0.8 max"));
+    CHECK_FALSE(eyelink_validation("ABORTED"));
+}

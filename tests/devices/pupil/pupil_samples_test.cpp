@@ -92,3 +92,71 @@ TEST_CASE("what a picture tells in 2D and in 3D is one pupil, also when the next
     CHECK_FALSE(history.nearest(1.0));
     CHECK(history.nearest(2.0 + 0.005 * 999)->diameter_mm == 4.0);
 }
+
+TEST_CASE("of two messages on one pupil the later one counts, with what the earlier one alone knew",
+          "[unit]") {
+    PupilSamples samples = both_eyes();
+    KeptItems items;
+    PupilDatum flat = pupil_of(Eye::left, 1.0, 3.0);
+    PupilDatum solid;
+    solid.eye = Eye::left;
+    solid.time_s = 1.0;
+    solid.confidence = 0.9;
+    solid.eye_mm = glm::vec3(1.0f, 2.0f, 600.0f);
+    samples.take(flat);
+    samples.take(solid);
+    samples.take(gaze_at(1.0), items);
+    CHECK(items.all<GazeSample>()[0].pupil_area == 3.0f);
+    CHECK(items.all<SampleDetail>()[0].eye_mm == glm::vec3(1.0f, 2.0f, 600.0f));
+    // The other way round, and with a diameter of its own.
+    PupilSamples again = both_eyes();
+    KeptItems others;
+    again.take(solid);
+    flat.diameter_mm = 3.5;
+    again.take(flat);
+    again.take(gaze_at(1.0), others);
+    CHECK(others.all<GazeSample>()[0].pupil_area == 3.5f);
+    CHECK(others.all<SampleDetail>()[0].eye_mm == glm::vec3(1.0f, 2.0f, 600.0f));
+    CHECK(others.all<GazeSample>()[1].pupil_area == 0.0f); // the other eye's is not known
+}
+
+TEST_CASE(
+    "gaze is on the screen by the surface's place, from the eyes that it comes from, and never goes back",
+    "[unit]") {
+    TrackerWish wish;
+    wish.eye = Eye::right;
+    PupilSamples samples(wish, {{100.0, 50.0}, 1000.0, 500.0}, 0.6);
+    KeptItems items;
+    SurfaceGaze gaze = gaze_at(2.0);
+    gaze.place = {0.25, 0.75};
+    samples.take(gaze, items);
+    gaze.time_s = 1.9; // late
+    samples.take(gaze, items);
+    gaze.time_s = 2.0; // twice
+    samples.take(gaze, items);
+    gaze.time_s = 2.1;
+    gaze.confidence = 0.6;
+    samples.take(gaze, items);
+    gaze.time_s = 2.2;
+    gaze.confidence = 0.59;
+    samples.take(gaze, items);
+    gaze.time_s = 2.3;
+    gaze.confidence = 0.95;
+    gaze.from_right = false;
+    samples.take(gaze, items);
+    const auto found = items.all<GazeSample>();
+    const auto details = items.all<SampleDetail>();
+    REQUIRE(found.size() == 4);
+    REQUIRE(details.size() == 4);
+    for (std::size_t i = 0; i < 4; ++i) {
+        CHECK(found[i].eye == Eye::right);
+        CHECK(found[i].sampled_at == tracker_time(2'000'000 + 100'000 * static_cast<std::int64_t>(i)));
+        CHECK(details[i].sampled_at == found[i].sampled_at);
+        CHECK(found[i].gaze.has_value() == (i < 2));
+    }
+    // The surface is counted from below.
+    CHECK(found[0].gaze->x_px == Approx(100.0 + 250.0));
+    CHECK(found[0].gaze->y_px == Approx(50.0 + 125.0));
+    CHECK(details[1].confidence == 0.6f);
+    CHECK(details[3].confidence == 0.0f);
+}

@@ -347,3 +347,97 @@ TEST_CASE("a number without ends, or with one alone, is judged where something s
     number.truth.cuts = {6.0, 12.0};
     CHECK(mean().value() == Approx(1.5).margin(0.01));
 }
+
+TEST_CASE("what a simulated observer sets of a match follows the reference, and has the noise that is stated",
+          "[unit]") {
+    Protocol protocol = sided();
+    protocol.tasks[0].answers.resize(1);
+    TaskAnswer& answer = protocol.tasks[0].answers[0];
+    answer = TaskAnswer();
+    answer.id = "match";
+    AnswerOffer offer;
+    offer.id = "match";
+    offer.kind = "match";
+    OfferedAxis axis;
+    for (int k = 0; k <= 1000; ++k)
+        axis.values.push_back(0.01 * k);
+    axis.start = 900;
+    axis.reference = 4.0;
+    offer.axes = {axis};
+    struct Set {
+        double mean = 0.0, sd = 0.0;
+    };
+    const auto set_values = [&] {
+        const SimulatedAnswers answers(protocol, 5);
+        constexpr int often = 4000;
+        Set set;
+        std::vector<double> values;
+        for (int i = 0; i < often; ++i) {
+            const std::vector<int> at = answers.answer(offer, trial_of(i, 1, 2)).at;
+            REQUIRE(at.size() == 1);
+            values.push_back(offer.axes[0].values.at(static_cast<std::size_t>(at[0])));
+            set.mean += values.back() / often;
+        }
+        for (const double value : values)
+            set.sd += (value - set.mean) * (value - set.mean) / often;
+        set.sd = std::sqrt(set.sd);
+        return set;
+    };
+    answer.truth.noise = 0.0;
+    answer.truth.gain = 1.0;
+    CHECK(set_values().mean == Approx(4.0));
+    CHECK(set_values().sd == Approx(0.0).margin(1e-9));
+    answer.truth.gain = 0.5;
+    CHECK(set_values().mean == Approx(2.0));
+    answer.truth.offset = 1.5;
+    CHECK(set_values().mean == Approx(3.5));
+    answer.truth.start_bias = 0.1; // a tenth of the way to 9
+    CHECK(set_values().mean == Approx(4.05));
+    answer.truth.start_bias = 0.0;
+    answer.truth.noise = 0.4;
+    CHECK(set_values().mean == Approx(3.5).margin(4.0 * 0.4 / std::sqrt(4000.0)));
+    CHECK(set_values().sd == Approx(0.4).epsilon(0.05));
+    // An effect of the object shifts it, and multiplies its slope.
+    answer.truth.noise = 0.0;
+    SimulatedEffect effect;
+    effect.entries[0] = "bust";
+    effect.answer = "match";
+    effect.answer_shift = 0.25;
+    effect.answer_slope = 2.0;
+    protocol.simulated_effects = {effect};
+    CHECK(set_values().mean == Approx(1.5 + 2.0 * 0.5 * 4.0 + 0.25));
+    effect.entries[0] = "cow";
+    protocol.simulated_effects = {effect};
+    CHECK(set_values().mean == Approx(3.5));
+    // Without a reference around the middle, where nothing says around what.
+    answer.truth.offset.reset();
+    offer.axes[0].reference.reset();
+    CHECK(set_values().mean == Approx(5.0));
+}
+
+TEST_CASE("an effect on one of the stimuli shifts how it is seen against the other", "[unit]") {
+    Protocol protocol = sided();
+    TaskAnswer& which = protocol.tasks[0].answers[0];
+    which.truth = AnswerTruth();
+    which.truth.by = "gloss";
+    which.truth.slope = 0.5;
+    SimulatedEffect effect;
+    effect.entries[1] = "gold_2"; // of materials
+    effect.answer = "which";
+    effect.answer_shift = 0.6;
+    protocol.simulated_effects = {effect};
+    const auto share_right = [&](int left, int right) {
+        const SimulatedAnswers answers(protocol, 11);
+        const Trial trial = trial_of(0, left, right);
+        return answers.expected(offer_of(protocol, which, "", trial), trial).shares.at(1);
+    };
+    // Noise of 1 between the two: the share is normal in the difference of what is seen.
+    CHECK(share_right(1, 3) == Approx(normal_probability(1.0)).margin(2e-3));
+    CHECK(share_right(3, 1) == Approx(normal_probability(-1.0)).margin(2e-3));
+    CHECK(share_right(1, 2) == Approx(normal_probability(0.5 + 0.6)).margin(2e-3));
+    CHECK(share_right(2, 1) == Approx(normal_probability(-0.5 - 0.6)).margin(2e-3));
+    which.truth.bias = 0.3; // to the first
+    CHECK(share_right(1, 3) == Approx(normal_probability(0.7)).margin(2e-3));
+    which.truth.lapses = 0.2;
+    CHECK(share_right(1, 3) == Approx(0.1 + 0.8 * normal_probability(0.7)).margin(2e-3));
+}

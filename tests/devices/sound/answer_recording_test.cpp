@@ -1,6 +1,7 @@
 /// Spoken answers from a device to a file, with their place in time.
 #include "devices/sound/answer_engine.h"
 
+#include <cmath>
 #include <csignal>
 #include <fstream>
 #include <thread>
@@ -12,6 +13,8 @@
 
 #include "devices/host/clocks.h"
 #include "devices/simulated/simulated_answer_recorder.h"
+#include "devices/simulated/simulated_voice.h"
+#include "devices/sound/answer_sink.h"
 #include "experiment/base/content_hash.h"
 #include "experiment/session/answer_check.h"
 #include "tests/devices/simulated/sitting.h"
@@ -260,4 +263,117 @@ TEST_CASE("a voice that is too loud, and none at all, are said", "[unit]") {
         REQUIRE(warnings.size() == 1);
         CHECK(warnings[0].find(is_loud ? "clipped" : "silent") == 0);
     }
+}
+
+TEST_CASE("an answer's level, peak, gaps and rate are those of its samples", "[unit]") {
+    const TemporaryFolder folder;
+    AnswerSink sink(folder.path(), free_answer_name(folder.path(), 2),
+                    {"microphone", 8000, 16, from_seconds(0.01)});
+    CHECK(free_answer_name(folder.path(), 2) == "answers/trial_03_2.wav");
+    std::vector<float> block(800);
+    for (std::size_t i = 0; i < block.size(); ++i)
+        block[i] = i % 2 == 0 ? 0.25f : -0.25f;
+    const SessionTime begun = SessionTime() + from_seconds(5.0);
+    sink.add(block, begun);
+    CHECK(sink.level().peak == 0.25f);
+    CHECK(sink.level().rms == Approx(0.25f));
+    CHECK_FALSE(sink.level().is_clipping);
+    block[17] = -0.5f;
+    sink.add(block, begun + from_seconds(0.1));
+    CHECK(sink.level().peak == 0.5f);
+    CHECK(sink.level().rms == Approx(std::sqrt((799.0 * 0.0625 + 0.25) / 800.0)));
+    sink.add_gap(700);
+    sink.count_overrun();
+    block[17] = 0.25f;
+    for (int i = 0; i < 20; ++i)
+        sink.add(block, begun + from_seconds(0.2 + 0.0875 + 0.1 * i));
+    sink.add({}, begun); // nothing
+    const RecordedAnswer answer = sink.finish(begun + from_seconds(0.05), "the test ended");
+    CHECK(answer.file == "answers/trial_03.wav");
+    CHECK(answer.device == "microphone");
+    CHECK(answer.sample_rate_hz == 8000.0);
+    CHECK(answer.bits == 16);
+    CHECK(answer.input_latency == from_seconds(0.01));
+    CHECK(answer.samples == 22 * 800 + 700);
+    CHECK(answer.overruns == 2);
+    CHECK(answer.lost_samples == 700);
+    CHECK(answer.peak_dbfs == Approx(20.0 * std::log10(0.5)).margin(0.01));
+    CHECK(answer.clipped_samples == 0);
+    CHECK(answer.fault == "the test ended");
+    CHECK(answer.sha256 == hash_of_file(folder.path() / answer.file));
+    CHECK(answer.measured_rate_hz == Approx(8000.0).epsilon(1e-6));
+    CHECK(answer.onset_sample == Approx(400.0).margin(0.01));
+    const Wav wav = read_wav(folder.path() / answer.file);
+    REQUIRE(static_cast<std::int64_t>(wav.samples.size()) == answer.samples);
+    CHECK(wav.info.samplerate == 8000);
+    for (std::size_t i = 1600; i < 2300; ++i)
+        REQUIRE(wav.samples[i] == 0.0f);
+    CHECK(wav.samples[0] == Approx(0.25f).margin(1e-4));
+    CHECK(wav.samples[817] == Approx(-0.5f).margin(1e-4));
+    CHECK(wav.samples[2300] == Approx(0.25f).margin(1e-4));
+}
+
+TEST_CASE("samples at full scale clip, and the level says so as long as they come", "[unit]") {
+    const TemporaryFolder folder;
+    AnswerSink sink(folder.path(), free_answer_name(folder.path(), 0), {"microphone", 8000, 16, {}});
+    std::vector<float> block(800, 0.1f);
+    sink.add(block, SessionTime());
+    CHECK_FALSE(sink.level().is_clipping);
+    for (int i = 0; i < 5; ++i)
+        block[static_cast<std::size_t>(100 + i)] = 1.0f;
+    sink.add(block, SessionTime() + from_seconds(0.1));
+    CHECK(sink.level().is_clipping);
+    CHECK(sink.level().peak == 1.0f);
+    block.assign(800, 0.1f);
+    sink.add(block, SessionTime() + from_seconds(0.2));
+    CHECK_FALSE(sink.level().is_clipping);
+    CHECK(sink.finish(SessionTime(), {}).clipped_samples == 5);
+}
+
+TEST_CASE("a simulated voice has the level and the pitch that it is given, for its time", "[unit]") {
+    SimulatedVoice voice;
+    voice.noise_dbfs = -90.0;
+    voice.voice_dbfs = -20.0;
+    voice.begin_s = 0.5;
+    voice.end_s = 2.5;
+    constexpr double rate_hz = 8000.0;
+    const std::vector<float> sound = simulated_sound(voice, rate_hz, 3.0, 7);
+    REQUIRE(sound.size() == 24000);
+    const auto rms = [&](double from_s, double to_s) {
+        double sum = 0.0;
+        const auto first = static_cast<std::size_t>(from_s * rate_hz),
+                   last = static_cast<std::size_t>(to_s * rate_hz);
+        for (std::size_t i = first; i < last; ++i)
+            sum += static_cast<double>(sound[i]) * static_cast<double>(sound[i]) /
+                   static_cast<double>(last - first);
+        return std::sqrt(sum);
+    };
+    CHECK(20.0 * std::log10(rms(0.0, 0.5)) == Approx(-90.0).margin(0.5));
+    CHECK(20.0 * std::log10(rms(2.5, 3.0)) == Approx(-90.0).margin(0.5));
+    // Whole syllables swell between 0.3 and 1: of the mean square that is 0.65^2 + 0.35^2 / 2.
+    CHECK(rms(0.75, 2.25) == Approx(0.1 * std::sqrt(0.65 * 0.65 + 0.5 * 0.35 * 0.35)).epsilon(0.02));
+    // All that it has is at multiples of 120 Hz.
+    const auto amplitude = [&](double hz) {
+        double cosines = 0.0, sines = 0.0;
+        for (std::size_t i = 6000; i < 18000; ++i) {
+            const double turn = 2.0 * 3.14159265358979 * hz * static_cast<double>(i) / rate_hz;
+            cosines += static_cast<double>(sound[i]) * std::cos(turn);
+            sines += static_cast<double>(sound[i]) * std::sin(turn);
+        }
+        return std::hypot(cosines, sines) / 6000.0;
+    };
+    const double first = amplitude(120.0);
+    const double wanted[] = {0.6, 0.8, 1.0, 1.0, 0.9, 0.7, 0.5, 0.35, 0.25, 0.2, 0.15, 0.1};
+    for (int i = 1; i <= 12; ++i)
+        CHECK(amplitude(120.0 * i) / first == Approx(wanted[i - 1] / 0.6).margin(0.02));
+    CHECK(amplitude(60.0) < 0.02 * first);
+    CHECK(amplitude(13 * 120.0) < 0.02 * first);
+    // Louder by its gain, up to full scale.
+    voice.gain = 2.0;
+    const std::vector<float> louder = simulated_sound(voice, rate_hz, 3.0, 7);
+    for (const std::size_t i : {5000u, 9000u, 12345u})
+        CHECK(louder[i] == Approx(2.0f * sound[i]));
+    voice.gain = 1000.0;
+    for (const float sample : simulated_sound(voice, rate_hz, 3.0, 7))
+        REQUIRE(std::abs(sample) <= 1.0f);
 }
