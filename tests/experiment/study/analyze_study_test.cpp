@@ -149,6 +149,16 @@ TEST_CASE("maps hold each trial's fixations, by time and by number", "[unit]") {
     CHECK(by_time.least_sigma_mm == 25.0);
     CHECK(by_time.most_sigma_mm == 35.0);
     CHECK(results.maps.at(0).least_sigma_mm == 30.0);
+    // Whatever kernel blurs them.
+    for (const MapKernel kernel : {MapKernel::euclidean, MapKernel::voxel}) {
+        StudyOptions options;
+        options.kernel = kernel;
+        const StudyResults other = analyzed(looks_up_and_front(3), options);
+        CHECK(other.maps.at(2).total == Approx(750.0).epsilon(1e-3));
+        CHECK(other.maps.at(3).total == Approx(3.0).epsilon(1e-3));
+        const auto peak = std::ranges::max_element(other.maps[3].density) - other.maps[3].density.begin();
+        CHECK(other.objects[0].mesh->positions[static_cast<std::size_t>(peak)].y < -90.0f);
+    }
     // All gaze is on one place, which a Gaussian of 30 mm surrounds.
     CHECK(by_number.peak == Approx(3.0 / (2.0 * 3.14159265 * 900.0)).epsilon(0.15));
 }

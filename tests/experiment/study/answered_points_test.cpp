@@ -189,3 +189,31 @@ TEST_CASE("places by chance are as probable as the surface is large, however fin
     CHECK(spread_of(study.results, "").chance_mm.value() ==
           Approx(0.98 * 83.7 + 0.0196 * 955.0).epsilon(0.05));
 }
+
+TEST_CASE("of two places the first is the middle, and an observer's distances are as they are", "[unit]") {
+    test::PaintedStudy study = ball_alone();
+    const glm::dvec3 right{100.0, 0.0, 0.0}, front = 100.0 * test::front, top = 100.0 * test::top;
+    for (const auto& [trial, place] : {std::pair(1, right), std::pair(2, top)})
+        point_at(study.results, "a", trial, "clicked", place);
+    for (const auto& [trial, place] : {std::pair(1, front), std::pair(2, front), std::pair(3, -front)})
+        point_at(study.results, "b", trial, "clicked", place);
+    ExposureRow head, of_other, body;
+    head.area = of_other.area = "head";
+    body.area = "body";
+    head.share_of_exposure = 0.25;
+    of_other.object = 1;
+    of_other.share_of_exposure = 0.75;
+    body.share_of_exposure = 0.5;
+    study.results.exposures = {head, of_other, body};
+    reckon_points(study.results, study.options);
+    const PointSpreadRow &a = spread_of(study.results, "a"), &b = spread_of(study.results, "b");
+    CHECK(*a.middle == right);
+    CHECK(*a.spread_mm == Approx(100.0)); // 0 and root 2 times the radius
+    CHECK(*a.within_mm.value == Approx(100.0 * std::sqrt(2.0)));
+    CHECK(*b.within_mm.value == Approx(400.0 / 3.0));
+    CHECK(*b.middle == front);
+    CHECK(*spread_of(study.results, "").within_mm.value ==
+          Approx((100.0 * std::sqrt(2.0) + 400.0 / 3.0) / 2.0));
+    for (const PointAreaRow& row : study.results.points.areas)
+        CHECK(*row.by_chance == (row.area == "head" ? 0.25 : 0.5));
+}

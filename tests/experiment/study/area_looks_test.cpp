@@ -194,6 +194,31 @@ TEST_CASE(
     CHECK_FALSE(is_on_area(study.results, study.results.fixations[1], "spout"));
 }
 
+TEST_CASE("what even gaze would give is a mean over the objects that fixations are on", "[unit]") {
+    LookedStudy study(2, {});
+    study.add(0, {{1}, {1}, {0}}, 0); // three on the vase
+    study.add(1, {{2}}, 1);           // one on the bowl
+    name_areas(study.results, study.options);
+    study.results.groups = make_groups(study.results, {}, {});
+    ExposureRow vase, bowl, other;
+    vase.area = bowl.area = "rim";
+    other.area = "base";
+    vase.share_of_area = 0.25;
+    vase.share_of_exposure = 0.5;
+    bowl.object = 1;
+    bowl.share_of_area = 0.75;
+    bowl.share_of_exposure = 0.125;
+    other.share_of_area = other.share_of_exposure = 0.9;
+    study.results.exposures = {other, vase, bowl};
+    const AreaRow rim = study.row("rim");
+    CHECK(*rim.share_of_surface == Approx((3 * 0.25 + 0.75) / 4.0));
+    CHECK(*rim.share_of_exposure == Approx((3 * 0.5 + 0.125) / 4.0));
+    CHECK(*rim.over_surface.value == Approx(*rim.by_count.value / *rim.share_of_surface));
+    CHECK(*rim.over_exposure.value == Approx(*rim.by_count.value / *rim.share_of_exposure));
+    study.results.exposures = {other, vase}; // that of the bowl is not known
+    CHECK_FALSE(study.row("rim").share_of_surface);
+}
+
 TEST_CASE("the course of an area's share takes of each fixation what lies in each stretch of time",
           "[unit]") {
     LookedStudy study(2, {});

@@ -8,6 +8,7 @@
 #include "experiment/statistics/map_similarity.h"
 #include "experiment/study/map_predictions.h"
 #include "experiment/study/study_maps.h"
+#include "tests/experiment/study/painted_study.h"
 #include "tests/experiment/surface/flat_and_round.h"
 
 using namespace overt;
@@ -217,4 +218,15 @@ TEST_CASE("what is on a fixation's own place is in the sum of maps there, and no
           Approx(static_cast<double>(clay.size())).epsilon(1e-3));
     const double visible = std::accumulate(maps.visible_areas().begin(), maps.visible_areas().end(), 0.0);
     CHECK(visible == Approx(120.0 * 120.0).epsilon(1e-6));
+}
+
+TEST_CASE("where nobody knows what is shown there is no exposure, and where they do its integral is 1",
+          "[unit]") {
+    test::PaintedStudy study(2, 1, 3, [](int, int, RandomStream&) { return test::front; });
+    for (float& density : study.results.objects[0].exposure_density)
+        density = 7.0f;
+    const auto maps = fixation_maps(study.results, study.surfaces);
+    CHECK(integral(maps[0]->exposure(), maps[0]->visible_areas()) == Approx(1.0));
+    study.results.objects[0].exposure_density.clear();
+    CHECK(fixation_maps(study.results, study.surfaces)[0]->exposure().empty());
 }

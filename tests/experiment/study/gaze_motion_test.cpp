@@ -216,3 +216,25 @@ TEST_CASE("the tracker's constant error changes the gain, and the corrected gain
         }
     }
 }
+
+TEST_CASE("a gain is the same however small the ways and however short the fixations are", "[unit]") {
+    PaintedStudy study(3, 1, 2, [](int, int, RandomStream&) { return front; });
+    for (StudyFixation& fixation : study.results.fixations) {
+        fixation.duration_s = 0.125;
+        fixation.surface_way_deg2 = 0.02;
+        fixation.gaze_with_surface_deg2 = 0.01;
+        fixation.surface_deg_s = 3.0;
+        fixation.displaced_motion = {{0.008, 0.03}};
+    }
+    study.results.fixations[0].surface_way_deg2 = 1e-6; // it stands
+    const auto rows = gaze_motions(study.results, {}, study.options);
+    CHECK(rows[0].fixations == 5);
+    CHECK(rows[0].observers == 3);
+    CHECK(*rows[0].surface_gain.value == Approx(0.5));
+    CHECK(*rows[0].corrected_gain.value == Approx((2 * 0.01 - 0.008) / (2 * 0.02 - 0.03)));
+    CHECK(*rows[0].surface_speed_deg_s.value == Approx(3.0));
+    for (StudyFixation& fixation : study.results.fixations)
+        fixation.displaced_motion.reset();
+    CHECK(gaze_motions(study.results, {}, study.options)[0].corrected_gain.absent ==
+          "the tracker's error is not known, or as large as the surface's way");
+}
