@@ -12,6 +12,7 @@
 #include "experiment/base/error.h"
 #include "experiment/design/schedule.h"
 #include "experiment/ports/answer_offer.h"
+#include "experiment/ports/trial_mark.h"
 #include "experiment/ports/turning_offer.h"
 #include "experiment/session/session.h"
 #include "tests/experiment/protocol/protocol_fixtures.h"
@@ -110,12 +111,15 @@ class BlinkingTracker final : public EyeTracker {
   public:
     TrackerDescription description() const override { return {"blinking", sample_rate_hz, Eye::left}; }
     bool measures_gaze() const noexcept override { return is_there; }
+    bool calibrates_itself() const noexcept override { return calibrates; }
     enum class Step { set_up, drift_check, start };
     SetupOutcome set_up(SetupScreen& setup_screen) override {
         ++calibrations;
         fail(Step::set_up);
         if (camera)
             setup_screen.show_camera(*camera);
+        if (sets_up)
+            sets_up(setup_screen);
         if (set_ups.empty())
             return {SetupOutcome::Kind::done, ValidationResult{}, "tracker", {}};
         SetupOutcome next = set_ups.front();
@@ -182,6 +186,8 @@ class BlinkingTracker final : public EyeTracker {
     std::vector<int> blind;
     /// Where gaze is, in the other recordings, by their number from 0.
     std::function<std::optional<ScreenPoint>(int recording)> looks;
+    std::function<void(SetupScreen&)> sets_up;         ///< what each calibration does besides
+    bool calibrates = true;                            ///< by itself
     std::optional<CameraImage> camera;                 ///< shown in each calibration
     std::vector<SetupOutcome> set_ups;                 ///< what each calibration gives; then all is well
     std::function<RecordingState(int recording)> says; ///< of the recording under way, by its number from 0
@@ -250,7 +256,10 @@ class ScriptedPanel final : public ResponsePanel {
         offered.push_back(answers);
     }
     void offer_turning(const TurningOffer& turning) override { turnings.push_back(turning); }
-    void window_opened(SessionTime at) noexcept override { opened = at; }
+    void window_opened(SessionTime at) noexcept override {
+        opened = at;
+        openings.push_back(at);
+    }
     std::optional<ObserverInput> next_input() noexcept override {
         return does ? does(*this, clock_.now()) : std::nullopt;
     }
@@ -281,6 +290,7 @@ class ScriptedPanel final : public ResponsePanel {
     std::vector<std::vector<AnswerOffer>> offered;
     SessionPhase written_in = SessionPhase::set_up; ///< what its devices did was recorded last
     std::vector<TurningOffer> turnings;
+    std::vector<SessionTime> openings; ///< of windows of answers
     int trial = -1;
     int looks = 0; ///< in this phase
 
@@ -305,6 +315,7 @@ class NotingLog final : public SessionLog {
         details.push_back(event.detail);
         times.push_back(event.at);
     }
+    void answer_recorded(const RecordedAnswer& answer) override { answers.push_back(answer); }
     void consent(const RecordedConsent& consent) override { consents.push_back(consent); }
     void gaze_came(const GazeYield& gaze) override { yields.push_back(gaze); }
     void observer_fields(const std::vector<RecordedObserverField>& filled) override { fields = filled; }
@@ -330,6 +341,7 @@ class NotingLog final : public SessionLog {
     std::vector<int> started;
     std::vector<bool> completed;
     std::vector<TrialOutcome> outcomes;
+    std::vector<RecordedAnswer> answers;
     std::vector<RecordedConsent> consents;
     std::vector<GazeYield> yields;
     std::vector<RecordedCalibration> calibrations;
@@ -376,7 +388,7 @@ inline void check_attempt(const TrialOutcome& outcome, const BlinkingTracker& tr
         CHECK(outcome.presentation_onset == *first_show->begin);
         CHECK(told(*first_show->begin, "SYNCTIME") == 1);
         CHECK(outcome.presentation_end == *last_show->end);
-        CHECK(told(*last_show->end, "PRESENTATION_END") == 1);
+        CHECK(told(*last_show->end, std::string(presentation_end_mark)) == 1);
     }
     if (answer)
         CHECK(outcome.response_screen_onset == *answer->begin);

@@ -570,18 +570,25 @@ steps = [ { show = ["left", "right"], until = { gaze_on = "head", )" +
                               const std::string& area) -> std::shared_ptr<const AreaView> {
             const std::string& id = sitting.protocol.slots[static_cast<std::size_t>(placed.slot)].id;
             asked += id + " " + area + "; ";
-            return id == only ? std::make_shared<Everywhere>() : nullptr;
+            if (only == "second" && id == "left")
+                return std::make_shared<AreaInPose>(-7); // never seen
+            if (id == only || only == "second")
+                return std::make_shared<Everywhere>();
+            return nullptr;
         };
         CHECK_FALSE(sitting.run().aborted);
         REQUIRE(sitting.log.outcomes.size() == 1);
         const AttemptStep& step = sitting.log.outcomes[0].steps.at(0);
         CHECK(step.gaze_onset.has_value() == (step.ended_by == StepEnd::gaze));
+        if (step.ended_by == StepEnd::patience)
+            CHECK(sitting.log.outcomes[0].shown_refreshes == 60);
         if (step.gaze_onset)
             CHECK(*step.gaze_detected >= *step.gaze_onset);
         return fmt::format("{}{}", asked, name_of(*step.ended_by));
     };
     CHECK(shown("", "left") == "left head; right head; gaze");
     CHECK(shown("", "right") == "left head; right head; gaze");
+    CHECK(shown("", "second") == "left head; right head; gaze");
     CHECK(shown("", "none") == "left head; right head; patience");
     CHECK(shown("slot = \"right\", ", "right") == "right head; gaze");
     CHECK(shown("slot = \"right\", ", "left") == "right head; patience");

@@ -486,3 +486,21 @@ TEST_CASE("a drawn pose in practice is another draw than that of the trial of th
     CHECK(alike < 5);
     CHECK(seeds < 5);
 }
+
+TEST_CASE("who turns by the mouse alone tilts by the drag where there are elevations", "[unit]") {
+    ObserverTurn by;
+    by.elevation_step = Degrees{10.0};
+    by.elevation_from = Degrees{-20.0};
+    by.elevation_to = Degrees{20.0};
+    by.keys = {"left", "right", "up", "down"};
+    for (const TurnedWith with : {TurnedWith::mouse, TurnedWith::both}) {
+        by.with = with;
+        const Protocol protocol = turned_protocol(by);
+        ObjectTurning turning;
+        turning.begin_trial(protocol, {}, 1, false);
+        turning.begin_show({0});
+        const auto offers = turning.offers(0, {}, 1.0);
+        REQUIRE(offers.size() == (with == TurnedWith::mouse ? 1 : 2));
+        CHECK(offers[0].drags_tilt == (with == TurnedWith::mouse));
+    }
+}

@@ -93,6 +93,31 @@ TEST_CASE("an answer ends the stimulus, and its own screen is passed over", "[un
     CHECK(has_said(sitting, "Right"));
 }
 
+TEST_CASE("a window opens with what the protocol says, and who answers is told of it once", "[unit]") {
+    for (const std::string_view opens : {"onset", "offset", "screen"}) {
+        CAPTURE(opens);
+        std::string text(asked_at_stimulus);
+        text.replace(text.find("correct = \"x\""), 13, fmt::format("correct = \"x\"\nopens = \"{}\"", opens));
+        if (opens != "onset")
+            text.replace(text.find(", until = \"answer\""), 18, "");
+        Sitting sitting(short_protocol(text));
+        sitting.panel.does = pressing({{150, "f"}, {170, "f", ObserverInput::Kind::key_up}});
+        CHECK(sitting.run().completed_trials == 2);
+        REQUIRE(sitting.log.outcomes.size() == 2);
+        REQUIRE(sitting.panel.openings.size() >= 2);
+        for (std::size_t i = 0; i < 2; ++i) {
+            const TrialOutcome& outcome = sitting.log.outcomes[i];
+            const SessionTime wanted = opens == "onset"    ? outcome.presentation_onset
+                                       : opens == "offset" ? outcome.presentation_end
+                                                           : outcome.response_screen_onset;
+            REQUIRE(outcome.given.size() == 1);
+            CHECK(outcome.given[0].window_onset == wanted);
+            CHECK(std::ranges::count(sitting.panel.openings, wanted) >= 1);
+            CHECK(*outcome.given[0].answered_at - wanted == from_seconds(0.15));
+        }
+    }
+}
+
 TEST_CASE("feedback is heard by what was answered, once, as it comes up", "[unit]") {
     const auto heard = [](std::string_view correct, std::vector<TimedKey> keys, std::string_view feedback) {
         std::string text(asked_at_stimulus);
@@ -674,7 +699,7 @@ TEST_CASE("each answer is marked once, at its time, whether it is spoken or pres
         for (std::size_t i = 0; i < 2; ++i)
             CHECK(sink.at[i] == sitting.log.outcomes[i].responded_at);
         // The same texts as a tracker is told, but for its frames, which an output has by its flips.
-        CHECK(std::ranges::count(sink.texts, "PRESENTATION_END") == 2);
+        CHECK(std::ranges::count(sink.texts, std::string(presentation_end_mark)) == 2);
         CHECK(std::ranges::count(sink.texts, "TRIALID 1") == 1);
         CHECK(std::ranges::count(sink.texts, "TRIAL_RESULT 0") == 2);
     }

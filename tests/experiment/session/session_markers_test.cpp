@@ -268,3 +268,19 @@ TEST_CASE("a marker's text is cut at its longest, and practice marks nothing", "
     CHECK_FALSE(log.all[0].planned_refresh);
     CHECK_FALSE(log.all[0].shown_refresh);
 }
+
+TEST_CASE("what outputs tell at their end is recorded, too", "[unit]") {
+    const Protocol protocol = marked_protocol("[[marker_output]]\nid = \"texts\"\nkind = \"lsl\"\n"
+                                              "[[marker_output]]\nid = \"none\"\nkind = \"lsl\"\n");
+    NotingSink sink;
+    const std::vector<MarkerSink*> sinks{&sink, nullptr}; // the second is left out
+    SessionMarkers markers(protocol, sinks);
+    MarkerLog log;
+    markers.begin_trial({}, false);
+    markers.tell(SessionTime(std::chrono::seconds(1)), "LAST");
+    CHECK(markers.finish(log) == std::vector<std::string>{"noted: 1 marker could not be sent"});
+    REQUIRE(log.all.size() == 1);
+    CHECK(log.all[0].text == "LAST");
+    CHECK(log.all[0].output == "texts");
+    CHECK(log.all[0].not_after == SessionTime(std::chrono::milliseconds(1002)));
+}

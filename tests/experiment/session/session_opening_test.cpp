@@ -310,3 +310,17 @@ TEST_CASE("a form begins at its first empty field, and letters go round the choi
     form.take({Key::character, {}, U'z'});
     CHECK(form.values()[0] == "Ada");
 }
+
+TEST_CASE("a form of one field names no other fields, and its only key submits it", "[unit]") {
+    std::vector<ObserverFieldSettings> fields(1);
+    fields[0].id = fields[0].title = "name";
+    complete_field(fields[0], false);
+    fields[0].kind = FieldKind::text;
+    fields[0].required = true;
+    ObserverForm form(fields, {}, {});
+    REQUIRE(form.screen().keys.size() == 1);
+    CHECK(form.screen().keys[0].does == "done");
+    CHECK_FALSE(form.take({Key::next, {}}));
+    form.take({Key::character, {}, U'x'});
+    CHECK(form.take({Key::next, {}}));
+}

@@ -334,3 +334,28 @@ tasks = "t"
     CHECK(all == "feedback_t_answered: Thanks; feedback_t_correct: Right; feedback_t_wrong: Wrong; "
                  "feedback_t_missed: Late; answers_t_1:  [Glossy? 2]; answers_t_2: Rate it. [ 7]; ");
 }
+
+TEST_CASE("who does not see a gauge is told the surface where it stands, in the first frame too", "[unit]") {
+    for (const int frame : {0, 4}) {
+        Sitting sitting(
+            probed(fmt::format("{{ show = \"centre\", frame = {}, until = \"answer\" }}", frame), a_lean));
+        sitting.probe_of = [](const PlacedStimulus&, const std::string&) {
+            return std::make_shared<GoingPlace>();
+        };
+        using Kind = ObserverInput::Kind;
+        sitting.panel.does = doing({{100, mouse_at(Kind::pointer_down, 0, 0)},
+                                    {120, mouse_at(Kind::pointer_moved, 30, 10)},
+                                    {140, mouse_at(Kind::pointer_up, 30, 10)},
+                                    {300, key_at("space")}});
+        CHECK(sitting.run().completed_trials == 3);
+        int gauges = 0;
+        for (const std::vector<AnswerOffer>& offers : sitting.panel.offered)
+            for (const AnswerOffer& offer : offers)
+                if (offer.attitude) {
+                    ++gauges;
+                    REQUIRE(offer.true_attitude);
+                    CHECK(offer.true_attitude->slant.value == Approx(30.0));
+                }
+        CHECK(gauges >= 3);
+    }
+}

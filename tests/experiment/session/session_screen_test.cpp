@@ -419,3 +419,17 @@ TEST_CASE("the noise of a mask is the step's own in each trial, and covers what 
     step.places.clear();
     CHECK(noise(1, 2, 3).kind == Screen::Kind::blank);
 }
+
+TEST_CASE("a screen for speaking is there where an answer is spoken", "[unit]") {
+    const auto speaks = [](const std::string& answers) {
+        Protocol protocol = short_protocol("[[task]]\nid = \"t\"\nquestion = \"Which?\"\n" + answers +
+                                           "[[block]]\nid = \"b\"\ntasks = \"t\"\n");
+        protocol.tasks.erase(protocol.tasks.begin()); // the other one speaks
+        const auto all = screens::all_of(protocol);
+        return std::ranges::any_of(all, [](const auto& each) { return each.first == "response"; });
+    };
+    CHECK(speaks(""));
+    CHECK(speaks("[[task.answer]]\nid = \"s\"\nkind = \"spoken\"\n"));
+    CHECK_FALSE(speaks(
+        "[[task.answer]]\nid = \"c\"\nkind = \"choice\"\nchoices = [\"x\", \"y\"]\nkeys = [\"f\", \"j\"]\n"));
+}

@@ -227,6 +227,8 @@ tasks = "t"
     const auto& texts = sitting.presenter.texts;
     CHECK(std::count(texts.begin(), texts.end(), "Thanks") == 2);
     CHECK(std::count(texts.begin(), texts.end(), "Ready?") == 2);
+    CHECK(sitting.presenter.targets.size() == 2);
+    CHECK(std::ranges::count(sitting.presenter.screens, Screen::Kind::noise, &Screen::kind) == 2);
 }
 
 TEST_CASE("an answer that does not come in time is missed, and the step that follows says so", "[unit]") {

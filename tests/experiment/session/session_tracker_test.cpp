@@ -181,3 +181,80 @@ TEST_CASE("a tracker is told of trials, onsets, frames and results at the times 
     for (const std::string& text : texts)
         CHECK(text.size() <= longest_mark);
 }
+
+TEST_CASE("what a tracker shows while it is set up is framed for the experimenter, and lasts as it says",
+          "[unit]") {
+    Sitting sitting(short_protocol(""));
+    sitting.tracker.sets_up = [&](SetupScreen& screen) {
+        const SessionTime before = sitting.clock.now();
+        screen.show_text("No eye yet.");
+        ValidationResult result;
+        result.targets.push_back({Eye::left, {10.0, 20.0}, ScreenPoint{11.0, 20.0}, {0.1}, {}, {}});
+        screen.show_result(result, "Accept?");
+        const SessionTime lit = screen.show_target({100.0, 200.0}, Degrees{0.8});
+        CHECK(lit == sitting.clock.now());
+        CHECK(screen.clear() > lit);
+        screen.beep(Beep::answered);
+        const SessionTime begun = sitting.clock.now();
+        screen.wait(std::chrono::milliseconds(250));
+        CHECK(sitting.clock.now() - begun == SessionDuration(std::chrono::milliseconds(250)));
+        CHECK(screen.geometry().screen_px == screen_geometry_of(sitting.protocol).screen_px);
+        CHECK(sitting.clock.now() > before);
+    };
+    CHECK(sitting.run().completed_trials == 2);
+    const std::string& frame = sitting.protocol.words.experimenter;
+    int texts = 0, results = 0;
+    for (const Screen& screen : sitting.presenter.screens) {
+        if (screen.text == "No eye yet.") {
+            ++texts;
+            CHECK(screen.kind == Screen::Kind::text);
+            CHECK(screen.frame == frame);
+        }
+        if (screen.text == "Accept?") {
+            ++results;
+            CHECK(screen.kind == Screen::Kind::validation);
+            CHECK(screen.frame == frame);
+            CHECK(screen.validated.size() == 1);
+        }
+    }
+    CHECK(texts == 1);
+    CHECK(results == 1);
+    REQUIRE_FALSE(sitting.presenter.targets.empty());
+    REQUIRE(sitting.presenter.targets[0]);
+    CHECK(sitting.presenter.targets[0]->x_px == 100.0);
+    CHECK(sitting.beeps == std::vector<Beep>{Beep::answered});
+    // Whoever waits for a display that has gone waits no longer.
+    Sitting gone(short_protocol(""));
+    bool is_gone = false;
+    gone.presenter.is_closed = [&] { return is_gone; };
+    gone.tracker.sets_up = [&](SetupScreen& screen) {
+        is_gone = true;
+        const SessionTime begun = gone.clock.now();
+        screen.wait(std::chrono::seconds(5));
+        CHECK(gone.clock.now() - begun < SessionDuration(std::chrono::milliseconds(20)));
+    };
+    CHECK(gone.run().aborted);
+}
+
+TEST_CASE("a calibration of the program's own is shown to the operator, however good it is", "[unit]") {
+    const Protocol protocol = short_protocol("[calibration]\nmean_limit_deg = 0.5\nmax_limit_deg = 1\n");
+    for (const auto& [outcome, is_good] :
+         {std::pair{validated(0.4, 0.9), true}, {validated(0.6, 0.9), false}}) {
+        Sitting sitting(protocol);
+        sitting.tracker.calibrates = false;
+        sitting.tracker.set_ups = {outcome, outcome};
+        decide(sitting, {Pressed::no, Pressed::yes});
+        CHECK(sitting.run().completed_trials == 2);
+        CHECK(sitting.tracker.calibrations == 2);
+        const auto asked = sitting.log.details_of("operator asked");
+        REQUIRE(asked.size() == 2);
+        for (const std::string& question : asked)
+            CHECK_THAT(question, Catch::StartsWith(is_good ? protocol.words.validation
+                                                           : protocol.words.validation_poor));
+        REQUIRE(sitting.log.calibrations.size() == 1);
+        CHECK(sitting.log.calibrations[0].is_within_limits == is_good);
+        CHECK(sitting.log.count("operator") == (is_good ? 0 : 1));
+        CHECK(sitting.log.details_of("validation").front() ==
+              fmt::format("mean error {:.3f} deg, largest 0.900 deg", is_good ? 0.4 : 0.6));
+    }
+}
