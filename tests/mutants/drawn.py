@@ -180,7 +180,7 @@ def reach(program, spec, folder, environment, drawn, longest):
     """What each sound test takes and reaches. Kept beside the program: of the same changes, only tests whose files are others
     now are run again; and of any changes, none that took longer than `longest` before."""
     table, kept_file, times_file = (folder / f"{program.name}.{word}" for word in ("tests", "reached", "seconds"))
-    digest_of = lambda file: hashlib.sha256(pathlib.Path(file).read_bytes()).hexdigest() if pathlib.Path(file).exists() else ""
+    digest_of = lambda file: hashlib.sha256(pathlib.Path(file).read_bytes()).hexdigest() if pathlib.Path(file).is_file() else ""
     kept = json.loads(kept_file.read_text()) if kept_file.exists() else {}
     of_drawn = hashlib.sha256(repr([(number, change.key(), change.line) for number, change in sorted(drawn.items())]).encode()).hexdigest()
     if kept.get("drawn") != of_drawn:
