@@ -18,7 +18,9 @@ import places
 here = pathlib.Path(__file__).resolve().parent
 least_noticed = 0.9
 # Test programs that can reach a room, those that say most in the least time first.
-programs = ["experiment_tests", "devices_tests", "presentation_tests"]
+programs = ["experiment_tests", "devices_tests", "umockdev_tests", "presentation_tests"]
+# What a program is started by: devices behind the kernel's own interfaces are there for it alone.
+started_by = {"umockdev_tests": ["umockdev-wrapper"]}
 
 
 class Test:
@@ -126,6 +128,10 @@ def written_if_new(path, text):
         path.write_bytes(text)
 
 
+def command_of(program):
+    return started_by.get(program.name, []) + [str(program)]
+
+
 def link_command(build, program):
     rows = subprocess.run(["ninja", "-C", str(build), "-t", "commands", program], capture_output=True, text=True, check=True)
     row = next(row for row in reversed(rows.stdout.splitlines()) if re.search(rf" -o (\S+/)?{program} ", row))
@@ -186,7 +192,7 @@ def reach(program, spec, folder, environment, drawn, longest):
     if kept.get("drawn") != of_drawn:
         kept = {"drawn": of_drawn, "tests": {}}
     times = json.loads(times_file.read_text()) if times_file.exists() else {}
-    listed = subprocess.run([str(program), "--list-test-names-only", *spec], cwd=folder, capture_output=True, text=True).stdout
+    listed = subprocess.run([*command_of(program), "--list-test-names-only", *spec], cwd=folder, capture_output=True, text=True).stdout
     names = [name.strip() for name in listed.splitlines() if name.strip()]
     now = {}
     sound = lambda row: now.setdefault(row["file"], digest_of(row["file"])) == row["digest"]
@@ -195,7 +201,7 @@ def reach(program, spec, folder, environment, drawn, longest):
     table.unlink(missing_ok=True)
     if asked:
         (folder / "names").write_text(names_for_catch(asked))
-        ran = subprocess.run([str(program), "-f", str(folder / "names")], cwd=folder, capture_output=True,
+        ran = subprocess.run([*command_of(program), "-f", str(folder / "names")], cwd=folder, capture_output=True,
                              env=environment | {"OVERT_MUTANTS_TESTS": str(table), "OVERT_MUTANTS_REACHED": str(folder / "reached")})
         if ran.returncode < 0:
             print(f"{program.name} ended by a signal without a change", flush=True)
@@ -266,7 +272,7 @@ def judge(number, change, tests, folder, environment):
     for batch in batches(reaching):
         names.write_text(names_for_catch([test.name for test in batch]))
         try:
-            ran = subprocess.run([str(batch[0].program), "--abort", "-f", str(names)], cwd=folder, capture_output=True,
+            ran = subprocess.run([*command_of(batch[0].program), "--abort", "-f", str(names)], cwd=folder, capture_output=True,
                                  text=True, errors="replace", timeout=10 + 8 * sum(test.seconds for test in batch),
                                  env=environment | {"OVERT_MUTANT": str(number)})
         except subprocess.TimeoutExpired:
@@ -344,6 +350,8 @@ def main(root, options):
                             str(switch)], check=True)
         tests = []
         for program in programs + (["app_tests"] if options.sessions else []):
+            if program in started_by and not (build / "tests" / program).exists():
+                continue
             made = (linked_sessions(build, folder, libraries, switches) if program == "app_tests"
                     else linked(build, folder, program, libraries, switches))
             if made:
