@@ -195,3 +195,56 @@ TEST_CASE("HID devices are named by vendor and product in hexadecimal", "[unit]"
     CHECK_FALSE(hid_numbers("1209:0e7e "));
     CHECK_FALSE(hid_numbers(""));
 }
+
+TEST_CASE("places in the page of pointers, times in other units and eyes by themselves are read by their "
+          "descriptor",
+          "[unit]") {
+    DescriptorText text;
+    text.page(0x12).open(0x01, 1).open(0x10, 2).id(0x20);
+    text.usage(0x20).logical(0, 2'147'483'647).size(32, 1).unit(0x1001, -3).input(0x02); // milliseconds
+    text.unit(0x11, -2).logical(-10'000, 10'000).item(0x74, 16); // a tenth of a millimetre
+    text.open(0x24, 0).page(0x01).usage(0x30).usage(0x31).item(0x94, 2).input(0x02).close();
+    text.page(0x12)
+        .open(0x26, 0)
+        .page(0x01)
+        .usage(0x30)
+        .usage(0x31)
+        .usage(0x32)
+        .item(0x94, 3)
+        .input(0x02)
+        .close();
+    text.close().close();
+    const HidDescriptor descriptor = parse_report_descriptor(text.bytes);
+    std::string why;
+    const auto layout = HidGazeLayout::find(descriptor, why);
+    INFO(why);
+    REQUIRE(layout);
+    const auto report = [](int id, std::uint32_t ms, std::array<int, 5> tenths) {
+        std::vector<std::byte> bytes{static_cast<std::byte>(id)};
+        for (int i = 0; i < 4; ++i)
+            bytes.push_back(static_cast<std::byte>((ms >> (8 * i)) & 0xFF));
+        for (const int value : tenths)
+            for (int i = 0; i < 2; ++i)
+                bytes.push_back(static_cast<std::byte>((static_cast<unsigned>(value) >> (8 * i)) & 0xFF));
+        return bytes;
+    };
+    const auto told = layout->read(report(0x20, 123'456, {100, -250, 1, 2, 6500}));
+    REQUIRE(told);
+    CHECK(told->at == tracker_time(123'456'000));
+    REQUIRE(told->gaze_mm);
+    CHECK(told->gaze_mm->x == Approx(10.0));
+    CHECK(told->gaze_mm->y == Approx(-25.0));
+    CHECK_FALSE(told->left_mm);
+    REQUIRE(told->right_mm);
+    CHECK(told->right_mm->x == Approx(0.1f));
+    CHECK(told->right_mm->y == Approx(0.2f));
+    CHECK(told->right_mm->z == Approx(650.0f));
+    CHECK_FALSE(layout->read(report(0x21, 1, {1, 1, 1, 1, 1})));
+    CHECK_FALSE(layout->read({}));
+    // Beyond its range a place is not known, and the rest is told.
+    const auto off = layout->read(report(0x20, 1, {10'001, 5, 1, 2, 3}));
+    REQUIRE(off);
+    CHECK_FALSE(off->gaze_mm);
+    CHECK(off->right_mm);
+    CHECK(off->at == tracker_time(1'000));
+}

@@ -4,8 +4,13 @@
 #include <fmt/format.h>
 
 #include "devices/link/text_line.h"
+#include "devices/opengaze/opengaze_clock.h"
+#include "devices/opengaze/opengaze_marks.h"
+#include "devices/opengaze/opengaze_samples.h"
+#include "tests/support/kept_items.h"
 
 using namespace overt;
+using namespace overt::test;
 using Kind = OpenGazeMessage::Kind;
 
 namespace {
@@ -122,4 +127,205 @@ TEST_CASE("a stream of Open Gaze gives the same records however it is cut into p
     CHECK(whole > 0.0);
     CHECK(sum_of([] { return 1u; }) == whole);
     CHECK(sum_of([] { return 7u; }) == whole);
+}
+
+namespace {
+
+OpenGazeRecord record_of(std::int64_t counter, double time_s) {
+    OpenGazeRecord record;
+    record.counter = counter;
+    record.time_s = time_s;
+    record.left.gaze = glm::dvec2(0.25, 0.5);
+    record.left.pupil_mm = 3.0;
+    record.left.eye_mm = glm::vec3(-30.0f, 1.0f, 600.0f);
+    record.right.gaze = glm::dvec2(0.75, 0.5);
+    record.right.pupil_mm = 4.0;
+    record.best = glm::dvec2(0.5, 0.5);
+    return record;
+}
+
+} // namespace
+
+TEST_CASE("records become samples of the eyes that are wished for, in px and mm, each at its time",
+          "[unit]") {
+    TrackerWish wish;
+    wish.eye = Eye::right;
+    for (const bool both : {false, true}) {
+        wish.both_eyes = both;
+        OpenGazeSamples samples(wish, TrackedPoint::eyes, std::chrono::milliseconds(20));
+        OpenGazeClock clock;
+        KeptItems items;
+        samples.begin();
+        samples.take(record_of(1, 10.0), SessionTime(std::chrono::seconds(1)), clock, items);
+        const auto found = items.all<GazeSample>();
+        REQUIRE(found.size() == (both ? 2 : 1));
+        CHECK(found.back().eye == Eye::right);
+        CHECK(found.back().gaze->x_px == Approx(0.75 * wish.screen.screen_px.x));
+        CHECK(found.back().gaze->y_px == Approx(0.5 * wish.screen.screen_px.y));
+        CHECK(found.back().pupil_area == 4.0f);
+        CHECK(found.back().sampled_at == samples.last_time());
+        const auto details = items.all<SampleDetail>();
+        REQUIRE(details.size() == (both ? 1 : 0)); // where an eye is is known of the left one
+        if (both) {
+            CHECK(found[0].eye == Eye::left);
+            CHECK(found[0].pupil_area == 3.0f);
+            CHECK(details[0].eye == Eye::left);
+            CHECK(details[0].sampled_at == samples.last_time());
+            CHECK(details[0].eye_mm == glm::vec3(-30.0f, 1.0f, 600.0f));
+        }
+        const auto pairs = items.all<ClockPair>();
+        REQUIRE(pairs.size() == 1);
+        CHECK(pairs[0].after == SessionTime(std::chrono::seconds(1)));
+        CHECK(pairs[0].before == SessionTime(std::chrono::milliseconds(980)));
+        CHECK(pairs[0].other == samples.last_time());
+        CHECK(samples.last_arrival() == SessionTime(std::chrono::seconds(1)));
+    }
+    wish.both_eyes = false;
+    OpenGazeSamples best(wish, TrackedPoint::best, std::chrono::milliseconds(20));
+    OpenGazeClock clock;
+    KeptItems items;
+    best.begin();
+    best.take(record_of(1, 10.0), SessionTime(std::chrono::seconds(1)), clock, items);
+    CHECK(items.all<GazeSample>().at(0).gaze->x_px == Approx(0.5 * wish.screen.screen_px.x));
+    CHECK(items.all<GazeSample>().at(0).pupil_area == 4.0f);
+}
+
+TEST_CASE("a gap is told with how many records it lacks, those told of as noise not twice", "[unit]") {
+    TrackerWish wish;
+    OpenGazeSamples samples(wish, TrackedPoint::eyes, std::chrono::milliseconds(20));
+    OpenGazeClock clock;
+    KeptItems items;
+    samples.begin();
+    double time_s = 10.0;
+    const auto take = [&](std::int64_t counter) {
+        time_s += 0.01;
+        samples.take(record_of(counter, time_s),
+                     SessionTime(std::chrono::seconds(1)) + from_seconds(time_s - 10.0), clock, items);
+    };
+    take(5);
+    take(6);
+    CHECK(items.all<TrackerGap>().empty());
+    const TrackerTime last = samples.last_time();
+    take(10); // 7 to 9
+    REQUIRE(items.all<TrackerGap>().size() == 1);
+    CHECK(items.all<TrackerGap>()[0].reason == TrackerGap::Reason::overflow);
+    CHECK(items.all<TrackerGap>()[0].lost_samples == 3);
+    CHECK(items.all<TrackerGap>()[0].after == last);
+    samples.take_noise(items);
+    take(12); // 11 came as noise
+    auto gaps = items.all<TrackerGap>();
+    REQUIRE(gaps.size() == 2);
+    CHECK(gaps[1].reason == TrackerGap::Reason::unreadable);
+    CHECK(gaps[1].lost_samples == 1);
+    samples.take_noise(items);
+    take(16); // of 13 to 15 one came as noise
+    gaps = items.all<TrackerGap>();
+    REQUIRE(gaps.size() == 4);
+    CHECK(gaps[3].lost_samples == 2);
+    // A counter that begins anew lacks nothing, and neither does a new recording.
+    take(3);
+    samples.begin();
+    take(50);
+    CHECK(items.all<TrackerGap>().size() == 4);
+}
+
+TEST_CASE("about once a second a reading of both clocks is told, that of the record which came soonest",
+          "[unit]") {
+    TrackerWish wish;
+    OpenGazeSamples samples(wish, TrackedPoint::eyes, std::chrono::milliseconds(20));
+    OpenGazeClock clock;
+    KeptItems items;
+    samples.begin();
+    for (int i = 0; i <= 300; ++i) {
+        // Each a hundredth of a second after the other; most come 15 ms late, one in each second 4 ms.
+        const double time_s = 0.01 * i;
+        const double late_s = i % 100 == 40 ? 0.004 : 0.015;
+        samples.take(record_of(i, 10.0 + time_s), SessionTime(from_seconds(1.0 + time_s + late_s)), clock,
+                     items);
+    }
+    const auto pairs = items.all<ClockPair>();
+    REQUIRE(pairs.size() == 4);
+    for (std::size_t k = 1; k < 4; ++k)
+        CHECK(to_seconds(pairs[k].after - SessionTime()) ==
+              Approx(1.0 + 0.4 + (static_cast<double>(k) - 1.0) + 0.004));
+    for (const ClockPair& pair : pairs)
+        CHECK(pair.after - pair.before == SessionDuration(std::chrono::milliseconds(20)));
+}
+
+TEST_CASE(
+    "marks wait until a record bears them, or has had the time to, and frames are the first to be left out",
+    "[unit]") {
+    OpenGazeMarks marks;
+    marks.begin(std::chrono::milliseconds(10));
+    const auto at = [](int ms) { return SessionTime(std::chrono::milliseconds(1000 + ms)); };
+    CHECK(marks.add("TRIALID 1", at(0)) == "TRIALID 1");
+    CHECK(marks.add("SYNCTIME", at(5)) == "TRIALID 1 | SYNCTIME");
+    marks.borne("TRIALID 1"); // not all of it
+    CHECK(marks.add("FRAME 0", at(10)) == "TRIALID 1 | SYNCTIME | FRAME 0");
+    marks.borne("TRIALID 1 | SYNCTIME | FRAME 0");
+    CHECK(marks.add("FRAME 1", at(12)) == "FRAME 1");
+    CHECK(marks.add("FRAME 2", at(27)) == "FRAME 1 | FRAME 2"); // one and a half records later
+    CHECK(marks.add("FRAME 3", at(43)) == "FRAME 3");           // more: it was borne, whoever was told
+    CHECK(marks.frames_left_out() == 0);
+    // At most 240 bytes: frames go first, the oldest of them, then variables, then what came first.
+    OpenGazeMarks full;
+    full.begin(std::chrono::seconds(1));
+    const std::string id = "TRIALID 1", variable = "!V TRIAL_VAR a " + std::string(80, 'x');
+    full.add(id, at(0));
+    full.add("FRAME 7", at(0));
+    full.add(variable, at(0));
+    full.add("FRAME 8", at(0));
+    std::string said = full.add(std::string(110, 'y'), at(0));
+    CHECK(said == id + " | FRAME 7 | " + variable + " | FRAME 8 | " + std::string(110, 'y'));
+    CHECK(said.size() <= OpenGazeMarks::longest);
+    said = full.add("z", at(0));
+    CHECK(said.size() <= OpenGazeMarks::longest);
+    said = full.add(std::string(10, 'w'), at(0));
+    CHECK(said.find("FRAME") == std::string::npos);
+    CHECK(said.find(variable) != std::string::npos);
+    CHECK(full.frames_left_out() == 2);
+    CHECK(full.others_left_out() == 0);
+    said = full.add(std::string(30, 'v'), at(0));
+    CHECK(said == id + " | " + std::string(110, 'y') + " | z | " + std::string(10, 'w') + " | " +
+                      std::string(30, 'v'));
+    CHECK(full.others_left_out() == 1);
+    said = full.add(std::string(100, 'u'), at(0));
+    CHECK(said.find(id) == std::string::npos);
+    CHECK(full.others_left_out() == 3);
+}
+
+TEST_CASE("a server's time that goes back goes on in session time, and ticks count where they are proven",
+          "[unit]") {
+    OpenGazeClock clock;
+    OpenGazeRecord record;
+    const auto arrived = [](double s) { return SessionTime(from_seconds(s)); };
+    CHECK_FALSE(clock.time_of(record, arrived(1.0)));
+    record.time_s = 10.0;
+    CHECK(clock.time_of(record, arrived(1.0)) == tracker_time(10'000'000));
+    record.time_s = 10.5;
+    CHECK(clock.time_of(record, arrived(1.5)) == tracker_time(10'500'000));
+    record.time_s = 0.2; // it was calibrated
+    CHECK(clock.time_of(record, arrived(2.25)) == tracker_time(11'250'000));
+    record.time_s = 0.7;
+    CHECK(clock.time_of(record, arrived(2.75)) == tracker_time(11'750'000));
+    OpenGazeRecord earlier, later;
+    earlier.time_s = 1.0;
+    earlier.ticks = 5'000;
+    later.time_s = 3.0;
+    const auto proven = [&](std::int64_t ticks, std::optional<double> told = 1000.0) {
+        later.ticks = ticks;
+        return proven_tick_hz(told, earlier, later);
+    };
+    CHECK(proven(7'000) == 1000.0);
+    CHECK(proven(7'099) == 1000.0);
+    CHECK(proven(6'901) == 1000.0);
+    CHECK_FALSE(proven(7'101));
+    CHECK_FALSE(proven(6'899));
+    CHECK_FALSE(proven(7'000, std::nullopt));
+    CHECK_FALSE(proven(7'000, 0.0));
+    CHECK_FALSE(proven(7'000, -1000.0));
+    later.time_s = 1.1;
+    CHECK(proven(5'100) == 1000.0);
+    later.time_s = 1.09; // too short to say
+    CHECK_FALSE(proven(5'090));
 }
