@@ -52,12 +52,14 @@ void add_screens(std::vector<DoctorFinding>& lines) {
                              finding});
             const bool changes = facts.gamma_ramp.server_gamma != ServerGamma{} ||
                                  (!facts.gamma_ramp.red.empty() && !is_identity(facts.gamma_ramp));
-            lines.push_back({"  gamma table", describe(facts.gamma_ramp),
-                             changes
-                                 ? fmt::format("xrandr --output {} --gamma 1:1:1, and switch colour profiles "
-                                               "and the night light off",
-                                               monitor.name)
-                                 : ""});
+            lines.push_back(
+                {"  gamma table", describe(facts.gamma_ramp),
+                 changes
+                     ? fmt::format(
+                           "xrandr --output {} --gamma 1:1:1, xgamma -gamma 1, and switch colour profiles "
+                           "and the night light off",
+                           monitor.name)
+                     : ""});
             for (const SignalSetting& setting : facts.signal) {
                 const SignalVerdict verdict =
                     judge_signal_setting(setting, OutputMode::color_plus_plus, monitor.name);

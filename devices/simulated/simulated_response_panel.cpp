@@ -86,7 +86,10 @@ void SimulatedResponsePanel::entered(SessionPhase phase, int trial) noexcept {
     if (phase == SessionPhase::trial)
         turns_.clear();
     pressed_on_.entered(phase, trial);
-    if (phase == SessionPhase::pause && !resumes_at_)
+    // A pause that has ended by itself, since the keyboard is back, needs no key.
+    if (phase != SessionPhase::pause)
+        resumes_at_.reset();
+    else if (!resumes_at_)
         resumes_at_ = clock_->now() + operators_pause;
     for (Operator& one : operators_) {
         const ScriptedOperatorKey& scripted = one.scripted;

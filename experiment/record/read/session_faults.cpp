@@ -124,21 +124,27 @@ std::vector<std::string> summary_of(const std::vector<SessionFault>& faults) {
     for (auto begin = faults.begin(); begin != faults.end();) {
         const auto end = std::find_if(begin, faults.end(),
                                       [&](const SessionFault& fault) { return fault.side != begin->side; });
-        // Of each kind, the trials once each.
-        std::vector<std::pair<std::string, std::vector<std::string>>> kinds;
+        // Of each kind, the trials once each, and what was said of it first.
+        struct Kind {
+            std::string what, said;
+            std::vector<std::string> places;
+        };
+        std::vector<Kind> kinds;
         for (auto fault = begin; fault != end; ++fault) {
-            auto kind = std::ranges::find(kinds, fault->what, &decltype(kinds)::value_type::first);
+            auto kind = std::ranges::find(kinds, fault->what, &Kind::what);
             if (kind == kinds.end())
-                kind = kinds.insert(kinds.end(), {fault->what, {}});
+                kind = kinds.insert(kinds.end(), {fault->what, {}, {}});
+            if (kind->said.empty())
+                kind->said = fault->detail;
             std::string place =
                 fault->trial < 0 ? "between trials" : fmt::format("trial {}", fault->trial + 1);
-            if (std::ranges::find(kind->second, place) == kind->second.end())
-                kind->second.push_back(std::move(place));
+            if (std::ranges::find(kind->places, place) == kind->places.end())
+                kind->places.push_back(std::move(place));
         }
         std::string line = fmt::format("{}: ", name_of(begin->side));
-        for (const auto& [what, places] : kinds)
-            line += fmt::format("{}{} ({})", what == kinds.front().first ? "" : "; ", what,
-                                fmt::join(places, ", "));
+        for (const Kind& kind : kinds)
+            line += fmt::format("{}{} ({}){}{}", kind.what == kinds.front().what ? "" : "; ", kind.what,
+                                fmt::join(kind.places, ", "), kind.said.empty() ? "" : ": ", kind.said);
         lines.push_back(std::move(line));
         begin = end;
     }

@@ -38,7 +38,7 @@ struct SimulatedSides {
 SimulatedSides simulated_sides(std::string_view faults);
 SimulatedSides simulated_sides(const SessionRecord& record);
 
-/// A line for each side: what went wrong, and in which trials.
+/// A line for each side: what went wrong, in which trials, and what was said of it first.
 std::vector<std::string> summary_of(const std::vector<SessionFault>& faults);
 
 } // namespace overt

@@ -45,6 +45,22 @@ TEST_CASE("a text is read for a while and answered with a key alone", "[unit]") 
     CHECK(press->pressed_at >= SessionTime(800ms));
 }
 
+TEST_CASE("a simulated operator ends a pause, and not one that has ended by itself", "[unit]") {
+    Sitting sitting(24);
+    SimulatedResponsePanel panel(sitting.clock, sitting.observer);
+    panel.entered(SessionPhase::pause, 0);
+    sitting.clock.wait_until(SessionTime(6s));
+    const std::optional<ResponsePress> press = panel.poll();
+    REQUIRE(press.has_value());
+    CHECK(press->key == ResponsePress::Key::pause);
+
+    panel.entered(SessionPhase::task_screen, 0);
+    panel.entered(SessionPhase::pause, 0);
+    panel.entered(SessionPhase::task_screen, 0);
+    sitting.clock.wait_until(SessionTime(20s));
+    CHECK_FALSE(panel.poll().has_value());
+}
+
 TEST_CASE("answers differ between trials and repeat with the seed", "[unit]") {
     Sitting one(23), same(23);
     std::set<std::string> texts;

@@ -31,9 +31,10 @@ TEST_CASE("faults are summed up by whose they are, of what kind and in which tri
                                            {FaultSide::sound, 1, 2, "answer recording", "clipped"},
                                            {FaultSide::machine, 1, -1, "machine slept", "1 s"}};
     CHECK(summary_of(faults) ==
-          std::vector<std::string>{"eye tracker: eye tracker lost (trial 1); gaze lost (trial 5, trial 7)",
-                                   "spoken answers: answer recording (trial 3)",
-                                   "machine: machine slept (between trials)"});
+          std::vector<std::string>{
+              "eye tracker: eye tracker lost (trial 1): unplugged; gaze lost (trial 5, trial 7)",
+              "spoken answers: answer recording (trial 3): clipped",
+              "machine: machine slept (between trials): 1 s"});
     CHECK(summary_of({}).empty());
 }
 
