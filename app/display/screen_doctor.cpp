@@ -130,7 +130,11 @@ ExaminedScreen measure_screen(const DoctorOptions& options) {
                           : facts.measured.mean_hz > 0.0 ? facts.measured.mean_hz
                                                          : assumed_hz;
     std::vector<ScreenFinding> findings = judge_timing(facts, own_hz, "its mode");
-    return {monitor, display.context().description(), std::move(facts), std::move(findings),
+    return {monitor,
+            display.context().description(),
+            std::move(facts),
+            facts_of(*display.window()),
+            std::move(findings),
             measure_inputs(display, options.seconds)};
 }
 

@@ -17,6 +17,7 @@ struct ExaminedScreen {
     MonitorInfo monitor;
     GlDescription graphics;
     TimingFacts facts;
+    ScreenFacts signal; ///< of a window in 8 bits
     std::vector<ScreenFinding> findings;
     std::optional<InputLatency> inputs; ///< nothing: keys cannot be sent to this window
 

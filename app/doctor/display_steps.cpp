@@ -78,7 +78,11 @@ RigStep measure_refreshes(const FirstDay& day) {
     const ExaminedScreen screen = measure_screen(day.doctor_options());
     const RefreshMeasurement& measured = screen.facts.measured;
     const double wished_hz = day.protocol.display.refresh_hz;
-    const std::vector<ScreenFinding> findings = judge_timing(screen.facts, wished_hz, "the protocol");
+    std::vector<ScreenFinding> findings = judge_timing(screen.facts, wished_hz, "the protocol");
+    // The depth is that of this step's own window; the latency is measured by the next step.
+    for (ScreenFinding& finding : judge_screen(screen.signal, day.protocol.display))
+        if (finding.what != "depth" && finding.what != "latency")
+            findings.push_back(std::move(finding));
     BenchFigures figures{at_most("distance of the refresh rate from the protocol's",
                                  std::abs(measured.mean_hz - wished_hz), "Hz", 0.005 * wished_hz),
                          at_most("missed refreshes", measured.missed, "", 0.01 * measured.flips),

@@ -17,7 +17,7 @@ constexpr auto steps_of_the_day = std::to_array<FirstDayStep>({
     {"screen", "The screen's refreshes, and how soon keys are seen",
      "Let the screen stand as in a session, with compositor, night light and other monitors off. It goes "
      "dark.",
-     1, "the machine, the screen", measure_refreshes},
+     1, "the machine, the screen, the output mode", measure_refreshes},
     {"light", "From the vertical blank to the light",
      "Fix the light sensor before the square that will appear in the corner (the protocol's, else the top "
      "left one), and darken the room.",

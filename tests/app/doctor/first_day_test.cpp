@@ -24,6 +24,8 @@
 #include "tests/support/hurried_observer.h"
 #include "tests/support/running_program.h"
 #include "tests/support/seen_screen.h"
+#include "tests/support/skip.h"
+#include "tests/support/two_monitors.h"
 #include "tests/support/virtual_screen.h"
 
 using namespace overt;
@@ -325,6 +327,23 @@ TEST_CASE("a first day is rehearsed, broken off, gone on with, and named in sess
     for (const auto& entry : std::filesystem::directory_iterator(state / "rig"))
         kept += entry.path().filename().string().starts_with("rig_") ? 1 : 0;
     CHECK(kept == 2);
+}
+
+TEST_CASE("what changes the signal on its way to the screen stands on the first day's page", "[session]") {
+    const auto desk = TwoMonitors::start();
+    if (!desk || std::system("xgamma -rgamma 1.5 >/dev/null 2>&1") != 0)
+        OVERT_SKIP("there is no Xorg with a dummy card here");
+    const SmallExperiment experiment;
+    const std::filesystem::path state = experiment.folder().path() / "state";
+    const ProgramRun day = experiment.overt({"doctor", experiment.protocol().string(), "--first-day",
+                                             "--step", "screen", "--monitor", "1", "--seconds", "0.5"},
+                                            {"OVERT_STATE=" + state.string()});
+    INFO(day.out << day.err);
+    CHECK(day.exit_code == 1);
+    const RigPage page = rig_page_from(text_of(rig_page_file(state / "rig")), "rig.json");
+    const RigStep& step = *std::ranges::find(page.steps, "screen", &RigStep::name);
+    CHECK(step.verdict == StepVerdict::failed);
+    CHECK_THAT(step.finding, Contains("gamma table: not the identity") && Contains("1.5 (red)"));
 }
 
 TEST_CASE("a step that is broken off stays open, and ends the day", "[session][waits]") {
