@@ -41,6 +41,11 @@ double number(const char* name, double otherwise) {
     const char* const told = std::getenv((std::string("STAND_IN_EYELINK_") + name).c_str());
     return told ? std::atof(told) : otherwise;
 }
+/// As the host was told, unless somebody has set another rate there.
+double sample_rate_hz() {
+    const auto told = variables.find("sample_rate");
+    return number("rate", told == variables.end() ? 1000.0 : std::atof(told->second.c_str()));
+}
 double local_us() {
     return std::chrono::duration<double, std::micro>(Clock::now().time_since_epoch()).count();
 }
@@ -358,7 +363,7 @@ i16 eyelink_eye_available() { return recording ? static_cast<i16>(number("eyes",
 i16 eyelink_get_next_data(void*) {
     if (!recording || number("stalled", 0) != 0)
         return 0;
-    const double rate = number("rate", 1000);
+    const double rate = sample_rate_hz();
     const auto due = static_cast<std::int64_t>((host_us() - begun_us) * 1e-6 * rate);
     if (given >= due)
         return 0;
@@ -432,7 +437,7 @@ i16 setup_graphic_hook_functions_V2(Hooks2* given_hooks) {
 }
 double eyelink_tracker_double_usec() { return host_us(); }
 i16 eyelink_mode_data(i16* rate, i16* mode, i16* file_filter, i16* link_filter) {
-    *rate = static_cast<i16>(number("rate", 1000));
+    *rate = static_cast<i16>(sample_rate_hz());
     *mode = *file_filter = *link_filter = 1;
     return 0;
 }
