@@ -151,7 +151,7 @@ TEST_CASE("a file of a session keeps the hash that it had first, and the session
     put(folder / "a.txt", "changed");
     put(folder / "0.txt", "late");
     put(session, "ended");
-    put(session.string() + "-wal", "rows");
+    put(session.string() + "-wal", "x");
     CHECK_FALSE(close_manifest(folder));
     CHECK_FALSE(read_manifest(folder).is_closed);
     put(session.string() + "-wal", "");

@@ -39,6 +39,11 @@ TEST_CASE("tables of an earlier format answer to today's names while they are re
     CHECK(database.execAndGet("SELECT object FROM counted_trial").getInt() == 1);
     CHECK(database.execAndGet("SELECT sculpture FROM main.trial WHERE trial = 0").getInt() == 1);
     CHECK(database.execAndGet("SELECT COUNT(*) FROM main.sqlite_schema").getInt() == 4);
+    // Those alone that have another name, or a column that has.
+    CHECK(
+        database
+            .execAndGet("SELECT group_concat(name) FROM (SELECT name FROM temp.sqlite_schema ORDER BY name)")
+            .getString() == "counted_trial,object,trial");
 }
 
 TEST_CASE("renaming in the file keeps rows and the order of columns", "[unit]") {

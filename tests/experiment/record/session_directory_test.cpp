@@ -108,3 +108,48 @@ TEST_CASE("what a killed program left of a session is no hindrance, and goes wit
     CHECK_FALSE(fs::exists(remnant));
     CHECK(fs::exists(of_another));
 }
+
+TEST_CASE("names are asked for wherever folders are looked for, and labels are as long as may be", "[unit]") {
+    const TemporaryFolder root;
+    for (const char* const name : {"../tiny", "", ".tiny", "a/b", "a b"}) {
+        CAPTURE(name);
+        CHECK_THROWS_AS(session_numbers({root.path(), name, "1"}), InputError);
+        CHECK_THROWS_AS(session_path({root.path(), name, "1"}, 1), InputError);
+        CHECK_THROWS_AS(check_session_place({root.path(), name, "1"}, {}), InputError);
+    }
+    for (const char* const name : {"tiny", "a.b", "a_b-c", "A9"})
+        CHECK(session_numbers({root.path(), name, "1"}).empty());
+    CHECK_NOTHROW(check_observer_label(std::string(40, 'a')));
+    CHECK_THROWS_WITH(check_observer_label(std::string(41, 'a')),
+                      Catch::Contains("41 characters are too many; 40"));
+    CHECK_THROWS_AS(check_observer_label(""), InputError);
+    CHECK_THROWS_AS(check_observer_label("a_b"), InputError);
+}
+
+TEST_CASE("whatever else lies beside sessions, each like-named observer of them is told", "[unit]") {
+    const TemporaryFolder root;
+    const fs::path folder = root.path() / "tiny";
+    for (const char* const name : {"sub-07_ses-01", "sub-7_ses-02", "sub-8_ses-01", "notes", "sub-007",
+                                   "x_ses-01", ".sub-0007_ses-01", "ssub-00007_ses-01"})
+        fs::create_directories(folder / name);
+    CHECK_THROWS_WITH(check_session_place({root.path(), "tiny", "0007"}, {}),
+                      Catch::Contains("has sessions of observer 07, 7, and") &&
+                          Catch::Contains("--observer 07"));
+    CHECK_NOTHROW(check_session_place({root.path(), "tiny", "7"}, {}));
+    CHECK_NOTHROW(check_session_place({root.path(), "tiny", "9"}, {}));
+    CHECK_NOTHROW(check_session_place({root.path(), "tiny", "0007", true}, {}));
+    CHECK_THROWS_WITH(check_session_place({root.path(), "tiny", "7"}, 2), Catch::Contains("exists already"));
+    CHECK_NOTHROW(check_session_place({root.path(), "tiny", "7"}, 1));
+    for (const char* const name : {"sub-7_ses-10", "sub-7_ses-3x", "sub-7_ses-"})
+        fs::create_directories(folder / name);
+    CHECK(session_numbers({root.path(), "tiny", "7"}) == std::vector<int>{2, 10});
+    CHECK(next_session_number({root.path(), "tiny", "7"}) == 11);
+    CHECK(next_session_number({root.path(), "tiny", "9"}) == 1);
+    CHECK_THROWS_WITH(SessionDirectory({root.path(), "tiny", "9"}, 0),
+                      Catch::Contains("numbers count from 1"));
+    CHECK_NOTHROW(SessionDirectory({root.path(), "tiny", "9"}, 1));
+    std::ofstream(root.path() / "file") << "x";
+    CHECK_THROWS_WITH(check_session_place({root.path() / "file", "tiny", "9"}, {}),
+                      Catch::Contains("it is no folder"));
+    CHECK_NOTHROW(check_session_place({root.path() / "not/there/yet", "tiny", "9"}, {}));
+}

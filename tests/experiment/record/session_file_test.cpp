@@ -230,3 +230,28 @@ TEST_CASE("tables of sessions whose stimuli were of fewer lists get a column for
     CHECK_THAT(columns("flip"), Contains(" step "));
     CHECK_THAT(columns("step"), Contains(" places "));
 }
+
+TEST_CASE("what lies where SQLite's own files may be is a file of the session's folder, or nothing is read",
+          "[unit]") {
+    for (const char* const name : {"-wal", "-shm", "-journal", ""}) {
+        CAPTURE(name);
+        const TemporaryFolder root, elsewhere;
+        const fs::path file = root.path() / session_file_name;
+        create_session_file(file, example_header());
+        CHECK_NOTHROW(open_session_file(file, SessionFileUse::read));
+        const fs::path target = elsewhere.path() / "a";
+        if (std::string(name).empty())
+            fs::rename(file, target);
+        else
+            std::ofstream(target) << "x";
+        fs::create_symlink(target, file.string() + name);
+        for (const SessionFileUse use :
+             {SessionFileUse::read, SessionFileUse::as_it_is, SessionFileUse::write})
+            CHECK_THROWS_WITH(open_session_file(file, use),
+                              Contains(session_file_name + std::string(name)) &&
+                                  Contains("Nothing outside of a session's folder"));
+    }
+    const TemporaryFolder root;
+    CHECK_THROWS_AS(open_session_file(root.path() / "none", SessionFileUse::read), InputError);
+    CHECK_THROWS_AS(open_session_file(root.path() / "none", SessionFileUse::write), RecordError);
+}
