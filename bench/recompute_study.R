@@ -6,8 +6,9 @@
 # ANALYSIS is a folder that `overt analyze` wrote. It needs the package jsonlite. Recomputed are the shares of
 # areas, differences between levels with their p, Holm's corrections, effect sizes, Bayes factors and tests of
 # equivalence, WSS, intervals that are not drawn of shares and WSS, measures of trials between levels (dwell, first arrival and others that trials tell), where the
-# first fixations go, and the effects of factors. Intervals that are drawn (bootstraps), distances along the surface and
-# metrics of maps are not.
+# first fixations go, shares by second, transitions between areas, the sums, means and peaks of maps (of an analysis with
+# --meshes), and the effects of factors. Intervals that are drawn (bootstraps), distances along the surface and what maps
+# of single observers have in common are not.
 # Ends with status 1 if a number is farther off than its table's rounding, or a p than chance allows.
 
 folder <- commandArgs(trailingOnly = TRUE)[1]
@@ -234,6 +235,119 @@ if (file.exists(file.path(folder, "first_fixations.csv"))) {
     mean(tapply(on_area(own, first$area[i]) * 1, own$observer, mean))
   }, 1)
   hold("first_fixations: at", ours, first$at, rounding)
+}
+
+# The share by duration of each stretch of time: what of each fixation lies within it.
+in_time <- function(f) f[order(same_trial(f), f$onset_s), ]
+if (file.exists(file.path(folder, "time_course.csv"))) {
+  course <- suppressWarnings(read_table("time_course"))
+  key <- setdiff(names(course)[seq_len(which(names(course) == "from_s") - 1)], "area")
+  ours <- t(vapply(seq_len(nrow(course)), function(i) {
+    row <- course[i, ]
+    f <- of_keys(fixations, row, key)
+    within <- pmax(0, pmin(f$onset_s + f$duration_s, row$to_s) - pmax(f$onset_s, row$from_s))
+    inside <- on_area(f, row$area) * within
+    shares <- tapply(inside, f$observer, sum) / tapply(within, f$observer, sum)
+    shares <- shares[is.finite(shares)]
+    c(mean(shares), length(shares), mean_interval(shares, TRUE))
+  }, numeric(4)))
+  hold("time_course: share", ours[, 1], course$share, rounding)
+  hold("time_course: observers", ours[, 2], course$observers, 0)
+  hold_interval("time_course: share", ours[, 3:4, drop = FALSE], course$share_low, course$share_high, 5e-6)
+}
+
+# From each counted fixation to the next of its trial, unless one between them was not on the surface.
+if (file.exists(file.path(folder, "area_transitions.csv"))) {
+  transitions <- suppressWarnings(read_table("area_transitions"))
+  every <- suppressWarnings(read_table("fixations"))
+  every <- in_time(every[same_trial(every) %in% same_trial(trials), ])
+  every <- every[every$counted == 1 | every$why == "not on the surface", ]
+  follows <- c(FALSE, same_trial(every)[-1] == same_trial(every)[-nrow(every)])
+  kept <- every$counted == 1
+  pairs_to <- which(follows & kept & c(FALSE, kept[-length(kept)]))
+  after <- every[pairs_to, ]
+  before <- every[pairs_to - 1, ]
+  columns <- intersect(by, names(transitions))
+  ours <- t(vapply(seq_len(nrow(transitions)), function(i) {
+    row <- transitions[i, ]
+    here <- rep(TRUE, nrow(after))
+    for (column in columns) if (row[[column]] != "all") here <- here & after[[column]] == row[[column]]
+    from <- on_area(before[here, ], row$from)
+    to <- on_area(after[here, ], row$to)
+    observer <- after$observer[here]
+    departures <- tapply(from, observer, sum)
+    arrivals <- tapply(from & to, observer, sum)
+    chance <- tapply(to, observer, mean)
+    known <- departures > 0
+    probability <- arrivals[known] / departures[known]
+    c(mean(probability), mean(chance[known]), mean(probability - chance[known]), sum(arrivals), sum(departures),
+      mean_interval(probability, TRUE))
+  }, numeric(7)))
+  for (i in 1:3) hold(paste0("area_transitions: ", c("probability", "chance", "over_chance")[i]), ours[, i],
+                      transitions[[c("probability", "chance", "over_chance")[i]]], rounding)
+  hold("area_transitions: transitions", ours[, 4], transitions$transitions, 0)
+  hold("area_transitions: departures", ours[, 5], transitions$departures, 0)
+  hold_interval("area_transitions: probability", ours[, 6:7, drop = FALSE], transitions$probability_low,
+                transitions$probability_high, 5e-6)
+}
+
+# What the trials of each observer come to in an area: a visit is a run of fixations on it that none elsewhere or beside
+# the object interrupts, and a trial without an arrival counts with its whole presentation.
+if (file.exists(file.path(folder, "areas.csv"))) {
+  every <- suppressWarnings(read_table("fixations"))
+  every <- in_time(every[same_trial(every) %in% same_trial(trials), ])
+  every <- every[every$counted == 1 | every$why == "not on the surface", ]
+  here <- same_trial(trials)
+  measures <- c("dwell_s", "visits", "visit_s", "reached", "first_arrival_s", "first_arrival_number")
+  of_trial <- lapply(unique(areas$area), function(area) {
+    inside <- on_area(every, area) & every$counted == 1
+    begins <- inside & !(c(FALSE, inside[-length(inside)]) & c(FALSE, same_trial(every)[-1] == same_trial(every)[-nrow(every)]))
+    by_trial <- function(v) {
+      sums <- as.vector(tapply(v, same_trial(every), sum)[here])
+      ifelse(is.na(sums), 0, sums)
+    }
+    number <- ave(every$counted, same_trial(every), FUN = cumsum)
+    first <- function(v) as.vector(tapply(v[inside], same_trial(every)[inside], min)[here])
+    arrival <- first(every$onset_s)
+    found <- cbind(by_trial(every$duration_s * inside), by_trial(begins * 1), NA, (!is.na(arrival)) * 1,
+                   ifelse(is.na(arrival), trials$presentation_s, arrival), first(number))
+    found[is.na(trials[[paste0("on_", area)]]), ] <- NA
+    found
+  })
+  names(of_trial) <- unique(areas$area)
+  ours <- t(vapply(seq_len(nrow(areas)), function(i) {
+    row <- areas[i, ]
+    taken <- rep(TRUE, nrow(trials))
+    for (column in intersect(by, names(areas))) if (row[[column]] != "all") taken <- taken & trials[[column]] == row[[column]]
+    values <- of_trial[[row$area]][taken, , drop = FALSE]
+    observer <- trials$observer[taken]
+    of_observers <- function(v) {
+      known <- !is.na(v)
+      mean(tapply(v[known], observer[known], mean))
+    }
+    known <- !is.na(values[, 1])
+    time <- tapply(values[known, 1], observer[known], sum)
+    number <- tapply(values[known, 2], observer[known], sum)
+    c(of_observers(values[, 1]), of_observers(values[, 2]), mean((time / number)[number > 0]),
+      of_observers(values[, 4]), of_observers(values[, 5]), of_observers(values[, 6]))
+  }, numeric(6)))
+  for (i in seq_along(measures)) hold(paste0("areas: ", measures[i]), ours[, i], areas[[measures[i]]], 2e-6)
+}
+
+# How many fixations a way has, and how long they are: of each trial, then of each observer.
+if (file.exists(file.path(folder, "scanpaths.csv"))) {
+  ways <- suppressWarnings(read_table("scanpaths"))
+  columns <- intersect(by, names(ways))
+  ours <- t(vapply(seq_len(nrow(ways)), function(i) {
+    own <- of_keys(trials, ways[i, ], columns)
+    f <- of_keys(fixations, ways[i, ], columns)
+    number <- vapply(split(own$fixations, own$observer), mean, 1)
+    of_trials <- tapply(f$duration_s, same_trial(f), mean)
+    lasting <- tapply(of_trials, sub("\r.*", "", names(of_trials)), mean)
+    c(mean(number), mean(lasting))
+  }, numeric(2)))
+  hold("scanpaths: fixations", ours[, 1], ways$fixations, 1e-5)
+  hold("scanpaths: fixation_s", ours[, 2], ways$fixation_s, 2e-6)
 }
 
 # Effects of factors: contrasts beside what trials have in common, flips of observers' signs.
