@@ -334,6 +334,55 @@ if (file.exists(file.path(folder, "areas.csv"))) {
   for (i in seq_along(measures)) hold(paste0("areas: ", measures[i]), ours[, i], areas[[measures[i]]], 2e-6)
 }
 
+# Maps: what they hold in all is what the fixations of a trial hold; mean and peak are those of the vertices of the mesh
+# that was written, each with a third of the area around it.
+read_map <- function(file) {
+  from <- file(file, "rb")
+  on.exit(close(from))
+  head <- character()
+  while (length(head) == 0 || tail(head, 1) != "end_header") head <- c(head, readLines(from, 1))
+  counted <- function(what) as.integer(sub(".* ", "", grep(paste("^element", what), head, value = TRUE)))
+  vertices <- matrix(readBin(from, "raw", counted("vertex") * 19), 19)
+  faces <- matrix(readBin(from, "raw", counted("face") * 13), 13)
+  number <- function(bytes) readBin(as.vector(vertices[bytes, ]), "numeric", ncol(vertices), size = 4, endian = "little")
+  corner <- function(k) 1 + readBin(as.vector(faces[2:5 + 4 * k, ]), "integer", ncol(faces), size = 4, endian = "little")
+  place <- cbind(number(1:4), number(5:8), number(9:12))
+  corners <- sapply(0:2, corner)
+  a <- place[corners[, 2], ] - place[corners[, 1], ]
+  b <- place[corners[, 3], ] - place[corners[, 1], ]
+  area <- sqrt((a[, 2] * b[, 3] - a[, 3] * b[, 2])^2 + (a[, 3] * b[, 1] - a[, 1] * b[, 3])^2 + (a[, 1] * b[, 2] - a[, 2] * b[, 1])^2) / 2
+  whole <- sum(sapply(1:3, function(k) sum(area / 3 * number(16:19)[corners[, k]])))
+  c(sum(area), whole, whole / sum(area), max(number(16:19)))
+}
+if (file.exists(file.path(folder, "maps.csv"))) {
+  maps <- read.csv(file.path(folder, "maps.csv"), na.strings = "n/a", check.names = FALSE)
+  maps <- maps[!is.na(maps$total), ]
+  columns <- intersect(by, names(maps))
+  ours <- t(vapply(seq_len(nrow(maps)), function(i) {
+    f <- of_keys(fixations, maps[i, ], columns)
+    f <- f[f$object == maps$on_object[i], ]
+    own <- of_keys(trials, maps[i, ], columns)
+    n <- sum(own$object == maps$on_object[i])
+    c(if (maps$weighting[i] == "duration") 1000 * sum(f$duration_s) / n else nrow(f) / n, nrow(f), length(unique(f$observer)))
+  }, numeric(3)))
+  hold("maps: total", ours[, 1] / maps$total, maps$total / maps$total, 1e-6)
+  hold("maps: fixations", ours[, 2], maps$fixations, 0)
+  meshes <- file.path(folder, "meshes", paste0("map_", maps$on_object, "_", vapply(seq_len(nrow(maps)), function(i) {
+    told <- setdiff(columns, "object")
+    told <- told[vapply(told, function(column) maps[[column]][i] != "all", TRUE)]
+    if (length(told)) paste(told, vapply(told, function(column) as.character(maps[[column]][i]), ""), sep = "_", collapse = "__") else "all"
+  }, ""), ".ply"))
+  with <- which(maps$weighting == "duration" & file.exists(meshes))
+  if (length(with)) {
+    ours <- t(vapply(meshes[with], read_map, numeric(4)))
+    for (i in 1:4) {
+      theirs <- maps[[c("area_mm2", "total", "mean", "peak")[i]]][with]
+      # Values and places are written in four bytes.
+      hold(paste0("meshes of maps: ", c("area_mm2", "total", "mean", "peak")[i]), ours[, i] / theirs, theirs / theirs, 1e-6)
+    }
+  }
+}
+
 # How many fixations a way has, and how long they are: of each trial, then of each observer.
 if (file.exists(file.path(folder, "scanpaths.csv"))) {
   ways <- suppressWarnings(read_table("scanpaths"))
