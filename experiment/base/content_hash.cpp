@@ -53,7 +53,9 @@ ContentHash hash_of_file(const std::filesystem::path& file) {
     if (!stream)
         throw InputError(fmt::format("{}: cannot be read", file.string()));
     ContentHasher hasher;
-    std::vector<char> buffer(1 << 20);
+    // Small enough to lie on the stack: a large buffer, zeroed and mapped anew for each of some thousand
+    // frames, takes longer than their hashing.
+    std::array<char, 1 << 16> buffer; // NOLINT(cppcoreguidelines-pro-type-member-init): read() fills it
     while (stream) {
         stream.read(buffer.data(), static_cast<std::streamsize>(buffer.size()));
         hasher.add_bytes(std::as_bytes(std::span(buffer.data(), static_cast<std::size_t>(stream.gcount()))));
