@@ -12,7 +12,7 @@ find_package(CLI11 REQUIRED)
 find_package(meshoptimizer REQUIRED)
 find_package(embree 3 REQUIRED)
 find_package(Eigen3 REQUIRED NO_MODULE) # sparse Cholesky; headers only, of which we use those under MPL 2
-pkg_check_modules(OSMESA REQUIRED IMPORTED_TARGET osmesa)
+pkg_check_modules(OSMESA REQUIRED osmesa) # its header: the library is loaded by the first context that needs it
 pkg_check_modules(EGL REQUIRED IMPORTED_TARGET egl)
 pkg_check_modules(OIIO REQUIRED IMPORTED_TARGET OpenImageIO)
 pkg_check_modules(EXR REQUIRED IMPORTED_TARGET OpenEXR) # the frames and maps that overt itself makes

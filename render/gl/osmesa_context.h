@@ -9,7 +9,8 @@ namespace overt {
 
 class OsMesaContext final : public GlContext {
   public:
-    /// Throws GraphicsError if OSMesa offers no core profile of 3.3 or later.
+    /// Loads OSMesa, unless an earlier context has. Throws GraphicsError if it is not there, or offers no core
+    /// profile of 3.3 or later.
     OsMesaContext();
     ~OsMesaContext() override;
     void make_current() override;
