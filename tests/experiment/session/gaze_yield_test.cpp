@@ -249,6 +249,23 @@ TEST_CASE("a recording's yield is judged by how long it lasted", "[unit]") {
     CHECK(feed.yield().share() == Approx(0.25).margin(0.002));
 }
 
+TEST_CASE("of a tracker of both eyes twice as many samples are expected", "[unit]") {
+    for (const bool both_eyes : {false, true}) {
+        ListedTracker tracker;
+        tracker.both_eyes = both_eyes;
+        TrackerFeed feed(tracker);
+        ItemsLog log;
+        feed.start_recording(SessionTime(std::chrono::seconds(10)));
+        for (int i = 0; i < 1000; ++i)
+            for (const Eye eye : {Eye::left, Eye::right})
+                if (both_eyes || eye == Eye::left)
+                    tracker.items.emplace_back(fed_sample(2 * i, eye));
+        feed.take_items(7, log);
+        feed.stop_recording(SessionTime(std::chrono::seconds(12)));
+        CHECK(feed.yield().share() == Approx(1.0).margin(0.002));
+    }
+}
+
 TEST_CASE("a feed whose tracker does not begin is lost, says why, and begins anew when asked", "[unit]") {
     ListedTracker tracker;
     TrackerFeed feed(tracker);

@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
+#include "experiment/base/random.h"
 #include "experiment/protocol/slot.h"
 
 using namespace overt;
@@ -480,6 +481,9 @@ TEST_CASE("a drawn pose in practice is another draw than that of the trial of th
         turning.begin_trial(protocol, trial, 3, false);
         practice.begin_trial(protocol, trial, 3, true);
         other.begin_trial(protocol, trial, 4, false);
+        RandomStream stream(3, "pose 0", static_cast<std::uint64_t>(index));
+        CHECK(turned_frame(turning) ==
+              static_cast<int>(stream.below(static_cast<std::uint32_t>(by.pose_count()))));
         alike += turned_frame(turning) == turned_frame(practice);
         seeds += turned_frame(turning) == turned_frame(other);
     }

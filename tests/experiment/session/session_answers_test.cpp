@@ -156,6 +156,8 @@ TEST_CASE("a window that the stimulus opened outlasts it", "[unit]") {
     CHECK(outcome.steps[2].kind == "answer");
     CHECK(outcome.steps[2].ended_by == StepEnd::answer);
     CHECK(has_said(sitting, "Wrong"));
+    // Its screen is drawn once: nothing on it changes before it is left.
+    CHECK(std::ranges::count(sitting.presenter.screens, Screen::Kind::answers, &Screen::kind) == 2);
 }
 
 TEST_CASE("a key that is held from before the stimulus on does not answer, and time is up", "[unit]") {
@@ -625,6 +627,22 @@ TEST_CASE("answers of earlier sittings count in a block's feedback, but for a bl
     using Kind = RecordedStep::Kind;
     const RecordedStep counted{
         .kind = Kind::trial, .trial = 0, .fate = AttemptFate::counted, .given = {wrong}};
+    // Of two blocks each has its own.
+    {
+        Sitting sitting(short_protocol(
+            text + "[[block]]\nid = \"c\"\ntasks = \"t\"\nfeedback = \"c: {correct} of {trials}\"\n"));
+        sitting.panel.does = pressing({{200, "f"}, {210, "f", ObserverInput::Kind::key_up}});
+        SessionHistory history;
+        for (int trial = 0; trial < 3; ++trial)
+            history.steps.push_back(
+                {.kind = Kind::trial, .trial = trial, .fate = AttemptFate::counted, .given = {wrong}});
+        history.steps.push_back({.kind = Kind::resumed, .policy = ResumePolicy::redo});
+        history.counted_trials = 3;
+        history.is_opened = true;
+        CHECK_FALSE(sitting.run(history).aborted);
+        CHECK(sitting.log.started == std::vector<int>{3});
+        CHECK(has_said(sitting, "c: 1 of 2"));
+    }
     CHECK(feedback_after({}, 0) == "2 of 2; 2");
     CHECK(feedback_after({counted, {.kind = Kind::resumed, .policy = ResumePolicy::redo}}, 1) == "1 of 2; 1");
     CHECK(feedback_after({counted, {.kind = Kind::resumed, .policy = ResumePolicy::restart_block}}, 0) ==
@@ -701,6 +719,7 @@ TEST_CASE("each answer is marked once, at its time, whether it is spoken or pres
         // The same texts as a tracker is told, but for its frames, which an output has by its flips.
         CHECK(std::ranges::count(sink.texts, std::string(presentation_end_mark)) == 2);
         CHECK(std::ranges::count(sink.texts, "TRIALID 1") == 1);
+        CHECK(std::ranges::count(sink.texts, "STEP fixation") == (text.empty() ? 0 : 2));
         CHECK(std::ranges::count(sink.texts, "TRIAL_RESULT 0") == 2);
     }
 }

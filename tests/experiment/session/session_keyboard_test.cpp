@@ -113,6 +113,7 @@ TEST_CASE("a keyboard that goes a second time is told of a second time", "[unit]
     CHECK(returns == 2);
     CHECK(std::ranges::count(sitting.presenter.texts, "Click here.") == 2);
     CHECK(sitting.panel.times_in(SessionPhase::pause) == 2);
+    CHECK(sitting.panel.times_in(SessionPhase::task_screen) == 4);
     // The question is shown again, and the trial is what it was.
     CHECK(std::ranges::count(sitting.presenter.texts, "Look.") == 4);
     CHECK(sitting.log.started == std::vector<int>{0, 1});

@@ -303,6 +303,8 @@ TEST_CASE("a drift check of the operator's says what it found, and the trial goe
         // The target stands for its time before anything is measured, in the trials and here.
         CHECK(sitting.presenter.targets.size() == 3);
         CHECK(std::ranges::count(sitting.presenter.texts, "Look.") == 3);
+        // A calibration in between leads back to the question.
+        CHECK(sitting.panel.times_in(SessionPhase::task_screen) == 1 + sitting.tracker.calibrations);
         std::vector<std::string> said;
         for (std::size_t i = 0; i < sitting.log.kinds.size(); ++i)
             if (sitting.log.kinds[i].starts_with("drift check") || sitting.log.kinds[i] == "operator")

@@ -100,7 +100,7 @@ TEST_CASE("the screens of a protocol come in the order of a session, each with i
     const Protocol protocol = short_protocol(R"([consent]
 text = "Agree?"
 accept_key = "j"
-decline_key = "n"
+decline_key = "z"
 [instructions]
 pages = ["One.", "Two."]
 [screens]
@@ -184,7 +184,7 @@ instructions = "Now b."
         CHECK(hints_of(screen) == hints);
     };
     const WordSettings& words = protocol.words;
-    says("consent", "Agree?", "[J|I agree][N|I do not agree]");
+    says("consent", "Agree?", "[J|I agree][Z|I do not agree]");
     says("instructions_1", "One.", "[space bar|go on]");
     says("instructions_2", "Two.", "[←|back][space bar|go on]");
     says("please_wait", words.please_wait, "");

@@ -138,6 +138,9 @@ TEST_CASE("a drift check fails beyond its limit, not at it, and where no eye was
         sitting.tracker.drift = Degrees{drift_deg};
         CHECK(sitting.run().completed_trials == 2);
         CHECK(sitting.log.count("drift check failed") == failures);
+        if (failures > 0)
+            CHECK(sitting.log.details_of("drift check failed").front() ==
+                  "1.501 deg is more than the limit of 1.5 deg");
         for (const TrialOutcome& outcome : sitting.log.outcomes)
             CHECK(outcome.drift->value == drift_deg);
     }
@@ -440,4 +443,54 @@ TEST_CASE("practice is noted with its number, its task and what it shows", "[uni
                              &std::pair<SessionTime, std::string>::second) == 1);
     CHECK(std::ranges::count(skipped.tracker.marks, std::string("TRIAL_RESULT 0"),
                              &std::pair<SessionTime, std::string>::second) == 1);
+}
+
+TEST_CASE("gaze of a trial is all that was recorded in it, also where an answer parts the recording",
+          "[unit]") {
+    Sitting sitting(short_protocol(R"([screens]
+recording_lead_s = 0.25
+[[task]]
+id = "t"
+question = "Which?"
+steps = [ { show = "centre", for_s = 0.1 }, { text = "And now?", for_s = 0.2 }, { show = "centre", for_s = 0.1, id = "again" } ]
+[[block]]
+id = "b"
+tasks = "t"
+)"));
+    sitting.tracker.sample_rate_hz = 250.0;
+    sitting.tracker.blind = {1, 2}; // the second of the first trial, the first of the second
+    CHECK(sitting.run().completed_trials == 2);
+    REQUIRE(sitting.log.yields.size() == 4);
+    std::int64_t all = 0;
+    for (std::size_t i = 0; i < 2; ++i) {
+        const TrialOutcome& outcome = sitting.log.outcomes[i];
+        REQUIRE(outcome.gaze);
+        all += outcome.gaze->samples;
+        CHECK(*outcome.gaze == sitting.log.yields[2 * i + 1]);
+        CHECK(outcome.gaze->samples > sitting.log.yields[2 * i].samples);
+        CHECK(outcome.gaze->without_gaze > 0);
+        CHECK(outcome.gaze->without_gaze < outcome.gaze->samples);
+        CHECK(outcome.gaze->missing >= sitting.log.yields[2 * i].missing);
+        // Before the first flip and after the last as long as the protocol says.
+        const SessionTime began = sitting.log.times[static_cast<std::size_t>(
+            std::ranges::find(sitting.log.details, "stimulus") - sitting.log.details.begin())];
+        if (i == 0)
+            CHECK(to_seconds(outcome.presentation_onset - began) == Approx(0.25).margin(0.03));
+    }
+    CHECK(all == sitting.log.samples);
+    CHECK(sitting.log.samples == sitting.tracker.arrived);
+}
+
+TEST_CASE("in a short break keys do nothing, too, and in one without a least time they work at once",
+          "[unit]") {
+    for (const double min_s : {0.0, 0.4}) {
+        Sitting sitting(
+            short_protocol(fmt::format("[breaks]\nevery_trials = 1\npace = \"self\"\nmin_s = {}\n", min_s)));
+        CHECK_FALSE(sitting.run().aborted);
+        const auto time_of = [&](std::string_view kind) {
+            const auto at = std::find(sitting.log.kinds.begin(), sitting.log.kinds.end(), kind);
+            return sitting.log.times[static_cast<std::size_t>(at - sitting.log.kinds.begin())];
+        };
+        CHECK(to_seconds(time_of("break ends") - time_of("break begins")) == Approx(min_s).margin(0.03));
+    }
 }
