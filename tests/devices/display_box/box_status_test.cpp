@@ -200,6 +200,17 @@ TEST_CASE("a status line's numbers are taken up to what can be, and refused beyo
     CHECK_FALSE(line("1", "0", "2", "0"));
     CHECK_FALSE(line("x", "0", "0", "0"));
     CHECK_FALSE(line("1", "", "0", "0"));
+    // Each of the analogue inputs has edges, by its own threshold.
+    BoxEdgeDetector volts(0.5f);
+    StatusSample level = *line("1", "1", "0", "0.0");
+    CHECK(volts.feed(level).empty());
+    for (std::size_t i = 0; i < level.analogue_v.size(); ++i) {
+        level.analogue_v[i] = 0.5f;
+        const auto told = volts.feed(level);
+        REQUIRE(told.size() == 1);
+        CHECK(told[0].input == BoxInput{BoxInput::Kind::analogue, static_cast<std::uint8_t>(i)});
+        CHECK(told[0].analogue_v == 0.5f);
+    }
     // An edge detector tells no volts with edges that have none.
     BoxEdgeDetector edges;
     StatusSample before = *line("1", "1", "0", "0.5");

@@ -291,6 +291,7 @@ TEST_CASE("displays that are drawn lie within what is usual, each its own", "[un
                                           glm::dvec3(18.5, 7.5, 97.0)};
     const glm::dvec3 black(0.1, 0.11, 0.17);
     glm::dvec3 lowest(10.0), highest(0.0);
+    double least_shoulder = 1.0, most_shoulder = -1.0;
     for (std::uint64_t seed = 0; seed < 200; ++seed) {
         const DisplayTruth truth = DisplayTruth::drawn(seed);
         for (std::size_t i = 0; i < 3; ++i) {
@@ -303,6 +304,8 @@ TEST_CASE("displays that are drawn lie within what is usual, each its own", "[un
             CHECK(truth.offsets[i] >= -0.02);
             CHECK(truth.offsets[i] <= 0.01);
             CHECK(std::abs(truth.shoulders[i]) <= 0.15);
+            least_shoulder = std::min(least_shoulder, truth.shoulders[i]);
+            most_shoulder = std::max(most_shoulder, truth.shoulders[i]);
         }
         for (int axis = 0; axis < 3; ++axis) {
             CHECK(truth.black_xyz[axis] >= 0.7 * black[axis]);
@@ -316,6 +319,8 @@ TEST_CASE("displays that are drawn lie within what is usual, each its own", "[un
         CHECK(lowest[axis] < 0.75);
         CHECK(highest[axis] > 1.25);
     }
+    CHECK(least_shoulder < -0.14);
+    CHECK(most_shoulder > 0.14);
     // A photometer's readings are true on average, and spread by its shares.
     DisplayTruth truth = DisplayTruth::drawn(1);
     truth.reading_noise = 0.01;

@@ -106,6 +106,7 @@ TEST_CASE("clicks on places go to where the eye points then, but for a few pixel
     const std::vector<ObserverInput> inputs = until(keys, SessionTime(60s));
     REQUIRE(inputs.size() == 3);
     CHECK(inputs[1].kind == ObserverInput::Kind::pointer_down);
+    CHECK(inputs[1].button == 1);
     CHECK(inputs[1].right_px == Approx(200.0).margin(20.0));
     CHECK(inputs[1].down_px == Approx(-100.0).margin(20.0));
     CHECK(inputs[1].right_px != 200.0);
@@ -331,4 +332,27 @@ TEST_CASE("who misses presses nothing, and who is too early presses before the w
     CHECK(early[1].at == SessionTime(1s) + 90ms);
     CHECK(early[0].key.view() == "f");
     CHECK(inputs_with(0.0, 1.0).size() == 4);
+}
+
+TEST_CASE("a gauge is meant as the surface leans by its gain, sheared as the observer sees it", "[unit]") {
+    Protocol protocol = asked();
+    protocol.tasks[0].answers.resize(1);
+    TaskAnswer& answer = protocol.tasks[0].answers[0];
+    answer.id = "what";
+    answer.truth.noise = 0.0;
+    answer.truth.gain = 1.0;
+    AnswerOffer offer = offer_called("gauge");
+    offer.attitude = Attitude{{20.0}, {90.0}};
+    const auto meant = [&](const Attitude& surface) {
+        offer.true_attitude = surface;
+        return SimulatedAnswers(protocol, 3).answer(offer, {}).attitude.value();
+    };
+    CHECK(meant({{40.0}, {0.0}}).slant.value == Approx(40.0));
+    CHECK(meant({{40.0}, {70.0}}).tilt.value == Approx(70.0));
+    answer.truth.shear = {0.3, 0.4};
+    // Of a surface that is seen from the front the shear is all: a rise of a half.
+    CHECK(meant({{0.0}, {0.0}}).slant.value == Approx(to_degrees({std::atan(0.5)}).value));
+    answer.truth.shear.clear();
+    answer.truth.gain = 0.5;
+    CHECK(meant({{45.0}, {0.0}}).slant.value == Approx(to_degrees({std::atan(0.5)}).value));
 }
