@@ -112,6 +112,13 @@ TEST_CASE("exposure is shared among the parts as the picture shows them", "[unit
     CHECK(rows[0].share_of_exposure == Approx(1.0));
     CHECK(rows[1].share_of_exposure + rows[2].share_of_exposure == Approx(1.0));
     CHECK(rows[1].share_of_exposure == Approx(0.5).margin(0.02));
+    // Each pixel is of one part, and a third of each corner of its triangle.
+    double of_vertices = 0.0, of_parts = 0.0;
+    for (const double seconds : exposure.pixel_seconds)
+        of_vertices += seconds;
+    for (const double seconds : exposure.part_pixel_seconds)
+        of_parts += seconds;
+    CHECK(of_vertices == Approx(of_parts).epsilon(1e-4));
     // The disc that the ball fills in the plane through its middle, over the cap that is seen.
     const double sine = 1.0 / away, tangent = sine / std::sqrt(1.0 - sine * sine);
     const double disc = away * away * tangent * tangent, cap = 2.0 * (1.0 - sine);

@@ -177,11 +177,18 @@ TEST_CASE("motions that are no turn about the front are said in words", "[unit]"
           "the object turned by 12.5 deg to each side and the light turned by 4 deg to each side, to "
           "and fro about "
           "the vertical as a sine of time, in 3 frames of one sweep at 25 Hz, for 2.52 s");
-    CHECK(words([](Animation& motion) {
-              motion.kind = MotionKind::turntable;
-              motion.turns = 2;
-              motion.light_amplitude = Degrees{4.0};
-          }).starts_with("the object moved: "));
+    const auto turntable = [&](double light_deg) {
+        return words([=](Animation& motion) {
+            motion.kind = MotionKind::turntable;
+            motion.turns = 2;
+            motion.light_amplitude = Degrees{light_deg};
+        });
+    };
+    CHECK_THAT(turntable(4.0),
+               Catch::StartsWith("the object moved: ") &&
+                   Catch::EndsWith(", and the light 4 deg to each side, in 3 frames at 25 Hz, for 2.52 s"));
+    CHECK_THAT(turntable(0.0),
+               !Catch::Contains("light") && Catch::EndsWith(", in 3 frames at 25 Hz, for 2.52 s"));
     CHECK(words([](Animation& motion) { motion.kind = MotionKind::recorded; }) ==
           "the object turned as observers of earlier sessions had turned it, refresh by refresh");
     const std::string turned = words([](Animation& motion) {

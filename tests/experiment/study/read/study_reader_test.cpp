@@ -172,6 +172,7 @@ TEST_CASE("sessions are read with their trials, their quality and where on the o
     CHECK_FALSE(results.sessions[0].is_complete);
     CHECK(results.sessions[0].trials == 3);
     CHECK(study.levels.at("material") == std::vector<std::string>{"gold", "silver"});
+    CHECK_FALSE(study.levels.contains("slot"));
     CHECK(study.levels.at("task") == std::vector<std::string>{"free", "age"});
 
     // One object, in both sessions, whose unit is as long as it is shown.
@@ -280,8 +281,9 @@ TEST_CASE("sessions are read with their trials, their quality and where on the o
 TEST_CASE("sessions read one by one and joined are those read at once, and not when they have gone on",
           "[unit]") {
     const TemporaryFolder root;
-    const std::vector<fs::path> sessions{watched_session(root.path(), ball_header("P1")),
-                                         watched_session(root.path(), ball_header("P2"))};
+    const std::vector<fs::path> sessions{
+        watched_session(root.path(), ball_header("P1")), watched_session(root.path(), ball_header("P2")),
+        watched_session(root.path(), ball_header("P3")), watched_session(root.path(), ball_header("P4"))};
     const SurfaceFor surface = [](const SessionRecord&, std::size_t, const ViewedObject&) {
         return &maps_of_ball();
     };
@@ -296,6 +298,18 @@ TEST_CASE("sessions read one by one and joined are those read at once, and not w
         CHECK(joined.fixations[i].position == whole.fixations[i].position);
         CHECK(joined.fixations[i].trial == whole.fixations[i].trial);
         CHECK(joined.fixations[i].evidence.size() == whole.fixations[i].evidence.size());
+    }
+    // Of so many fixations each is told for one part or the other.
+    for (std::size_t i = 0; i < whole.fixations.size(); ++i) {
+        const std::vector<AreaEvidence>& evidence = whole.fixations[i].evidence;
+        if (i % 3 == 2) // beside the ball
+            continue;
+        CAPTURE(i);
+        REQUIRE(evidence.size() == 2);
+        const std::size_t own = i % 3, other = 1 - own; // body, head
+        CHECK(evidence[own].inside > 10.0 * evidence[own].elsewhere);
+        CHECK(evidence[other].elsewhere > 10.0 * evidence[other].inside);
+        CHECK(joined.fixations[i].evidence.at(0).inside == evidence[0].inside);
     }
     CHECK(joined.sessions[1].events == whole.sessions[1].events);
     CHECK(joined.exposures.size() == whole.exposures.size());
@@ -314,6 +328,9 @@ TEST_CASE("sessions that would count twice, and observers that are not there, ar
     StudyOptions options;
     options.same_observer = {{"P2", "P1"}};
     CHECK_THROWS_WITH(studied({session}, options), Contains("no session is of observer P2"));
+    StudyOptions another;
+    another.same_observer = {{"P1", "P1"}, {"P9", "P1"}};
+    CHECK_THROWS_WITH(studied({session}, another), Contains("no session is of observer P9"));
     const fs::path other = watched_session(root.path(), ball_header("P2"));
     const StudyResults results = studied({session, other}, options).results;
     CHECK(results.sessions[1].observer == "P1");
@@ -378,6 +395,11 @@ TEST_CASE("what cannot be looked up is said, and its gaze is not counted", "[uni
                    return nullptr;
                }),
                Contains("The sessions have no maps of ball"));
+    SessionHeader unknown = ball_header("P2");
+    unknown.display.screen.viewing_distance_mm = 0.0;
+    CHECK(studied({make_session(root.path(), unknown)}).results.objects.at(0).remark ==
+          "The camera or the screen of ball is not known: there are no millimetres, and no maps.");
+    CHECK(studied({sessions[0]}).results.objects.at(0).remark.empty());
     CHECK_THAT(remarks([](const SessionRecord&, std::size_t, const ViewedObject&) -> const SurfaceLookup* {
                    throw InputError("a map is damaged");
                }),
