@@ -20,6 +20,7 @@ ReadStudy looks_up_and_front(int observers) {
         session.protocol = "A";
         session.is_complete = true;
     }
+    study.surfaces[0].pixel_seconds.assign(study.surfaces[0].areas_mm2.size(), 1.0);
     return {std::move(study.results), std::move(study.surfaces), {}};
 }
 
@@ -149,6 +150,34 @@ TEST_CASE("maps hold each trial's fixations, by time and by number", "[unit]") {
     CHECK(by_time.least_sigma_mm == 25.0);
     CHECK(by_time.most_sigma_mm == 35.0);
     CHECK(results.maps.at(0).least_sigma_mm == 30.0);
+    CHECK_FALSE(results.parameters.empty());
+    CHECK(results.by == std::vector<std::string>{"material"});
+    CHECK(results.confidence == 0.95);
+    CHECK(results.area == "head");
+    const auto sizes = {results.area_rows.size(),
+                        results.surface_transitions.size(),
+                        results.distributions.size(),
+                        results.time_course.size(),
+                        results.time_clusters.size(),
+                        results.first_fixations.size(),
+                        results.pairs.size(),
+                        results.area_pairs.size(),
+                        results.scanpaths.size(),
+                        results.scanpath_likeness.size(),
+                        results.measure_differences.size(),
+                        results.differences.size(),
+                        results.predictions.size(),
+                        results.reliabilities.size(),
+                        results.motions.size(),
+                        results.effects.size(),
+                        results.reporting.size(),
+                        results.methods.size()};
+    CHECK(std::ranges::find(sizes, 0u) == sizes.end());
+    StudyOptions asked;
+    asked.is_by_asked = true;
+    ReadStudy of_one_level = looks_up_and_front(1);
+    of_one_level.levels = {{"material", {"smooth"}}};
+    CHECK_THROWS_WITH(analyzed(std::move(of_one_level), asked), Contains("this factor has one level"));
     // Whatever kernel blurs them.
     for (const MapKernel kernel : {MapKernel::euclidean, MapKernel::voxel}) {
         StudyOptions options;
