@@ -71,7 +71,7 @@ ScreenPoint seen_at(const SessionHeader& header, const glm::dvec3& place, int po
 }
 
 const glm::dvec3 on_body = 50.0 * glm::normalize(glm::dvec3{0.3, -1.0, -0.2}),
-                 on_head = 50.0 * glm::normalize(glm::dvec3{-0.3, -1.0, 0.6}), beside{120.0, -50.0, 0.0};
+                 on_head = 50.0 * glm::normalize(glm::dvec3{-0.3, -1.0, 0.6}), beside_ball{120.0, -50.0, 0.0};
 
 /// In each trial gaze follows a place of the body for 0.4 s, one of the head for 0.5 s, and is beside the
 /// ball for 0.2 s, after 0.05 s in which the eye is lost.
@@ -89,7 +89,7 @@ void watch_ball(SessionStore& store, const SessionHeader& header, const Trial& t
     for (int ms = -100; ms < 1200; ms += 2) {
         // The middle of the screen is lit half a refresh after its top.
         const int pose = std::clamp(static_cast<int>(std::floor((ms - 3.0) / 40.0)), 0, 29) % 3;
-        const glm::dvec3& place = ms < 450 ? on_body : ms < 950 ? on_head : beside;
+        const glm::dvec3& place = ms < 450 ? on_body : ms < 950 ? on_head : beside_ball;
         for (const Eye eye : {Eye::left, Eye::right}) {
             GazeSample sample{tracker_at(ms), eye, std::nullopt, 500.0f + static_cast<float>(trial.index)};
             if (ms >= 50)
