@@ -340,9 +340,9 @@ TEST_CASE("sessions that would count twice, and observers that are not there, ar
 TEST_CASE("trials beyond a limit are excluded with the reason, and their fixations with them", "[unit]") {
     const TemporaryFolder root;
     const fs::path session = watched_session(root.path(), ball_header("P1"));
-    const auto excluded = [&](const ExclusionRules& rules) {
+    const auto excluded = [&](const auto& limit) {
         StudyOptions options;
-        options.exclude = rules;
+        limit(options.exclude);
         std::string all;
         const StudyResults results = studied({session}, options).results;
         for (const StudyTrial& trial : results.trials) {
@@ -352,13 +352,15 @@ TEST_CASE("trials beyond a limit are excluded with the reason, and their fixatio
         }
         return all;
     };
-    CHECK(excluded({}) == "1 2 3 ");
-    CHECK(excluded({.most_accuracy_deg = 0.4}) ==
+    CHECK(excluded([](ExclusionRules&) {}) == "1 2 3 ");
+    CHECK(excluded([](ExclusionRules& rules) { rules.most_accuracy_deg = 0.4; }) ==
           "1 2: The validation before it had a mean error of 0.50 deg. 3: The "
           "validation before it had a mean error of 0.50 deg. ");
-    CHECK(excluded({.most_drift_deg = 0.25}) == "1 2 3: The drift check found an error of 0.38 deg. ");
-    CHECK(excluded({.most_missed_refreshes = 1}) == "1 2 3: 2 refreshes were missed. ");
-    const std::string lost = excluded({.most_lost_share = 0.05});
+    CHECK(excluded([](ExclusionRules& rules) { rules.most_drift_deg = 0.25; }) ==
+          "1 2 3: The drift check found an error of 0.38 deg. ");
+    CHECK(excluded([](ExclusionRules& rules) { rules.most_missed_refreshes = 1; }) ==
+          "1 2 3: 2 refreshes were missed. ");
+    const std::string lost = excluded([](ExclusionRules& rules) { rules.most_lost_share = 0.05; });
     CHECK_THAT(lost, Contains("1: 6.2 % of the samples were lost outside of blinks."));
 }
 
