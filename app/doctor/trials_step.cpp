@@ -80,7 +80,7 @@ RigStep measure_trials(const FirstDay& day) {
         at_least("trials that were completed", completed, "", wished),
         at_most("damaged places in the record", static_cast<double>(verified.damages.size()), "", 0.0),
         {"refreshes shown", static_cast<double>(shown), ""}};
-    const bool is_unproven = record.header().display.is_timing_unproven();
+    const bool is_unproven = record.header().is_timing_unproven();
     if (!is_unproven)
         figures.push_back(
             at_most("missed refreshes",

@@ -64,7 +64,7 @@ nlohmann::ordered_json session_json(const SessionRecord& record) {
                      {"failure", trial.outcome.failure},
                      {"sitting", trial.sitting},
                      {"shown_refreshes", trial.outcome.shown_refreshes},
-                     {"missed_refreshes", header.display.is_timing_unproven()
+                     {"missed_refreshes", header.is_timing_unproven()
                                               ? nlohmann::ordered_json("unproven")
                                               : nlohmann::ordered_json(trial.outcome.missed_refreshes)},
                      {"gaze_share", gaze_share_of(trial)},
@@ -193,8 +193,8 @@ void print_session(const SessionRecord& record) {
         fmt::print("{:>5}  {:<12} {}{:<21} {:>9} {:>8} {:>7}  {}\n", trial["trial"].get<int>(),
                    trial["task"].get<std::string>(), levels, fate_of(record.trials()[i]),
                    trial["shown_refreshes"].get<int>(),
-                   header.display.is_timing_unproven() ? "unproven"
-                                                       : std::to_string(trial["missed_refreshes"].get<int>()),
+                   header.is_timing_unproven() ? "unproven"
+                                               : std::to_string(trial["missed_refreshes"].get<int>()),
                    gaze ? fmt::format("{:.1f} %", 100.0 * gaze->share()) : "n/a",
                    trial["answer"].get<std::string>());
         for (std::size_t k = 0; trial.contains("shown") && k < trial["shown"].size(); ++k) {

@@ -25,7 +25,7 @@ OperatorServer::Options operator_view_of(const SessionHeader& header, const Prot
     }
     facts.poses = static_cast<int>(header.poses.angles.size());
     facts.has_tracker = has_tracker;
-    facts.is_timing_unproven = header.display.is_timing_unproven();
+    facts.is_timing_unproven = header.is_timing_unproven();
     facts.drift_limit_deg = protocol.tracker.drift_limit_deg;
     facts.mean_limit_deg = protocol.calibration.mean_limit_deg;
     facts.max_limit_deg = protocol.calibration.max_limit_deg;

@@ -40,7 +40,7 @@ void check_presentation(Rig& rig, const Protocol& protocol, const Schedule& sche
             listeners.push_back(maps);
         check = check_presentation(
             protocol, schedule.trials.front(),
-            {rig.clock(), rig.presenter(), log, listeners, trackers, !header.display.is_timing_unproven()});
+            {rig.clock(), rig.presenter(), log, listeners, trackers, !header.is_timing_unproven()});
         for (SessionStore& written : stores) {
             written.close();
             lost += written.lost();

@@ -89,6 +89,7 @@ std::string name_of(const RecordedTracker& recorded) {
 void note_tracker(const RecordedTracker& recorded, const Clock& clock) {
     if (!recorded.tracker.measures_gaze())
         return;
+    recorded.tracker.belongs_in(recorded.folder.string());
     const TrackerDescription tracker = recorded.tracker.description();
     if (!tracker.model.empty())
         fmt::print("{}: {}\n", name_of(recorded), tracker.model);

@@ -32,7 +32,7 @@ struct RecordedTracker {
     SessionStore& store;
 };
 
-/// Which tracker it is, and what it granted of what was wished.
+/// Which tracker it is, and what it granted of what was wished; tells it where its own file belongs.
 void note_tracker(const RecordedTracker& recorded, const Clock& clock);
 
 /// What is proved on this rig, by the page that was kept when it was set up. `folder`: see rig_folder().

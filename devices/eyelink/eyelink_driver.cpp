@@ -150,6 +150,8 @@ TrackerDescription EyelinkDriver::connect(const TrackerWish& wish) {
             "The EyeLink's host cannot open the data file {} (error {}): is its disk full?", file, opened));
     is_file_open_ = true;
     files_.push_back(name);
+    if (!folder_.empty())
+        belongs_in(folder_);
     library_->eyecmd_printf("%s", "add_file_preamble_text 'Recorded by overt'");
     configure(wish);
     description_.name = settings_.is_dummy ? "eyelink without a tracker" : "eyelink";

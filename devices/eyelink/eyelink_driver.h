@@ -51,6 +51,7 @@ class EyelinkDriver final : public TrackerDriver {
     /// By the library's running estimate of the host's clock, which jitters by some 50 us, taken as certain
     /// to 0.25 ms; from older libraries by an exchange, in whole milliseconds.
     std::optional<ClockPair> read_clocks() noexcept override;
+    void belongs_in(const std::string& folder) noexcept override;
     std::vector<std::string> finish(const std::string& folder,
                                     const EyeTracker::FileProgress& progress) override;
 
@@ -87,6 +88,7 @@ class EyelinkDriver final : public TrackerDriver {
     EyelinkGrant grant_;
     bool is_open_ = false, is_file_open_ = false, is_recording_ = false;
     std::vector<std::string> files_; ///< on the host, without ".edf"
+    std::string folder_;             ///< where they belong; empty while that is not told
     std::optional<RecordingState> ended_at_start_;
     std::optional<EyelinkDecoder> decoder_;
     SessionTime last_arrival_, last_burst_;

@@ -1,6 +1,8 @@
 /// The end of a session with an EyeLink: its files come from the host into the session's folder.
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <new>
 
 #include <fmt/format.h>
 
@@ -60,8 +62,22 @@ std::vector<LeftOnHost> EyelinkDriver::left_files() const {
     std::vector<LeftOnHost> left;
     if (!settings_.notes.empty() && !settings_.is_dummy)
         left = read_left_on_host(settings_.notes);
-    std::erase_if(left, [this](const LeftOnHost& each) { return each.host != settings_.address; });
+    std::erase_if(left, [this](const LeftOnHost& each) {
+        return each.host != settings_.address || std::ranges::find(files_, each.name) != files_.end();
+    });
     return left;
+}
+
+void EyelinkDriver::belongs_in(const std::string& folder) noexcept {
+    if (settings_.is_dummy)
+        return;
+    try {
+        folder_ = folder;
+        std::vector<std::string> untold;
+        for (const std::string& name : files_)
+            note_left(name, folder_, untold);
+    } catch (const std::bad_alloc&) { // then there is no word of it, and finish() fetches it nevertheless
+    }
 }
 
 std::vector<std::string> EyelinkDriver::fetch_left_files(const EyeTracker::FileProgress& progress) {
@@ -122,10 +138,7 @@ std::vector<std::string> EyelinkDriver::finish(const std::string& folder,
         close();
         return said;
     }
-    // Noted before: a library that crashes in a transfer, or a program that is killed, leaves no time for it.
-    std::vector<std::string> untold;
-    for (const std::string& name : files_)
-        note_left(name, folder, untold);
+    belongs_in(folder);
     stop();
     try {
         if (library_->eyelink_is_connected() != 1) {
@@ -151,6 +164,7 @@ std::vector<std::string> EyelinkDriver::finish(const std::string& folder,
     }
     close();
     files_.clear();
+    folder_.clear();
     return said;
 }
 

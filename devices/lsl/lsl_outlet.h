@@ -57,6 +57,7 @@ class LslGazeRelay final : public TrackerDriver {
     RecordingState read(TrackerItemSink& sink, SessionTime deadline) noexcept override;
     void send(const TrackerMark& mark) noexcept override { tracker_->send(mark); }
     std::optional<ClockPair> read_clocks() noexcept override;
+    void belongs_in(const std::string& folder) noexcept override { tracker_->belongs_in(folder); }
     std::vector<std::string> finish(const std::string& folder,
                                     const EyeTracker::FileProgress& progress) override {
         return tracker_->finish(folder, progress);

@@ -36,6 +36,7 @@ class FaultyTracker final : public EyeTracker {
     RecordingState recording_state() const noexcept override { return state_; }
     void reconnect() override;
     void mark(const TrackerMark& mark) noexcept override;
+    void belongs_in(const std::string& folder) noexcept override { tracker_->belongs_in(folder); }
     std::vector<std::string> finish(const std::string& folder, const FileProgress& progress) override {
         return tracker_->finish(folder, progress);
     }

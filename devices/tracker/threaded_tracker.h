@@ -41,6 +41,7 @@ class ThreadedTracker final : public EyeTracker {
     }
     void reconnect() override;
     void mark(const TrackerMark& mark) noexcept override;
+    void belongs_in(const std::string& folder) noexcept override { driver_->belongs_in(folder); }
     std::vector<std::string> finish(const std::string& folder, const FileProgress& progress) override;
 
   private:

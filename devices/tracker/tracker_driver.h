@@ -65,6 +65,9 @@ class TrackerDriver {
     /// arrival.
     virtual std::optional<ClockPair> read_clocks() noexcept { return std::nullopt; }
 
+    /// See EyeTracker::belongs_in(). Outside of start() and stop().
+    virtual void belongs_in(const std::string& /*folder*/) noexcept {}
+
     /// See EyeTracker::finish().
     virtual std::vector<std::string> finish(const std::string& /*folder*/,
                                             const EyeTracker::FileProgress& /*progress*/) {

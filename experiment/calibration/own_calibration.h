@@ -50,6 +50,7 @@ class CalibratedTracker final : public EyeTracker {
     RecordingState recording_state() const noexcept override { return tracker_->recording_state(); }
     void reconnect() override;
     void mark(const TrackerMark& mark) noexcept override { tracker_->mark(mark); }
+    void belongs_in(const std::string& folder) noexcept override { tracker_->belongs_in(folder); }
     std::vector<std::string> finish(const std::string& folder, const FileProgress& progress) override {
         return tracker_->finish(folder, progress);
     }

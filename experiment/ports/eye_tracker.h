@@ -115,6 +115,11 @@ class EyeTracker {
     /// Puts a message into the tracker's own data, where it has any.
     virtual void mark(const TrackerMark& /*mark*/) noexcept {}
 
+    /// Into which folder finish() will be asked to fetch the tracker's own file, which a tracker with one
+    /// puts down now: a program that crashes or is killed then leaves word of it. Between recordings. Throws
+    /// nothing.
+    virtual void belongs_in(const std::string& /*folder*/) noexcept {}
+
     /// Told how much of the host's file has come, in bytes; `total` is 0 while it is not known.
     using FileProgress = std::function<void(std::int64_t done, std::int64_t total)>;
     /// Ends the tracker's session, also after an abort: closes its file and fetches it into `folder`, where

@@ -71,9 +71,6 @@ struct RecordedDisplay {
     /// Of the flips: "proven" or "unproven" (TimingClaim); "none" in virtual time and without a screen; empty
     /// where it is not known, as in sessions of earlier programs and in imported ones.
     std::string timing = {};
-
-    /// Nothing proves when pictures were lit, nor, therefore, that no refresh was missed.
-    bool is_timing_unproven() const { return timing == "unproven"; }
 };
 
 /// What was known of the display's light: the essentials, and the files that say it, as they were read.
@@ -209,6 +206,13 @@ struct SessionHeader {
     std::vector<RecordedMap> maps;
     std::vector<RecordedPoint> points = {}; ///< of all objects, list by list
     std::vector<RecordedSlot> slots = {}; ///< as read: one at least, that of the image where none is recorded
+
+    /// Nothing proves when pictures were lit, nor, therefore, that no refresh was missed: as the protocol
+    /// claims, or since real time went by without a screen. In virtual time refreshes are missed as
+    /// simulated.
+    bool is_timing_unproven() const {
+        return display.timing == "unproven" || (display.timing == "none" && clock == ClockKind::steady);
+    }
 
     const Animation& animation_of(const Stimulus& stimulus) const {
         return animations.at(static_cast<std::size_t>(stimulus.motion));

@@ -86,7 +86,7 @@ void write_header(AscWriter& writer, const SessionRecord& record, int sitting) {
             writer.line("** REMARK: " + ascii_of(origin));
         writer.line("**");
     }
-    if (header.display.is_timing_unproven())
+    if (header.is_timing_unproven())
         writer.line("** REMARK: the timing of the display is unproven: no real vertical blank tells when "
                     "pictures were lit, nor which refreshes were missed");
     if (const std::int64_t base = writer.layout().base_ms; base != 0)

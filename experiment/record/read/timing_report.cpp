@@ -117,7 +117,7 @@ TimingReport timing_report(const SessionRecord& record) {
     // Imported sessions have no flips, and may not know their display's rate.
     report.nominal_interval_ms = header.display.refresh_hz > 0.0 ? 1e3 / header.display.refresh_hz : 0.0;
     report.is_virtual = header.clock == ClockKind::virtual_time;
-    report.is_unproven = header.display.is_timing_unproven();
+    report.is_unproven = header.is_timing_unproven();
     report.has_simulated_faults = simulated_sides(record).display;
     std::multimap<int, std::string> disturbances;
     for (const RecordedEvent& event : record.events()) {

@@ -38,7 +38,7 @@ struct TimingReport {
     std::vector<TrialTiming> trials;   ///< attempts with at least one flip
     bool has_simulated_faults = false; ///< of the display
     bool is_virtual = false;           ///< time did not really pass
-    bool is_unproven = false;          ///< RecordedDisplay::is_timing_unproven()
+    bool is_unproven = false;          ///< SessionHeader::is_timing_unproven()
     std::vector<std::string> sources;  ///< where the times come from
     // Over the completed trials.
     int planned_refreshes = 0, flipped_refreshes = 0, missed_refreshes = 0, unaccounted = 0;

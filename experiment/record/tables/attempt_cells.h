@@ -78,8 +78,7 @@ template <class Column> std::vector<Column> own_columns(const SessionHeader& hea
 /// Nothing where no vertical blanks prove which refreshes were missed.
 inline auto missed_refreshes_of(const SessionHeader& header) {
     return [&header](const TrialRecord& attempt) {
-        return when(attempt.has_outcome() && !header.display.is_timing_unproven(),
-                    attempt.outcome.missed_refreshes);
+        return when(attempt.has_outcome() && !header.is_timing_unproven(), attempt.outcome.missed_refreshes);
     };
 }
 
@@ -90,7 +89,8 @@ inline TableColumn timing_column() {
             "",
             {{"proven", "real vertical blanks of the display"},
              {"unproven", "nothing: which refreshes were missed is not known"},
-             {"none", "time was virtual, or there was no display"}}};
+             {"none", "time was virtual, with refreshes missed as simulated; or there was no display: which "
+                      "were missed is not known"}}};
 }
 inline auto timing_of(const SessionHeader& header) {
     return [&header](auto&) -> std::string_view { return header.display.timing; };

@@ -98,7 +98,7 @@ RowLayout<LedgerRow> ledger_layout(const SharedColumns& shared, const SessionHea
          {{"missed",
            "Refreshes that went by with the old picture before this one; n/a: the session's timing is "
            "unproven"},
-          [&header](auto& row) { return when(!header.display.is_timing_unproven(), row.missed_before); }},
+          [&header](auto& row) { return when(!header.is_timing_unproven(), row.missed_before); }},
          {{"cause",
            "Why a refresh was missed",
            "",

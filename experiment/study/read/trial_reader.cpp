@@ -131,7 +131,7 @@ ReadTrial read_trial(const SessionRecord& record, const TrialRecord& trial, cons
     }
     if (trial.outcome.drift)
         of.quality.drift_deg = trial.outcome.drift->value;
-    if (header.display.is_timing_unproven())
+    if (header.is_timing_unproven())
         of.quality.missed_refreshes.reset();
     else
         of.quality.missed_refreshes = trial.outcome.missed_refreshes;

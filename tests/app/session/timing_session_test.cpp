@@ -216,4 +216,18 @@ TEST_CASE("a session in real time without a screen claims no number of missed re
     CHECK(said.find("refreshes missed, by times that nothing proves") != std::string::npos);
     CHECK(said.find("refreshes missed\n") == std::string::npos);
     CHECK(said.find("missed refreshes: there was no screen") != std::string::npos);
+
+    // Nor do its record's readers: what the ledger counted was how late the pictures were drawn.
+    const SessionRecord record(experiment.session());
+    CHECK(record.header().display.timing == "none");
+    REQUIRE(record.trials().front().outcome.missed_refreshes >= 4);
+    CHECK(record.header().is_timing_unproven());
+    const auto shown =
+        nlohmann::json::parse(experiment.overt({"show", experiment.session().string(), "--json"}).out);
+    CHECK(shown.at("trials").at(0).at("missed_refreshes") == "unproven");
+    const std::string tables = (experiment.folder().path() / "tables").string();
+    REQUIRE(experiment.overt({"export", experiment.session().string(), "--out", tables}).exit_code == 0);
+    const TsvFile trials(std::filesystem::path(tables) / "trials.tsv");
+    CHECK_FALSE(trials.has(0, "missed_refreshes"));
+    CHECK(trials.text(0, "timing") == "none");
 }

@@ -434,6 +434,22 @@ TEST_CASE("an EyeLink's file is noted as left on its host until it has come", "[
                   [&](std::int64_t, std::int64_t) { noted.insert(read_left_on_host(notes.path()).size()); });
     CHECK(noted == std::set<std::size_t>{1});
     CHECK(read_left_on_host(notes.path()).empty());
+
+    // From when it is known where it belongs: a program that is killed in a trial leaves the note.
+    driver.connect(bench.wish);
+    driver.belongs_in(folder.path().string());
+    const std::vector<LeftOnHost> first = read_left_on_host(notes.path());
+    REQUIRE(first.size() == 1);
+    CHECK(first[0].folder == folder.path());
+    CHECK(opened_files(bench.library).contains(first[0].name));
+    // After a connection that was lost there is a second file, and neither is left by another session.
+    CHECK_THAT(driver.connect(bench.wish).model, !Catch::Contains("still on its host"));
+    CHECK(read_left_on_host(notes.path()).size() == 2);
+    CHECK(driver.finish(folder.path().string(), {}).size() == 2);
+    CHECK(read_left_on_host(notes.path()).empty());
+    // The next session's folder is another one, and not told yet.
+    driver.connect(bench.wish);
+    CHECK(read_left_on_host(notes.path()).empty());
 }
 
 TEST_CASE("an EyeLink without a tracker records nothing and waits for nothing", "[unit]") {
