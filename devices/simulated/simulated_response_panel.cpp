@@ -80,11 +80,15 @@ void SimulatedResponsePanel::offer_turning(const TurningOffer& turning) {
 }
 
 void SimulatedResponsePanel::entered(SessionPhase phase, int trial) noexcept {
-    own_decisions_ = 0;
-    if (phase == SessionPhase::trial)
+    // A trial that comes again and again, since its tracker stays lost, is no headway.
+    if (phase == SessionPhase::trial && trial > furthest_trial_) {
+        furthest_trial_ = trial;
+        own_decisions_ = 0;
+    }
+    if (phase == SessionPhase::trial) {
         asked_in_ = nullptr; // the one before is over
-    if (phase == SessionPhase::trial)
         turns_.clear();
+    }
     pressed_on_.entered(phase, trial);
     // A pause that has ended by itself, since the keyboard is back, needs no key.
     if (phase != SessionPhase::pause)

@@ -76,7 +76,8 @@ class SimulatedResponsePanel final : public ResponsePanel {
     ResponsePress pressed_with_;               ///< what next_press_ is
     std::optional<SessionTime> resumes_at_;    ///< the operator's pause
     std::optional<char32_t> operators_answer_; ///< to the question that a scripted key leads to
-    int own_decisions_ = 0;                    ///< of this phase, to questions that no scripted key led to
+    int furthest_trial_ = -1;
+    int own_decisions_ = 0; ///< since its begin, to questions that no scripted key led to
     std::string answer_;
     PressedOn pressed_on_;
     Awaited awaited_ = Awaited::key;

@@ -61,6 +61,30 @@ TEST_CASE("a simulated operator ends a pause, and not one that has ended by itse
     CHECK_FALSE(panel.poll().has_value());
 }
 
+TEST_CASE("a simulated operator says yes to what is asked five times, and then no until a new trial comes",
+          "[unit]") {
+    Sitting sitting(25);
+    SimulatedResponsePanel panel(sitting.clock, sitting.observer);
+    const auto said = [&] {
+        const SessionTime since = sitting.clock.now();
+        panel.await(Awaited::decision, since, nullptr);
+        sitting.clock.wait_until(since + 2s);
+        const std::optional<ResponsePress> press = panel.poll();
+        REQUIRE(press.has_value());
+        return press->key;
+    };
+    for (const int trial : {0, 1}) {
+        for (int time = 0; time < 7; ++time) {
+            // The tracker is lost, set up again, and lost in the same trial.
+            panel.entered(SessionPhase::trial, trial);
+            CHECK(said() == (time < 5 ? ResponsePress::Key::yes : ResponsePress::Key::no));
+            panel.entered(SessionPhase::calibration, trial);
+        }
+    }
+    panel.entered(SessionPhase::trial, 0); // one that comes again later is no new one
+    CHECK(said() == ResponsePress::Key::no);
+}
+
 TEST_CASE("answers differ between trials and repeat with the seed", "[unit]") {
     Sitting one(23), same(23);
     std::set<std::string> texts;
