@@ -62,9 +62,13 @@ std::vector<LeftOnHost> EyelinkDriver::left_files() const {
     std::vector<LeftOnHost> left;
     if (!settings_.notes.empty() && !settings_.is_dummy)
         left = read_left_on_host(settings_.notes);
-    std::erase_if(left, [this](const LeftOnHost& each) {
-        return each.host != settings_.address || std::ranges::find(files_, each.name) != files_.end();
-    });
+    // Those of this session are noted, too, while they are written.
+    const auto is_own = [this](const LeftOnHost& each) {
+        return !folder_.empty() && each.folder == std::filesystem::absolute(folder_) &&
+               std::ranges::find(files_, each.name) != files_.end();
+    };
+    std::erase_if(left,
+                  [&](const LeftOnHost& each) { return each.host != settings_.address || is_own(each); });
     return left;
 }
 
