@@ -470,7 +470,7 @@ class StudyReader {
         std::vector<std::string> files, faults;
         for (const OpenSession& open : open_) {
             for (const TrialRecord& trial : open.presentations) {
-                if (!trial.counts)
+                if (!trial.gives_results())
                     continue;
                 RecordedScreenAreas recorded = recorded_screen_areas(open.record(), trial);
                 for (ScreenArea& chosen :
