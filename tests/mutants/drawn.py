@@ -154,6 +154,9 @@ def linked(build, folder, program, libraries, switches):
     words[at + 1] = str(out)
     words[at:at] = [str(switch) for switch in switches]
     subprocess.run(words, cwd=build, check=True)
+    # Where a program looks for the parts of it that it loads.
+    if not (folder.parent / "lib").exists():
+        (folder.parent / "lib").symlink_to(build / "lib")
     return out
 
 

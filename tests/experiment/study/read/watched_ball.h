@@ -68,8 +68,10 @@ inline const glm::dvec3 on_body = 50.0 * glm::normalize(glm::dvec3{0.3, -1.0, -0
                         beside_ball{120.0, -50.0, 0.0};
 
 /// In each trial gaze follows a place of the body for 0.4 s, one of the head for 0.5 s, and is beside the
-/// ball for 0.2 s, after 0.05 s in which the eye is lost.
-inline void watch_ball(SessionStore& store, const SessionHeader& header, const Trial& trial) {
+/// ball for 0.2 s, after 0.05 s in which the eye is lost. `change`: of how the trial went.
+using ChangedOutcome = std::function<void(const Trial&, TrialOutcome&)>;
+inline void watch_ball(SessionStore& store, const SessionHeader& header, const Trial& trial,
+                       const ChangedOutcome& change = {}) {
     const std::int64_t start_ms = 10'000 * (trial.index + 1), onset_ms = start_ms + 1000;
     store.trial_started(trial, at_ms(start_ms));
     for (int refresh = 0; refresh < 120; ++refresh) {
@@ -119,12 +121,15 @@ inline void watch_ball(SessionStore& store, const SessionHeader& header, const T
     outcome.answer = "yes";
     if (trial.index == 3)
         outcome.status = TrialOutcome::Status::aborted;
+    if (change)
+        change(trial, outcome);
     store.trial_finished(trial, outcome);
 }
 
 /// The tracker is validated before the first trial and again before the second. The last trial does not
 /// count.
-inline std::filesystem::path watched_session(const std::filesystem::path& root, const SessionHeader& header) {
+inline std::filesystem::path watched_session(const std::filesystem::path& root, const SessionHeader& header,
+                                             const ChangedOutcome& change = {}) {
     const std::filesystem::path session = make_session(root, header);
     SessionStore store(session / session_file_name, patient());
     for (const std::int64_t second : {0, 100})
@@ -135,7 +140,7 @@ inline std::filesystem::path watched_session(const std::filesystem::path& root, 
     for (const Trial& trial : header.schedule.trials) {
         if (trial.index == 1)
             store.event({at_ms(15'000), -1, "validation", "mean error 0.500 deg, largest 0.900 deg"});
-        watch_ball(store, header, trial);
+        watch_ball(store, header, trial, change);
     }
     store.close();
     return session;
