@@ -86,7 +86,7 @@ DisplaySetup display_of(const SessionHeader& header) {
     display.screen_px = recorded.screen.screen_px;
     display.screen_mm = recorded.screen.screen_mm;
     display.viewing_distance_mm = recorded.screen.viewing_distance_mm;
-    if (display.viewing_distance_mm > 0.0 && display.screen_mm.x > 0.0 && display.screen_px.x > 0)
+    if (display.viewing_distance_mm > 0.0 && display.screen_mm.x > 0.0)
         display.px_per_deg = recorded.screen.px_per_deg_at_centre();
     display.refresh_hz = recorded.refresh_hz;
     display.latency_ms = 1e3 * to_seconds(recorded.latency);
@@ -142,8 +142,7 @@ StimulusSetup stimuli_of(const SessionHeader& header) {
     const ScreenGeometry& screen = header.display.screen;
     StimulusSetup stimuli;
     stimuli.image_px = screen.image_px;
-    if (screen.viewing_distance_mm > 0.0 && screen.screen_mm.x > 0.0 && screen.screen_mm.y > 0.0 &&
-        screen.screen_px.x > 0 && screen.screen_px.y > 0) {
+    if (screen.viewing_distance_mm > 0.0 && screen.screen_mm.x > 0.0 && screen.screen_mm.y > 0.0) {
         const glm::dvec2 image_mm =
             glm::dvec2(screen.image_px) * screen.screen_mm / glm::dvec2(screen.screen_px);
         stimuli.image_deg = {angle_deg(image_mm.x, screen.viewing_distance_mm),

@@ -204,3 +204,88 @@ TEST_CASE("motions that are no turn about the front are said in words", "[unit]"
           "the observer turned the object about the vertical, from -20 to 40 deg, from pose to pose 3 deg "
           "apart, and tilted it from -10 to 15 deg, 5 deg apart");
 }
+
+TEST_CASE("sizes in degrees are told only where every size of the screen is known", "[unit]") {
+    struct Unknown {
+        std::function<void(ScreenGeometry&)> change;
+        bool has_px_per_deg;
+    };
+    const std::vector<Unknown> unknowns{
+        {[](ScreenGeometry&) {}, true},
+        {[](ScreenGeometry& screen) { screen.viewing_distance_mm = 0.0; }, false},
+        {[](ScreenGeometry& screen) { screen.screen_mm.x = 0.0; }, false},
+        {[](ScreenGeometry& screen) { screen.screen_mm.y = 0.0; }, true}};
+    for (std::size_t i = 0; i < unknowns.size(); ++i) {
+        CAPTURE(i);
+        const SessionSetup setup =
+            setup_with([&](SessionHeader& header) { unknowns[i].change(header.display.screen); });
+        CHECK(setup.display.px_per_deg.has_value() == unknowns[i].has_px_per_deg);
+        CHECK(setup.stimuli.image_deg.has_value() == (i == 0));
+    }
+}
+
+TEST_CASE("pages of rigs are told once each, in the order of sittings", "[unit]") {
+    const auto rigs = [](const std::string& pages) {
+        return setup_with(as_it_is, pages.empty()
+                                        ? ""
+                                        : "INSERT INTO event (sitting, at_ns, kind, detail) VALUES " + pages)
+            .rig;
+    };
+    CHECK(rigs("").empty());
+    CHECK(rigs("(1, 5, 'rig page', 'begun: one')") == "begun: one");
+    CHECK(rigs("(1, 5, 'rig page', 'begun: two'), (1, 6, 'rig page', 'none: off'), (1, 7, 'rig page', "
+               "'begun: two'), "
+               "(1, 8, 'another', 'begun: three')") == "begun: two / none: off");
+}
+
+TEST_CASE("motions are told from the plainest turn on", "[unit]") {
+    // A turn about the front under a light that stands is in the columns, and needs no words.
+    const auto has_words = [](const std::function<void(Animation&)>& change) {
+        return !motions_with(change).empty();
+    };
+    CHECK_FALSE(has_words([](Animation&) {}));
+    CHECK(has_words([](Animation& motion) { motion.angle = Degrees{1.0}; }));
+    CHECK(has_words([](Animation& motion) { motion.light_turns = 1; }));
+    CHECK(has_words([](Animation& motion) { motion.kind = MotionKind::still; }));
+    const auto words = [](const std::function<void(Animation&)>& change) {
+        return motions_with(change).at(0);
+    };
+    CHECK(words([](Animation& motion) { motion.kind = MotionKind::still; }) == "the object stood");
+    CHECK(words([](Animation& motion) {
+              motion.kind = MotionKind::still;
+              motion.light_amplitude = Degrees{7.0};
+          }) == "the object stood and the light turned by 7 deg to each side, to and fro about the vertical "
+                "as a sine of "
+                "time, in 3 frames of one sweep at 25 Hz, for 2.52 s");
+    CHECK(words([](Animation& motion) { motion.light_turns = 1; }) ==
+          "the object moved: 12.5 deg to each side, and the light once all the way round, counter-clockwise, "
+          "in 3 "
+          "frames at 25 Hz, for 2.52 s");
+    CHECK(words([](Animation& motion) { motion.kind = MotionKind::observer; }) ==
+          "the observer turned the object about the vertical, all round, from pose to pose 2 deg apart");
+    const SessionSetup two = setup_with([](SessionHeader& header) {
+        header.animations.push_back(header.animations.front());
+        header.animations.back().kind = MotionKind::still;
+        header.motions = {{.id = "one"}, {.id = "two"}};
+        header.poses.of_motion.push_back(header.poses.of_motion.front());
+    });
+    CHECK(two.stimuli.motions.size() == 2);
+}
+
+TEST_CASE("a session that knows of no stimulus says nothing of them, and names who presented", "[unit]") {
+    const SessionSetup setup = setup_with(
+        [](SessionHeader& header) {
+            header.stimuli.clear();
+            header.maps.clear();
+            for (RecordedObject& object : header.objects)
+                object.mesh_file.clear();
+        },
+        "INSERT INTO event (sitting, at_ns, kind, detail) VALUES (1, 5, 'gaze imported', 'gaze of A; trials "
+        "of B; more')");
+    CHECK(setup.presenter == "B");
+    CHECK(setup.gaze.origin == GazeOrigin::imported);
+    CHECK(setup.materials.empty());
+    CHECK(setup.tasks.empty());
+    CHECK(setup.stimuli.frame_count == StimulusSetup{}.frame_count);
+    CHECK(setup.stimuli.motions.empty());
+}
