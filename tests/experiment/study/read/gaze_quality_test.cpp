@@ -176,3 +176,67 @@ TEST_CASE("of several trials numbers add up, precisions have medians, accuracies
     CHECK(all.missed_refreshes == 1);
     CHECK(all.off_plan == 7.0);
 }
+
+TEST_CASE("two samples have a rate, and five in a fixation a precision", "[unit]") {
+    CHECK(*gaze_quality(samples_at(250.0, 2), {}, screen).rate_hz == Approx(250.0));
+    CHECK_FALSE(gaze_quality(samples_at(250.0, 1), {}, screen).rate_hz);
+    // All of one time have none.
+    std::vector<PlacedSample> at_once(3);
+    CHECK_FALSE(gaze_quality(at_once, {}, screen).rate_hz);
+    std::vector<PlacedSample> samples = samples_at(250.0, 12);
+    for (std::size_t i = 0; i < samples.size(); ++i)
+        samples[i].gaze.y_px += i % 2 == 0 ? 0.0 : 0.5 * screen.px_per_deg_at_centre();
+    const auto precision = [&](int last) {
+        return gaze_quality(samples, std::array{event_of(GazeEvent::Kind::fixation, samples, 3, last)},
+                            screen);
+    };
+    CHECK_FALSE(precision(6).rms_s2s_deg);
+    CHECK_FALSE(precision(6).sd_deg);
+    CHECK(*precision(7).rms_s2s_deg == Approx(0.5).epsilon(0.01));
+    // Ups and downs of 1/2 about a line through five: the squares about their mean are 0.3, none goes with
+    // time.
+    CHECK(*precision(7).sd_deg == Approx(std::sqrt(0.3 / 3.0)).epsilon(0.01));
+    // With all of them lost but one in two there is no step from one to the next.
+    for (std::size_t i = 0; i < samples.size(); i += 2)
+        samples[i].has_gaze = false;
+    CHECK_FALSE(precision(11).rms_s2s_deg);
+}
+
+TEST_CASE("scatter is about a line of its own in each fifth of a second", "[unit]") {
+    // Gaze goes to the right for 0.2 s, down for as long, and back.
+    std::vector<PlacedSample> samples = samples_at(100.0, 60);
+    for (int i = 0; i < 60; ++i) {
+        ScreenPoint& gaze = samples[static_cast<std::size_t>(i)].gaze;
+        gaze.x_px += i < 20 ? 2.0 * i : i < 40 ? 60.0 : 120.0 - 3.0 * (i - 40);
+        gaze.y_px += i < 20 ? 0.0 : i < 40 ? 1.0 * (i - 20) : 20.0;
+    }
+    const std::array events{event_of(GazeEvent::Kind::fixation, samples, 0, 59)};
+    CHECK(*gaze_quality(samples, events, screen).sd_deg == Approx(0.0).margin(1e-6));
+    // A stretch of fewer than five samples at the end is none.
+    samples.resize(43);
+    for (std::size_t i = 40; i < 43; ++i)
+        samples[i].gaze.y_px += 40.0 * static_cast<double>(i);
+    const std::array shorter{event_of(GazeEvent::Kind::fixation, samples, 0, 42)};
+    CHECK(*gaze_quality(samples, shorter, screen).sd_deg == Approx(0.0).margin(1e-6));
+}
+
+TEST_CASE("blinks take as many lost samples as there are, and nothing that was seen", "[unit]") {
+    std::vector<PlacedSample> samples = samples_at(1000.0, 100);
+    for (std::size_t i = 40; i < 50; ++i)
+        samples[i].has_gaze = false;
+    // Two events on the same samples, as of two eyes.
+    const std::array events{event_of(GazeEvent::Kind::blink, samples, 38, 55),
+                            event_of(GazeEvent::Kind::blink, samples, 40, 49),
+                            event_of(GazeEvent::Kind::saccade, samples, 40, 49)};
+    const StudyQuality quality = gaze_quality(samples, events, screen);
+    CHECK(quality.blinks == 2);
+    CHECK(quality.lost_in_blinks == 10);
+    CHECK(quality.lost == 0);
+    // Missed refreshes of all are not known where those of one are not.
+    StudyQuality known, unknown;
+    known.missed_refreshes = 3;
+    unknown.missed_refreshes.reset();
+    CHECK(quality_of_all(std::array<const StudyQuality*, 2>{&known, &known}).missed_refreshes == 6);
+    CHECK_FALSE(
+        quality_of_all(std::array<const StudyQuality*, 3>{&known, &unknown, &known}).missed_refreshes);
+}

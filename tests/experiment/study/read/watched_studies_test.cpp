@@ -34,6 +34,20 @@ std::string by_mouse_at(const SessionHeader& header, const ScreenPoint& place) {
 const SurfaceFor surface_of_ball = [](const SessionRecord&, std::size_t, const ViewedObject&) {
     return &maps_of_ball();
 };
+
+/// A ball seen everywhere in the middle, without a mesh.
+class MiddleOnly final : public SurfaceLookup {
+  public:
+    std::optional<SurfacePoint> surface_at(PoseIndex, glm::dvec2) const override {
+        SurfacePoint point;
+        point.position = {1.0, -50.0, 2.0};
+        point.part = 1;
+        point.depth = 400.0;
+        return point;
+    }
+    bool goes_on(PoseIndex, glm::ivec2, glm::ivec2) const override { return true; }
+};
+
 const StudyProgress without_progress = [](std::string_view, int, int) {};
 
 } // namespace
@@ -282,4 +296,71 @@ TEST_CASE("sessions read alone and joined have the answers of all, and trials th
     }
     CHECK(joined.sessions[0].events == whole.sessions[0].events);
     CHECK_FALSE(whole.sessions[0].events.empty());
+}
+
+TEST_CASE("ready-made maps without a mesh give places, and surfaces without parts no areas", "[unit]") {
+    const TemporaryFolder root;
+    const std::vector<fs::path> sessions{watched_session(root.path(), ball_header("P1"))};
+    const MiddleOnly middle;
+    const ReadStudy ready_made = read_study(
+        sessions, [&](const SessionRecord&, std::size_t, const ViewedObject&) { return &middle; }, {},
+        without_progress);
+    const StudyObject& object = ready_made.results.objects.at(0);
+    CHECK(object.remark ==
+          "Of ball there are ready-made maps and no mesh: fixations have places but there are no "
+          "maps on the surface.");
+    CHECK(object.mesh == nullptr);
+    CHECK(object.mm_per_unit);
+    CHECK(object.mm_per_deg);
+    CHECK(object.shown_size);
+    CHECK(ready_made.results.exposures.empty());
+    CHECK(ready_made.surfaces.at(0).geometry == nullptr);
+    CHECK(std::ranges::count(ready_made.results.remarks, object.remark) == 1);
+    for (const StudyFixation& fixation : ready_made.results.fixations) {
+        CHECK(fixation.position == glm::dvec3(1.0, -50.0, 2.0));
+        CHECK_FALSE(fixation.triangle);
+        CHECK(fixation.evidence.empty());
+    }
+    // The mesh's own parts are those of the study, whatever the session says; one part is no area.
+    const test::CastScene plain(test::icosphere(50.0, 2), turning_ball().angles, {160, 150}, 0.2);
+    const CoordinateMaps maps = plain.maps();
+    const StudyResults whole =
+        read_study(
+            sessions, [&](const SessionRecord&, std::size_t, const ViewedObject&) { return &maps; }, {},
+            without_progress)
+            .results;
+    CHECK(whole.objects[0].part_names == plain.mesh.part_names);
+    CHECK(whole.objects[0].mesh->positions.size() == plain.mesh.positions.size());
+    CHECK(whole.objects[0].remark == "ball has no named areas: there are no shares of its parts.");
+    // Without a known screen there are no millimetres, but a surface.
+    SessionHeader unknown = ball_header("P2");
+    unknown.display.screen.viewing_distance_mm = 0.0;
+    const ReadStudy without_scale = studied({watched_session(root.path(), unknown)});
+    CHECK_FALSE(without_scale.results.objects[0].mm_per_unit);
+    REQUIRE(without_scale.surfaces[0].geometry);
+    CHECK(without_scale.surfaces[0].coarse == nullptr);
+    CHECK(without_scale.surfaces[0].areas_mm2.size() == maps_of_ball().mesh().positions.size());
+    CHECK(without_scale.surfaces[0].pixel_seconds.size() == maps_of_ball().mesh().positions.size());
+    CHECK(without_scale.results.exposures.empty());
+    CHECK(without_scale.results.fixations[0].evidence.empty());
+    CHECK_FALSE(without_scale.results.fixations[0].spread_mm);
+}
+
+TEST_CASE("evidence takes each trial's own accuracy, and fixations that missed the surface by as much",
+          "[unit]") {
+    const TemporaryFolder root;
+    std::vector<fs::path> sessions;
+    for (const char* const observer : {"P1", "P2", "P3", "P4"})
+        sessions.push_back(watched_session(root.path(), ball_header(observer)));
+    const StudyResults results = studied(sessions).results;
+    REQUIRE(results.fixations.size() == 36);
+    // The first trial's tracker was off by 0.3 degrees, that of the others by 0.5: the same place tells more.
+    const auto told = [&](std::size_t fixation) { return results.fixations[fixation].evidence.at(1); };
+    CHECK(told(1).inside > told(4).inside);
+    CHECK(told(1).inside == Approx(told(10).inside).epsilon(1e-9));
+    CHECK(told(4).inside == Approx(told(7).inside).epsilon(1e-9));
+    for (std::size_t i = 0; i < 36; ++i)
+        CHECK(results.fixations[i].evidence.empty() == (i % 3 == 2)); // those are 70 units away
+    CAPTURE(told(0).inside, told(0).elsewhere, told(1).inside, told(1).elsewhere);
+    CHECK(told(1).inside > 100.0 * told(1).elsewhere);
 }
