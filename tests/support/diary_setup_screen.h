@@ -25,7 +25,10 @@ class DiarySetupScreen final : public SetupScreen {
             on_target();
         return now();
     }
-    SessionTime clear() override { return now(); }
+    SessionTime clear() override {
+        ++cleared;
+        return now();
+    }
     void show_camera(const CameraImage& image) override {
         diary.push_back(fmt::format("camera {}x{} {}", image.width_px, image.height_px, image.title));
         camera = image;
@@ -56,6 +59,7 @@ class DiarySetupScreen final : public SetupScreen {
     CameraImage camera;
     std::function<void()> on_target, on_wait;
     bool cancelled = false;
+    int cleared = 0; ///< times
 
   private:
     ScreenGeometry geometry_;
