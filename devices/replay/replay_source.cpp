@@ -83,8 +83,10 @@ std::optional<ReplayedTrial> ReplaySource::attempt_at(int trial, int number) con
         replayed.onset = clock->to_other(found->outcome.presentation_onset);
     if (found->has_outcome())
         replayed.drift = found->outcome.drift;
-    replayed.object = id_at(record_->header().objects, found->trial.stimulus.object);
-    replayed.material = id_at(record_->header().materials, found->trial.stimulus.material);
+    if (!imported_) {
+        replayed.object = id_at(record_->header().objects, found->trial.stimulus.object);
+        replayed.material = id_at(record_->header().materials, found->trial.stimulus.material);
+    }
     record_->read_samples(*found, 4096, [&](std::span<const GazeSample> samples) {
         replayed.items.insert(replayed.items.end(), samples.begin(), samples.end());
     });

@@ -66,8 +66,10 @@ std::optional<ClockPair> ReplayTracker::read_clocks() noexcept {
 }
 
 void ReplayTracker::start_recording() {
-    if (!is_told_trials_)
+    if (!is_told_trials_) {
         trial_ = 0;
+        attempts_[0] = 1;
+    }
     load();
     if (trial_ && !replayed_)
         missing_.insert(*trial_);

@@ -7,6 +7,7 @@
 
 #include "experiment/base/error.h"
 #include "tests/devices/eyelink/eyelink_bench.h"
+#include "tests/support/counted_clock.h"
 
 using namespace overt;
 using namespace overt::test;
@@ -14,22 +15,14 @@ using namespace std::chrono_literals;
 
 namespace {
 
-/// Goes only where it is set, or waited for.
-class HandClock final : public Clock {
-  public:
-    SessionTime time;
-    SessionTime now() const noexcept override { return time; }
-    void wait_until(SessionTime until) noexcept override { time = std::max(time, until); }
-};
-
 /// A set-up whose functions are called here and not by the library.
 struct CalledSetup {
     StandIn stand_in;
     EyelinkLibrary library{stand_in.path};
     bool is_open = library->open_eyelink_connection(0) == 0; ///< the link stands
-    HandClock clock;
+    CountedClock clock;
     DiarySetupScreen screen{clock};
-    EyelinkSetup setup{library, &screen, Degrees{0.5}, clock, SessionTime(10s)};
+    EyelinkSetup setup{library, &screen, Degrees{0.5}, clock, SessionTime(110s)};
 };
 
 struct KeyEvent {
@@ -152,7 +145,7 @@ TEST_CASE("a key comes to the EyeLink's library as an event of its form, with wh
           "[unit]") {
     CalledSetup called;
     CHECK_FALSE(asked_key(called.setup));
-    CHECK(called.clock.time == SessionTime(2ms)); // it asks again and again
+    CHECK(called.clock.waits == std::vector<SessionDuration>{2ms}); // it asks again and again
     SetupKey key{SetupKey::Kind::character, U'a'};
     const auto given = [&] {
         called.screen.keys = {key};
@@ -186,14 +179,14 @@ TEST_CASE("an EyeLink's dialogue ends when its time is over, its link breaks or 
     const KeyEvent terminate{1, 1, 0x7FFF, 0, 0};
     CalledSetup called;
     SECTION("its time is over") {
-        called.clock.time = SessionTime(10s) - 1ns - 2ms; // it waits 2 ms for a key
+        called.clock.time = SessionTime(110s) - 1ns - 2ms; // it waits 2 ms for a key
         CHECK_FALSE(asked_key(called.setup));
         CHECK(asked_key(called.setup) == terminate);
         CHECK(called.setup.is_out_of_time());
         CHECK_NOTHROW(called.setup.check());
     }
     SECTION("exactly then") {
-        called.clock.time = SessionTime(10s) - 2ms;
+        called.clock.time = SessionTime(110s) - 2ms;
         CHECK(asked_key(called.setup) == terminate);
     }
     SECTION("the link breaks") {
@@ -226,12 +219,12 @@ TEST_CASE("a check of drift without a set-up screen draws nothing, gives no key 
     StandIn stand_in;
     const EyelinkLibrary library(stand_in.path);
     REQUIRE(library->open_eyelink_connection(0) == 0);
-    HandClock clock;
-    EyelinkSetup setup(library, nullptr, Degrees{0.5}, clock, SessionTime(1s));
+    CountedClock clock;
+    EyelinkSetup setup(library, nullptr, Degrees{0.5}, clock, SessionTime(101s));
     CHECK(setup.draw_target(1, 2) == 0);
     CHECK(setup.beep(0) == 0);
     CHECK_FALSE(asked_key(setup));
-    clock.time = SessionTime(1s);
+    clock.time = SessionTime(101s);
     CHECK(asked_key(setup) == KeyEvent{1, 1, 0x1B, 0, 0x1B});
     CHECK(setup.is_out_of_time());
 }

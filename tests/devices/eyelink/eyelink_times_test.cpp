@@ -5,6 +5,7 @@
 
 #include "experiment/base/error.h"
 #include "tests/devices/eyelink/eyelink_bench.h"
+#include "tests/support/counted_clock.h"
 #include "tests/support/temporary_folder.h"
 
 using namespace overt;
@@ -12,19 +13,6 @@ using namespace overt::test;
 using namespace std::chrono_literals;
 
 namespace {
-
-/// Each reading takes `reading`; waiting goes to the instant that is waited for.
-class CountedClock final : public Clock {
-  public:
-    mutable SessionTime time{100s};
-    SessionDuration reading{};
-    std::vector<SessionDuration> waits;
-    SessionTime now() const noexcept override { return time += reading; }
-    void wait_until(SessionTime until) noexcept override {
-        waits.push_back(until - time);
-        time = std::max(time, until);
-    }
-};
 
 struct TimedBench {
     explicit TimedBench(std::string file = OVERT_STAND_IN_EYELINK, bool tells_modes = true)
