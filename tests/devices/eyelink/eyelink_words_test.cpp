@@ -212,3 +212,51 @@ TEST_CASE("a validation's sentence tells mean and largest error, or nothing", "[
     CHECK_FALSE(eyelink_validation("ERROR -0.1 avg. 0.8 max"));
     CHECK_FALSE(eyelink_validation("ABORTED"));
 }
+
+TEST_CASE(
+    "an EyeLink's file takes the last two letters or digits, in capitals, and seconds to the base of 36",
+    "[unit]") {
+    using namespace std::chrono;
+    const sys_seconds begin = sys_days(year(2020) / January / 1);
+    CHECK(eyelink_file_name("", begin) == "00000000");
+    CHECK(eyelink_file_name("x", begin) == "0X000000");
+    CHECK(eyelink_file_name("observer_az", begin) == "AZ000000");
+    CHECK(eyelink_file_name("AZ", begin) == "AZ000000");
+    CHECK(eyelink_file_name("0-9", begin) == "09000000");
+    CHECK(eyelink_file_name("p@[`{/:", begin) == "0P000000"); // the neighbours of letters and digits
+    CHECK(eyelink_file_name("ab", begin + seconds(35)) == "AB00000Z");
+    CHECK(eyelink_file_name("ab", begin + seconds(36)) == "AB000010");
+    CHECK(eyelink_file_name("ab", begin + seconds(36 * 36 * 36 * 36 * 36)) == "AB100000");
+}
+
+TEST_CASE("numbers of an EyeLink's sentences are taken to their bounds", "[unit]") {
+    CHECK(eyelink_validation("ERROR 0.0 avg. 0.0 max"));
+    CHECK(eyelink_validation("ERROR 0.5 avg. 0.5 max"));
+    CHECK_FALSE(eyelink_validation("ERROR 0.6 avg. 0.5 max"));
+    CHECK_FALSE(eyelink_validation("ERROR -0.1 avg. 0.5 max"));
+    CHECK_FALSE(eyelink_validation("ERROR x avg. 0.5 max"));
+    CHECK(eyelink_targets("CAL HV1 R") == 1);
+    CHECK_FALSE(eyelink_targets("CAL HV0 R"));
+    CHECK_FALSE(eyelink_targets("CAL HVx R"));
+    CHECK(eyelink_drift("OFFSET 0.0 deg").value().value == 0.0);
+    CHECK_FALSE(eyelink_drift("OFFSET -0.1 deg"));
+    CHECK_FALSE(eyelink_drift("OFFSET"));
+    const auto modes = eyelink_modes("0R 1B, 100000 100001\r\n2000 x");
+    REQUIRE(modes.size() == 3);
+    CHECK((modes[0].rate_hz == 1 && modes[0].can_both_eyes));
+    CHECK((modes[1].rate_hz == 100'000 && !modes[1].can_both_eyes));
+    CHECK(modes[2].rate_hz == 2000);
+    TrackerWish wish;
+    wish.rate_hz = 1.0;
+    CHECK(eyelink_grant(modes, wish).rate_hz == 1);
+    wish.rate_hz = 0.0;
+    CHECK(eyelink_grant(modes, wish).rate_hz == 1); // none is as slow
+    wish.rate_hz = 2000.0;
+    wish.both_eyes = true;
+    CHECK(eyelink_grant(modes, wish).rate_hz == 1);
+    CHECK(eyelink_grant({}, wish).rate_hz == 1000);
+    CHECK(eyelink_grant({}, wish).both_eyes);
+    for (const auto& [told, is_same] :
+         {std::pair{"10.5", true}, {"9.5", true}, {"10.6", false}, {"9.4", false}})
+        CHECK(eyelink_means_same("10", told) == is_same);
+}

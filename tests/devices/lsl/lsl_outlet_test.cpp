@@ -158,3 +158,66 @@ TEST_CASE("what is sent on is stamped with when it was measured, and not with wh
     CHECK(std::abs(stamps_s[1] - measured_s) < 20.0);
     CHECK(std::abs(stamps_s[2] - measured_s) < 20.0);
 }
+
+TEST_CASE("a relayed stream says what it is, channel by channel", "[unit]") {
+    LslBench bench;
+    auto tracker = std::make_unique<ScriptedTracker>();
+    LslGazeRelay relay(std::move(tracker), load_lsl(LslBench::library()), "s01", bench.clock);
+    TrackerWish wish;
+    wish.both_eyes = true;
+    relay.connect(wish);
+    FakeStream& stream = *bench.fake().sent.back();
+    CHECK(stream.type == "Gaze");
+    CHECK(stream.source == "overt gaze s01");
+    CHECK(stream.channels == 9);
+    CHECK(stream.format == 2);
+    std::string told;
+    for (const FakeXml& about : stream.desc.children) {
+        told += about.name + (about.text.empty() ? "" : "=" + about.text) + "\n";
+        for (const FakeXml& channel : about.children) {
+            CHECK(channel.name == "channel");
+            for (const FakeXml& property : channel.children)
+                told += " " + property.name + "=" + property.text;
+            told += "\n";
+        }
+    }
+    std::string wanted = "manufacturer=Scripted\nmodel=model 7\nchannels\n";
+    const auto channel = [&](const std::string& label, const std::string& eye, const char* type,
+                             const char* unit) {
+        wanted += fmt::format(" label={} eye={} type={} unit={} coordinate_system=screen\n", label, eye, type,
+                              unit);
+    };
+    for (const std::string eye : {"left", "right"}) {
+        channel(eye + "_x", eye, "ScreenX", "pixels");
+        channel(eye + "_y", eye, "ScreenY", "pixels");
+        channel(eye + "_pupil", eye, "Diameter", "tracker");
+        channel(eye + "_confidence", eye, "Confidence", "");
+    }
+    channel("tracker_time", "both", "Time", "seconds");
+    CHECK(told == wanted);
+}
+
+TEST_CASE("of two eyes of a relayed tracker each value stands in its own channel", "[unit]") {
+    LslBench bench;
+    auto tracker = std::make_unique<ScriptedTracker>();
+    SampleDetail left, right;
+    left.eye = Eye::left;
+    left.sampled_at = right.sampled_at = tracker_time(2500);
+    left.confidence = 0.25f;
+    right.eye = Eye::right;
+    right.confidence = 0.5f;
+    SampleDetail late = left;
+    late.sampled_at = tracker_time(2600); // of another sample
+    late.confidence = 0.125f;
+    tracker->reads = {{sample_of(Eye::left, 2500, ScreenPoint{1.0, 2.0}, 3.0f), left,
+                       sample_of(Eye::right, 2500, ScreenPoint{4.0, 5.0}, 6.0f), right, late}};
+    LslGazeRelay relay(std::move(tracker), load_lsl(LslBench::library()), "s01", bench.clock);
+    TrackerWish wish;
+    wish.both_eyes = true;
+    relay.connect(wish);
+    KeptItems items;
+    CHECK(relay.read(items, SessionTime()) == RecordingState::running);
+    const FakeStream& stream = *bench.fake().sent.back();
+    REQUIRE(stream.pushed.size() == 1);
+    CHECK(stream.pushed[0].values == std::vector<double>{1.0, 2.0, 3.0, 0.25, 4.0, 5.0, 6.0, 0.5, 0.0025});
+}

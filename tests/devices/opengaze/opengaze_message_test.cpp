@@ -329,3 +329,58 @@ TEST_CASE("a server's time that goes back goes on in session time, and ticks cou
     later.time_s = 1.09; // too short to say
     CHECK_FALSE(proven(5'090));
 }
+
+TEST_CASE("of a mark's text all printable characters stay but those of the language itself", "[unit]") {
+    for (int code = 1; code < 256; ++code) {
+        const std::string text{'a', static_cast<char>(code), 'b'};
+        const bool stays = code >= 0x20 && code <= 0x7E &&
+                           std::string_view("\"'<>&").find(static_cast<char>(code)) == std::string_view::npos;
+        CAPTURE(code);
+        CHECK(opengaze_text(text) == (stays ? text : "a b"));
+    }
+}
+
+TEST_CASE(
+    "marks wait for one and a half intervals, are cut to what a value holds, and leave out one at a time",
+    "[unit]") {
+    using namespace std::chrono_literals;
+    OpenGazeMarks marks;
+    marks.begin(10ms);
+    CHECK(marks.add("a", SessionTime(1s)) == "a");
+    CHECK(marks.add("b", SessionTime(1s + 15ms)) == "a | b");
+    CHECK(marks.add("c", SessionTime(1s + 30ms + 1ns)) == "c");
+    marks.borne("something else");
+    CHECK(marks.add("d", SessionTime(1s + 31ms)) == "c | d");
+    marks.borne("c | d");
+    marks.borne(""); // an empty one bears nothing
+    CHECK(marks.add(std::string(241, 'x'), SessionTime(1s + 32ms)) == std::string(240, 'x'));
+    CHECK(marks.add("e", SessionTime(1s + 33ms)) == "e"); // the first of what is no frame goes
+    CHECK(marks.others_left_out() == 1);
+    CHECK(marks.frames_left_out() == 0);
+    // Exactly what a value holds: 236 letters, a blank, a bar, a blank and another letter.
+    CHECK(marks.add(std::string(236, 'y'), SessionTime(1s + 34ms)) == "e | " + std::string(236, 'y'));
+    CHECK(marks.add("FRAME 1", SessionTime(1s + 35ms)) == "e | " + std::string(236, 'y'));
+    CHECK(marks.frames_left_out() == 1);
+    CHECK(marks.add("!V x", SessionTime(1s + 36ms)) == "e | " + std::string(236, 'y'));
+    CHECK(marks.others_left_out() == 2);
+}
+
+TEST_CASE("a told frequency is proven over a tenth of a second at least, and within 5 percent", "[unit]") {
+    OpenGazeRecord earlier, later;
+    const auto proves = [&](double seconds, double ticks) {
+        earlier.time_s = 8.0;
+        later.time_s = 8.0 + seconds;
+        earlier.ticks = 1000;
+        later.ticks = 1000 + static_cast<std::int64_t>(ticks);
+        return proven_tick_hz(1e6, earlier, later).has_value();
+    };
+    CHECK(proves(0.125, 125'000));
+    CHECK_FALSE(proves(0.0625, 62'500));
+    CHECK(proves(1.0, 1'049'000));
+    CHECK(proves(1.0, 951'000));
+    CHECK_FALSE(proves(1.0, 1'051'000));
+    CHECK_FALSE(proves(1.0, 949'000));
+    CHECK_FALSE(proves(-1.0, -1'000'000));
+    CHECK_FALSE(proven_tick_hz(0.0, earlier, later));
+    CHECK_FALSE(proven_tick_hz(-1e6, earlier, later));
+}

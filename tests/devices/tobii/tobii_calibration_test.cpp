@@ -166,3 +166,45 @@ TEST_CASE("escape, a closed display and a tracker that does not answer end a Tob
         CHECK(bench.said().back() == "leave");
     }
 }
+
+TEST_CASE("a Tobii's target is large at first, shrinks to its size, and what comes of it is heard",
+          "[unit]") {
+    Calibrating bench;
+    const auto beeps = [&] {
+        std::string all;
+        for (const std::string& each : bench.setup_screen.diary)
+            if (each.starts_with("beep "))
+                all += each.substr(5);
+        return all;
+    };
+    const auto beep = [](Beep which) { return std::to_string(static_cast<int>(which)); };
+    const std::string appears = beep(Beep::target_appears), good = beep(Beep::calibration_good),
+                      bad = beep(Beep::calibration_bad);
+    bench.calibrate();
+    CHECK(beeps() == appears + appears + appears + good);
+    std::vector<std::string> first;
+    for (int step = 10; step >= 0; --step)
+        first.push_back(
+            fmt::format("target 960 540 of {}", (1.0 + 0.1 * step) * bench.settings.target.value));
+    first.insert(first.begin() + 1, "beep " + appears);
+    REQUIRE(bench.setup_screen.diary.size() > 12);
+    for (std::size_t i = 0; i < 12; ++i) {
+        if (i == 1) {
+            CHECK(bench.setup_screen.diary[i] == first[i]);
+            continue;
+        }
+        double told = 0.0, wanted = 0.0;
+        REQUIRE(std::sscanf(bench.setup_screen.diary[i].c_str(), "target 960 540 of %lf", &told) == 1);
+        REQUIRE(std::sscanf(first[i].c_str(), "target 960 540 of %lf", &wanted) == 1);
+        CHECK(told == Approx(wanted));
+    }
+    bench.setup_screen.diary.clear();
+    bench.library.tell("cannot_measure_once_at", "100 100");
+    bench.calibrate();
+    CHECK(beeps() == appears + appears + bad + appears + appears + good);
+    bench.setup_screen.diary.clear();
+    bench.library.set("calibration", 0);
+    bench.calibrate();
+    CHECK(beeps() == appears + appears + appears + bad);
+    CHECK(bench.setup_screen.cleared >= 3); // nothing is left on it
+}
