@@ -84,7 +84,6 @@ RecordedAnswer AnswerSink::finish(SessionTime onset, const std::string& fault) {
         } catch (const RecordError& failure) {
             answer_.fault = failure.what();
         }
-        file_.reset();
     }
     try {
         answer_.sha256 = hash_of_file(folder_ / answer_.file);

@@ -55,7 +55,6 @@ void TobiiInbox::close(const TobiiLibrary& library, TobiiEyeTracker* tracker) no
     library.unsubscribe_from_time_sync(tracker, &on_time_sync);
     library.unsubscribe_from_notifications(tracker, &on_notification);
     library.unsubscribe_from_stream_errors(tracker, &on_stream_error);
-    forget_news();
     for (TobiiTimeSync sync; next(sync);) {
     }
 }

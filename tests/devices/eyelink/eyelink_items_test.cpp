@@ -198,3 +198,49 @@ TEST_CASE("items of an EyeLink that are cut off or of other kinds are passed ove
     decoder.take(static_cast<EyelinkItem>(-1), sample.bytes, kept);
     CHECK(kept.items.empty());
 }
+
+TEST_CASE("a saccade of an EyeLink has an amplitude where both its ends and their resolutions are known",
+          "[unit]") {
+    const auto amplitude_without = [](int missing) {
+        EyelinkDecoder decoder(EyelinkEyes::right, 1000.0);
+        KeptItems kept;
+        ItemBytes item = eye_item(6, 1, 100, 140);
+        // From (100, 200) to (130, 240): 30 px at 10, and 40 px at 20 px to a degree.
+        const std::pair<std::size_t, float> values[] = {{28, 100.0f}, {32, 200.0f}, {48, 130.0f},
+                                                        {52, 240.0f}, {96, 8.0f},   {100, 12.0f},
+                                                        {104, 15.0f}, {108, 25.0f}};
+        for (int i = 0; i < 8; ++i)
+            item.at(values[i].first, i == missing ? missing_value : values[i].second);
+        decoder.take(EyelinkItem::saccade_end, item.bytes, kept);
+        return kept.all<TrackerEvent>().at(0).amplitude_deg;
+    };
+    REQUIRE(amplitude_without(-1));
+    CHECK(*amplitude_without(-1) == Approx(std::hypot(3.0, 2.0)));
+    for (int missing = 0; missing < 8; ++missing) {
+        CAPTURE(missing);
+        CHECK_FALSE(amplitude_without(missing));
+    }
+}
+
+TEST_CASE("an item of an EyeLink that is cut off by a byte tells nothing, and a whole one all", "[unit]") {
+    for (const auto& [kind, size] :
+         {std::pair{EyelinkItem::fixation_end, 114u}, {EyelinkItem::button, 8u}, {EyelinkItem::input, 8u}}) {
+        EyelinkDecoder decoder(EyelinkEyes::right, 1000.0);
+        KeptItems kept;
+        ItemBytes item = eye_item(8, 1, 100, 140);
+        if (kind != EyelinkItem::fixation_end)
+            item.at<std::uint32_t>(0, 77).at<std::uint16_t>(6, 0x8181); // buttons 1 and 8 went down
+        decoder.take(kind, std::span(item.bytes).first(size - 1), kept);
+        CHECK(kept.items.empty());
+        decoder.take(kind, std::span(item.bytes).first(size), kept);
+        CHECK(kept.items.size() == (kind == EyelinkItem::button ? 2u : 1u));
+        for (const TrackerButton& button : kept.all<TrackerButton>())
+            CHECK((button.is_down && us(button.at) == 77'000));
+        if (kind == EyelinkItem::button) {
+            CHECK(kept.all<TrackerButton>()[0].number == 1);
+            CHECK(kept.all<TrackerButton>()[1].number == 8);
+        }
+        if (kind == EyelinkItem::input)
+            CHECK(kept.all<TrackerInput>()[0].value == 0x8181);
+    }
+}

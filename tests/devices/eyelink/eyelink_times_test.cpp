@@ -43,7 +43,9 @@ TEST_CASE("an EyeLink's host has 50 ms to be idle, its last samples 100 ms and i
     CHECK(std::ranges::count(bench.clock.waits, SessionDuration(50ms)) == 1);
     CHECK(std::ranges::all_of(bench.clock.waits, [](auto wait) { return wait == 1ms || wait == 50ms; }));
     bench.clock.waits.clear();
+    CHECK(bench.library.ask("stand_in_offline") == 1);
     driver.start();
+    CHECK(bench.library.ask("stand_in_offline") == 2);
     CHECK(bench.clock.waits == std::vector<SessionDuration>{50ms});
     bench.clock.waits.clear();
     driver.stop();
@@ -52,10 +54,14 @@ TEST_CASE("an EyeLink's host has 50 ms to be idle, its last samples 100 ms and i
     CHECK(bench.clock.waits.size() == 1);
     const auto said = bench.library.said();
     CHECK(std::ranges::count(said, "stop") == 1);
+    CHECK(bench.library.ask("stand_in_offline") == 3);
+    driver.drift_check({1, 1});
+    CHECK(bench.library.ask("stand_in_offline") == 4);
     bench.clock.waits.clear();
     const TemporaryFolder folder;
     CHECK(driver.finish(folder.path().string(), {}).size() == 1);
     CHECK(bench.clock.waits == std::vector<SessionDuration>{500ms});
+    CHECK(bench.library.ask("stand_in_offline") == 5);
 }
 
 TEST_CASE(

@@ -32,7 +32,7 @@ double begun_us = 0.0;
 std::int64_t given = 0; // samples of this recording
 unsigned char item[128];
 i16 item_bytes = 0;
-int times_asked = 0;
+int times_asked = 0, times_offline = 0;
 
 double number(const char* name, double otherwise) {
     const auto found = numbers.find(name);
@@ -200,6 +200,7 @@ void stand_in_reset() {
     said.clear();
     link = 0;
     recording = false;
+    times_offline = 0;
     hooks = {};
     hooks2 = {};
     uses_hooks2 = false;
@@ -274,7 +275,11 @@ i16 close_data_file() {
     said.emplace_back("file closed");
     return 0;
 }
-void set_offline_mode() { recording = false; }
+void set_offline_mode() {
+    recording = false;
+    ++times_offline;
+}
+int stand_in_offline() { return times_offline; }
 i16 do_tracker_setup() {
     has_left_dialogue = false;
     if (uses_hooks2)

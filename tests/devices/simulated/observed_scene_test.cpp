@@ -1,3 +1,5 @@
+#include <numbers>
+
 #include <catch2/catch.hpp>
 
 #include "devices/simulated/observed_scene.h"
@@ -74,4 +76,37 @@ TEST_CASE("a row's light comes after the vertical blank by the latency and its s
     CHECK(to_seconds(scene.frame_period(0)) == Approx(1.0 / 30.0));
     scene.refresh_hz = 119.88; // four refreshes to a frame all the same
     CHECK(to_seconds(scene.frame_period(0)) == Approx(4.0 / 119.88));
+}
+
+TEST_CASE("slots of another size see the views of their size, and steps that show for longer are told",
+          "[unit]") {
+    Protocol protocol;
+    protocol.tasks = {{"free", "Look."}};
+    protocol.views.resize(2);
+    protocol.slot_entries.resize(2);
+    protocol.slots.resize(2);
+    protocol.slots[1].size = 1;
+    StepSettings step;
+    step.kind = StepKind::show;
+    step.ends_by_answer = true;
+    protocol.tasks[0].steps = {step};
+    protocol.screens.response_max_s = 33.0;
+    ObservedScene scene = make_observed_scene(protocol, {}, ScreenGeometry{});
+    CHECK(scene.slots.size() == 2);
+    CHECK(scene.slot_views == std::vector<int>{0, 2});
+    CHECK(scene.longest_step_s == 33.0);
+    CHECK(scene.longest_s() == 33.0);
+    scene.views = 4;
+    Stimulus stimulus;
+    stimulus.object = 3;
+    stimulus.view = 1;
+    CHECK(scene.index_of({stimulus, 0}) == 13);
+    CHECK(scene.index_of({stimulus, 1}) == 15);
+    protocol.tasks[0].steps[0].kind = StepKind::blank;
+    CHECK(make_observed_scene(protocol, {}, ScreenGeometry{}).longest_step_s == 0.0);
+    protocol.slot_entries.clear();
+    CHECK(make_observed_scene(protocol, {}, ScreenGeometry{}).slots.empty());
+    CHECK(px_per_deg_at_centre(scene.screen).x ==
+          Approx(std::tan(std::numbers::pi / 180.0) * scene.screen.viewing_distance_mm *
+                 scene.screen.screen_px.x / scene.screen.screen_mm.x));
 }

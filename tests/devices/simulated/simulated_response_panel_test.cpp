@@ -103,3 +103,32 @@ TEST_CASE("answers differ between trials and repeat with the seed", "[unit]") {
     CHECK(texts.size() > 4);
     CHECK(times.size() == 30);
 }
+
+TEST_CASE("a place is pointed at from where the eye is then, counted from the middle of the screen",
+          "[unit]") {
+    Sitting sitting(8, test::without_wandering());
+    Protocol protocol;
+    protocol.tasks.emplace_back().id = "free";
+    const SimulatedAnswers answers(protocol, 8);
+    SimulatedResponsePanel panel(sitting.clock, sitting.observer, {}, &answers);
+    Screen screen;
+    screen.kind = Screen::Kind::target;
+    screen.target_place = ScreenPoint{1200.0, 300.0};
+    sitting.observer.screen_shown(screen, sitting.clock.now());
+    sitting.clock.wait_until(sitting.clock.now() + std::chrono::seconds(2));
+    AnswerOffer offer;
+    offer.id = "where";
+    offer.kind = "point";
+    const Trial trial;
+    panel.await(Awaited::answer, sitting.clock.now(), &trial);
+    panel.offer({offer});
+    panel.window_opened(sitting.clock.now());
+    sitting.clock.wait_until(sitting.clock.now() + std::chrono::seconds(60));
+    const std::optional<ObserverInput> input = panel.next_input();
+    REQUIRE(input);
+    CHECK(input->kind == ObserverInput::Kind::pointer_moved);
+    // But for some pixels.
+    const ScreenPoint middle = sitting.observer.scene().screen.centre();
+    CHECK(std::abs(input->right_px - (1200.0 - middle.x_px)) < 25.0);
+    CHECK(std::abs(input->down_px - (300.0 - middle.y_px)) < 25.0);
+}

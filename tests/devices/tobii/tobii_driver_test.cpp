@@ -210,6 +210,8 @@ TEST_CASE("of several trackers of Tobii's one is named, by serial number or addr
     bench.settings.device = "tet-tcp://10.0.0.8";
     CHECK_THROWS_WITH(bench.connect(), Contains("no eye tracker at tet-tcp://10.0.0.8") &&
                                            Contains("error 204: the connection failed"));
+    bench.settings.device = "tet-tcp://nothing";
+    CHECK_THROWS_WITH(bench.connect(), Contains("no eye tracker at tet-tcp://nothing"));
     bench.settings.device = "SER9";
     CHECK_THROWS_WITH(bench.connect(), Contains("No eye tracker of Tobii's SER9") && Contains("SER1 at"));
     bench.settings.device = "";

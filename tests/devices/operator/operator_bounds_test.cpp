@@ -1,0 +1,260 @@
+/// How much of each the operator's socket takes and gives, one more than that, and in which words it says so.
+#include <thread>
+
+#include <catch2/catch.hpp>
+
+#include <fmt/format.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include "devices/operator/operator_client.h"
+#include "devices/operator/operator_server.h"
+#include "devices/operator/operator_socket.h"
+#include "experiment/base/error.h"
+#include "tests/support/temporary_folder.h"
+
+using namespace overt;
+using namespace overt::test;
+using namespace std::chrono_literals;
+
+namespace {
+
+struct Served {
+    explicit Served(std::size_t ring = 8192) {
+        OperatorServer::Options options;
+        options.socket = folder.path() / "s";
+        options.facts.protocol = "small";
+        options.ring_capacity = ring;
+        options.tell = [this](const std::string& words) {
+            const std::lock_guard lock(mutex);
+            told.push_back(words);
+        };
+        server.emplace(std::move(options));
+    }
+    /// The words that the server tells, once there are so many.
+    std::vector<std::string> words(std::size_t count) {
+        for (int tries = 0; tries < 1000; ++tries) {
+            {
+                const std::lock_guard lock(mutex);
+                if (told.size() >= count)
+                    return told;
+            }
+            std::this_thread::sleep_for(5ms);
+        }
+        return told;
+    }
+    void push_event(const std::string& text) {
+        ViewNews news;
+        news.set_word("mark");
+        news.set_text(text);
+        server->push(news);
+    }
+
+    TemporaryFolder folder;
+    std::mutex mutex;
+    std::vector<std::string> told;
+    std::optional<OperatorServer> server;
+};
+
+/// A connection without a language.
+struct Raw {
+    explicit Raw(const Served& served) : socket(connect_to(SocketAddress(served.folder.path() / "s"))) {
+        REQUIRE(socket >= 0);
+    }
+    ~Raw() { ::close(socket); }
+    void send(const std::string& text) const {
+        REQUIRE(::send(socket, text.data(), text.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(text.size()));
+    }
+    /// Reads for so long; false once it was cut off.
+    bool read(std::chrono::milliseconds time) {
+        const auto until = std::chrono::steady_clock::now() + time;
+        std::array<char, 4096> bytes{};
+        do {
+            const ssize_t count = ::recv(socket, bytes.data(), bytes.size(), MSG_DONTWAIT);
+            if (count == 0 || (count < 0 && errno != EAGAIN))
+                return false;
+            if (count > 0)
+                received.append(bytes.data(), static_cast<std::size_t>(count));
+            else
+                std::this_thread::sleep_for(2ms);
+        } while (std::chrono::steady_clock::now() < until);
+        return true;
+    }
+    std::size_t lines() const { return static_cast<std::size_t>(std::ranges::count(received, '\n')); }
+    int socket;
+    std::string received;
+};
+
+std::string padded(std::string line, std::size_t size) {
+    line.insert(1, std::string(size - line.size(), ' '));
+    return line + "\n";
+}
+
+} // namespace
+
+TEST_CASE(
+    "a view that comes late is told the last hundred events, and of no trial what it was not told in one",
+    "[unit]") {
+    Served served;
+    for (int i = 0; i < 130; ++i)
+        served.push_event(fmt::format("event {}", i));
+    OperatorClient first(served.folder.path() / "s");
+    std::vector<std::string> heard;
+    for (int tries = 0; tries < 500 && (heard.empty() || heard.back() != "event 129"); ++tries) {
+        first.read(10ms);
+        for (const ViewedEvent& event : first.take_events())
+            heard.push_back(event.detail);
+    }
+    // It may have come while some of them were still on their way.
+    OperatorClient late(served.folder.path() / "s");
+    heard.clear();
+    for (int tries = 0; tries < 500 && (heard.empty() || heard.back() != "event 129"); ++tries) {
+        late.read(10ms);
+        for (const ViewedEvent& event : late.take_events())
+            heard.push_back(event.detail);
+    }
+    REQUIRE(heard.size() == 100);
+    CHECK(heard.front() == "event 30");
+    // Sixty-four commands wait; what comes beyond is refused in words.
+    for (int i = 0; i < 70; ++i)
+        REQUIRE(late.send(operator_command("note x").value()));
+    std::vector<ViewedEvent> refused;
+    for (int tries = 0; tries < 500 && refused.size() < 6; ++tries) {
+        late.read(10ms);
+        for (const ViewedEvent& event : late.take_events())
+            refused.push_back(event);
+    }
+    REQUIRE(refused.size() == 6);
+    for (const ViewedEvent& event : refused) {
+        CHECK(event.trial == -1);
+        CHECK(event.kind == "operator's view");
+        CHECK(event.detail == "note x: was not taken: too many commands wait");
+    }
+    OperatorCommand command;
+    int taken = 0;
+    while (served.server->next_command(command))
+        ++taken;
+    CHECK(taken == 64);
+}
+
+TEST_CASE("four views are served, the fifth is turned away, and who has not greeted makes room", "[unit]") {
+    Served served;
+    std::vector<std::unique_ptr<OperatorClient>> views;
+    for (int i = 0; i < 4; ++i)
+        views.push_back(std::make_unique<OperatorClient>(served.folder.path() / "s"));
+    for (const auto& view : views)
+        CHECK(view->read(100ms));
+    Raw fifth(served);
+    CHECK_FALSE(fifth.read(5s));
+    CHECK(fifth.received.empty());
+    CHECK(served.words(1) ==
+          std::vector<std::string>{"operator's view: 4 are open, and another was turned away"});
+    for (const auto& view : views)
+        CHECK(view->read(0ms));
+    views.pop_back();
+    Raw silent(served);
+    silent.read(100ms);
+    const OperatorClient next(served.folder.path() / "s"); // in the place of the silent one
+    CHECK_FALSE(silent.read(5s));
+}
+
+TEST_CASE(
+    "a command line holds 1024 bytes, and what is more, no command or another language is cut off in words",
+    "[unit]") {
+    Served served;
+    {
+        Raw view(served);
+        view.send(line_of_greeting() + padded("{\"command\":\"pause\"}", longest_command_line));
+        CHECK(view.read(100ms));
+        OperatorCommand command;
+        bool has_come = false;
+        for (int tries = 0; tries < 500 && !has_come; ++tries) {
+            has_come = served.server->next_command(command);
+            std::this_thread::sleep_for(2ms);
+        }
+        CHECK(has_come);
+        CHECK(command.key == ResponsePress::Key::pause);
+        view.send(padded("{\"command\":\"pause\"}", longest_command_line + 1));
+        CHECK_FALSE(view.read(5s));
+    }
+    const auto cut_off = [](const std::string& why) {
+        return "operator's view: a program " + why + ": it was cut off, and the session goes on";
+    };
+    {
+        Raw view(served);
+        view.send(line_of_greeting());
+        view.send(std::string(longest_command_line, 'x')); // may still end
+        CHECK(view.read(100ms));
+        view.send("y");
+        CHECK_FALSE(view.read(5s));
+    }
+    {
+        Raw view(served);
+        view.send(fmt::format("{{\"overt_watch\":{}}}\n", view_version + 1));
+        CHECK_FALSE(view.read(5s));
+    }
+    {
+        Raw view(served);
+        view.send(std::string(80, 'z') + "\n");
+        CHECK_FALSE(view.read(5s));
+    }
+    const std::vector<std::string> words = served.words(4);
+    REQUIRE(words.size() == 4);
+    CHECK_THAT(words[0], Catch::Contains("which is no command"));
+    CHECK(words[1] == cut_off("sent a line without an end"));
+    CHECK(words[2] == cut_off(fmt::format("speaks version {} of the language, this session version {}",
+                                          view_version + 1, view_version)));
+    CHECK(words[3] == cut_off("sent \"" + std::string(60, 'z') + "\", which is no command"));
+}
+
+TEST_CASE("where nothing is new a view is told the state now and then, and one that has not greeted nothing",
+          "[unit]") {
+    Served served;
+    const auto began = std::chrono::steady_clock::now();
+    Raw silent(served), greeted(served);
+    greeted.send(line_of_greeting());
+    greeted.read(400ms);
+    CameraImage image{192, 144, std::vector<std::byte>(4 * 192 * 144), "left"};
+    served.server->show_camera(image);
+    greeted.read(200ms);
+    silent.read(1ms);
+    CHECK(silent.lines() == 1); // what does not change
+    CHECK(greeted.lines() >= 3);
+    // That, the state once and each half second, and the image.
+    const auto half_seconds = (std::chrono::steady_clock::now() - began) / 500ms;
+    CHECK(greeted.lines() <= 4 + static_cast<std::size_t>(half_seconds));
+}
+
+TEST_CASE("a camera's image is sent whole up to its largest size, and beyond with every second pixel",
+          "[unit]") {
+    Served served;
+    OperatorClient client(served.folder.path() / "s");
+    const auto seen = [&](int width, int height) {
+        CameraImage image{width, height, {}, "eye"};
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x)
+                image.rgba.insert(image.rgba.end(), {std::byte(x), std::byte(y), std::byte(3), std::byte(4)});
+        for (int tries = 0; tries < 500; ++tries) {
+            served.server->show_camera(image);
+            client.read(10ms);
+            if (std::optional<ViewedCamera> camera = client.take_camera();
+                camera && camera->title == "eye" &&
+                (camera->rgb.size() == 3u * static_cast<std::size_t>(camera->width_px * camera->height_px)))
+                return *camera;
+        }
+        return ViewedCamera{};
+    };
+    ViewedCamera camera = seen(192, 144);
+    CHECK((camera.width_px == 192 && camera.height_px == 144));
+    CHECK((camera.rgb[3 * 191] == std::byte(191) && camera.rgb[3 * 192 + 1] == std::byte(1)));
+    for (int tries = 0; tries < 50 && camera.width_px != 97; ++tries)
+        camera = seen(193, 144);
+    CHECK((camera.width_px == 97 && camera.height_px == 72));
+    CHECK((camera.rgb[3] == std::byte(2) && camera.rgb[3 * 97 + 1] == std::byte(2)));
+    for (int tries = 0; tries < 50 && camera.height_px != 73; ++tries)
+        camera = seen(10, 145);
+    CHECK((camera.width_px == 5 && camera.height_px == 73));
+    for (int tries = 0; tries < 50 && camera.width_px != 1; ++tries)
+        camera = seen(1, 1);
+    CHECK((camera.width_px == 1 && camera.height_px == 1));
+}
