@@ -6,6 +6,7 @@
 
 #include "experiment/base/error.h"
 #include "experiment/record/asc/asc_import.h"
+#include "experiment/record/no_stimulus.h"
 
 namespace overt {
 
@@ -83,7 +84,7 @@ std::optional<ReplayedTrial> ReplaySource::attempt_at(int trial, int number) con
         replayed.onset = clock->to_other(found->outcome.presentation_onset);
     if (found->has_outcome())
         replayed.drift = found->outcome.drift;
-    if (!imported_) {
+    if (!knows_no_stimulus(record_->header())) {
         replayed.object = id_at(record_->header().objects, found->trial.stimulus.object);
         replayed.material = id_at(record_->header().materials, found->trial.stimulus.material);
     }

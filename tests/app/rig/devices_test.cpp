@@ -53,7 +53,7 @@ TEST_CASE("gaze on a surface of tags is gaze on the screen between their black b
 }
 
 TEST_CASE("each kind of tracker that needs no device can be made, and says its name", "[unit]") {
-    test::Sitting sitting(3);
+    test::SimulatedSitting sitting(3);
     Protocol protocol;
     int made = 0;
     for (const TrackerKind kind : all_kinds<TrackerKind>) {
@@ -87,7 +87,7 @@ TEST_CASE("a tracker that is hardware is refused in virtual time", "[unit]") {
 }
 
 TEST_CASE("a session asks the last response device that it uses, which asks the one before", "[unit]") {
-    test::Sitting sitting(3);
+    test::SimulatedSitting sitting(3);
     const Protocol protocol;
     const std::vector<ScriptedOperatorKey> keys;
     ResponseParts parts{protocol, sitting.clock, sitting.observer, nullptr, false, keys};
@@ -118,7 +118,7 @@ TEST_CASE("a session asks the last response device that it uses, which asks the 
 
 TEST_CASE("a tracker in the network is set as the protocol says", "[unit]") {
     SteadyClock clock;
-    test::Sitting sitting(3);
+    test::SimulatedSitting sitting(3);
     Protocol protocol;
     const auto made = [&](std::string_view kind) {
         protocol.tracker.kind = tracker_kind_called(kind);

@@ -1,6 +1,7 @@
 // Runs under umockdev-wrapper: hidapi finds, opens, asks, reads and loses HID devices by the calls that it
 // makes on any machine; what the kernel would answer is answered here.
 #include <array>
+#include <clocale>
 #include <cstring>
 #include <mutex>
 
@@ -11,6 +12,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include "devices/buttons/hid_box_search.h"
 #include "devices/buttons/iolab_box.h"
 #include "devices/hid/hid_driver.h"
 #include "devices/host/clocks.h"
@@ -241,4 +243,51 @@ TEST_CASE("an ioLab box answers through hidapi", "[unit]") {
     CHECK_FALSE(changes[1].is_down);
     CHECK_THROWS_WITH(open_hid("/dev/hidraw7", clock),
                       Catch::Contains("There is no HID device /dev/hidraw7"));
+}
+
+TEST_CASE("boxes on HID are found by their kind, and one by its numbers, its path or as the only ioLab box",
+          "[unit]") {
+    UmockdevBed bed;
+    const std::string before = std::setlocale(LC_CTYPE, nullptr);
+    REQUIRE(std::setlocale(LC_CTYPE, "C.UTF-8")); // by which the library reads names
+    const std::string name = "K\u00e4stchen \u20ac \U0001F441";
+    const std::vector<std::byte> plain = DescriptorText()
+                                             .item(0x04, 0xFF00, 2)
+                                             .open(1, 1)
+                                             .logical(0, 255)
+                                             .size(8, 8)
+                                             .usage(1)
+                                             .input(2)
+                                             .close()
+                                             .bytes;
+    HidrawNode keyboard(bed, 0, "046D", "C31C", name.c_str(), keyboard_descriptor());
+    HidrawNode iolab(bed, 1, "19BC", "0001", "USBBox", plain);
+    HidrawNode other(bed, 2, "19BC", "0002", "Other", plain);
+    const std::vector<std::string> found = hid_boxes_found();
+    std::setlocale(LC_CTYPE, before.c_str());
+    CHECK(found ==
+          std::vector<std::string>{"/dev/hidraw0 (046d:c31c " + name + "): kind hid, address 046d:c31c",
+                                   "/dev/hidraw1 (19bc:0001 USBBox): kind iolab"});
+    ButtonBoxSettings box;
+    box.id = "buttons";
+    CHECK(find_hid_box(box).path == "/dev/hidraw1");
+    box.address = "19bc:0002";
+    CHECK(find_hid_box(box).path == "/dev/hidraw2");
+    box.address = "/dev/hidraw0";
+    CHECK(find_hid_box(box).product_id == 0xC31C);
+    box.address = "19bc:0003";
+    CHECK_THROWS_WITH(find_hid_box(box),
+                      Catch::StartsWith("No HID device 19bc:0003 is plugged in. HID devices that are: "
+                                        "/dev/hidraw0 (046d:c31c") &&
+                          Catch::Contains(", /dev/hidraw1 (19bc:0001 USBBox), /dev/hidraw2"));
+    box.address = "somewhere";
+    CHECK_THROWS_WITH(find_hid_box(box),
+                      Catch::Contains("[[button_box]] \"buttons\": \"somewhere\" is no HID device"));
+}
+
+TEST_CASE("without any HID device it is said that there is none", "[unit]") {
+    UmockdevBed bed;
+    CHECK(hid_boxes_found().empty());
+    ButtonBoxSettings box;
+    CHECK_THROWS_WITH(find_hid_box(box), "No ioLab box is plugged in. HID devices that are: none.");
 }

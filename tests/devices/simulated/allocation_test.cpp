@@ -15,7 +15,7 @@
 using namespace overt;
 
 TEST_CASE("from the begin of a presentation to its last sample nothing is allocated", "[unit]") {
-    test::Sitting sitting(31);
+    test::SimulatedSitting sitting(31);
     SimulatedEyeTracker tracker(sitting.clock, sitting.observer, 31);
     SimulatedResponsePanel panel(sitting.clock, sitting.observer);
     const ObservedScene& scene = sitting.observer.scene();
@@ -101,7 +101,7 @@ TEST_CASE("a session that is watched allocates nothing for it in a presentation,
     options.ring_capacity = 256;
     OperatorServer server(std::move(options));
     VirtualClock clock;
-    test::Sitting sitting(31);
+    test::SimulatedSitting sitting(31);
     SimulatedResponsePanel silent(sitting.clock, sitting.observer);
     OperatorPanel panel(server, clock, silent);
     CountedLog record;

@@ -50,7 +50,7 @@ class Bench {
         return all;
     }
 
-    Sitting sitting{3};
+    SimulatedSitting sitting{3};
     FaultyTracker tracker;
     std::vector<double> arrivals; ///< of each item, in seconds since the recording began
     std::optional<double> state_changed_at;

@@ -11,7 +11,7 @@
 #include "tests/devices/simulated/sitting.h"
 
 using namespace overt;
-using test::Sitting;
+using test::SimulatedSitting;
 
 namespace {
 
@@ -101,7 +101,7 @@ TEST_CASE("simulated observers differ by the standard deviation that is stated, 
 TEST_CASE("an effect's spot gets its share of the fixations, the same spot of every observer", "[unit]") {
     std::map<std::uint64_t, glm::dvec3> middles;
     for (const std::uint64_t seed : {1u, 2u}) {
-        const Sitting plain(seed);
+        const SimulatedSitting plain(seed);
         ObservedScene scene = plain.observer.scene();
         scene.effects = {{.entries = entries(-1, 0), .spot_share = 0.3}};
         const double radius = GazeTargets::spot_radius * plain.mesh.bounds().extent().z;
@@ -141,7 +141,7 @@ TEST_CASE("an effect's spot gets its share of the fixations, the same spot of ev
 
 TEST_CASE("a spread of gaze prefers places far from the middle or near it, in head and body alike",
           "[unit]") {
-    const Sitting sitting(1);
+    const SimulatedSitting sitting(1);
     const ObservedScene scene = sitting.observer.scene();
     const GazeTargets targets(scene.objects[0], scene);
     const std::vector<std::string>& parts = sitting.mesh.part_names;

@@ -24,7 +24,7 @@ namespace {
 
 using Figures = std::vector<double>;
 
-void check_known(const Figures& found, const Figures& known) {
+void check_figures(const Figures& found, const Figures& known) {
     std::string all;
     for (const double number : found)
         all += fmt::format("{:.9g}, ", number);
@@ -183,10 +183,10 @@ TEST_CASE("what a simulated observer means to answer with a seed stays what it w
         }
         all.insert(all.end(), found.begin(), found.end());
     }
-    check_known(all, {135.355703, 5.8,   -118,  0,   130.147259, 0,          64.4, -53.6,
-                      132.962828, 122.4, -118,  0,   234.480685, 0,          64.4, -53.6,
-                      209.096205, 0,     579.2, 251, 0,          565.783042, 64.4, -53.6,
-                      109.6088,   128.4, -118,  0,   236,        0,          64.4, -53.6});
+    check_figures(all, {135.355703, 5.8,   -118,  0,   130.147259, 0,          64.4, -53.6,
+                        132.962828, 122.4, -118,  0,   234.480685, 0,          64.4, -53.6,
+                        209.096205, 0,     579.2, 251, 0,          565.783042, 64.4, -53.6,
+                        109.6088,   128.4, -118,  0,   236,        0,          64.4, -53.6});
 }
 
 TEST_CASE("the odd one out, and answers that are set or leaned, stay what they were with a seed", "[unit]") {
@@ -228,7 +228,7 @@ TEST_CASE("the odd one out, and answers that are set or leaned, stay what they w
         found[4] += weight * lean->slant.value;
         found[5] += weight * lean->tilt.value;
     }
-    check_known(found, {126.2, 49.0866483, 4708.8, 2693.8, 4840.64184, 19689.2472});
+    check_figures(found, {126.2, 49.0866483, 4708.8, 2693.8, 4840.64184, 19689.2472});
 }
 
 TEST_CASE("the keys and drags of a simulated observer stay what they were with a seed", "[unit]") {
@@ -301,25 +301,25 @@ TEST_CASE("the keys and drags of a simulated observer stay what they were with a
                 all += static_cast<double>(k + 1) * sums[k];
             found.push_back(all);
         }
-    check_known(found, {889.195953, 5379.74838, 74325.3859, 12682.3203, 215.425357, 6809.13783, 523.477377,
-                        4656.35772, 293214.742, 3019.56385, 881.665928, 5395.16871, 84317.0308, 12681.2656,
-                        215.267339, 6805.13458, 497.295611, 4657.72918, 285238.797, 3018.68923, 892.526595,
-                        448.6578,   84312.1791, 12681.8858, 215.652399, 6812.53692, 405.030438, 4657.30444,
-                        0,          3019.20351, 880.505116, 5415.76289, 60625.2546, 12680.7302, 215.1293,
-                        6813.63423, 320.120451, 4656.88759, 395077.389, 3018.24523, 892.484103, 448.6578,
-                        0,          12684.0542, 215.252366, 6808.94253, 350.490935, 4656.22197, 0,
-                        3021.00169, 890.116515, 5940.80933, 0,          12680.2797, 215.826236, 6807.56477,
-                        531.638969, 4655.79077, 374853.594, 3017.87168, 888.634565, 5966.11487, 69882.604,
-                        12681.744,  215.544673, 6808.44647, 341.194623, 4660.53544, 358378.405, 3019.08597,
-                        897.442334, 5968.80824, 65229.1185, 12681.3824, 215.11746,  6807.85243, 426.859145,
-                        4655.99635, 395160.011, 3018.78608});
+    check_figures(found, {889.195953, 5379.74838, 74325.3859, 12682.3203, 215.425357, 6809.13783, 523.477377,
+                          4656.35772, 293214.742, 3019.56385, 881.665928, 5395.16871, 84317.0308, 12681.2656,
+                          215.267339, 6805.13458, 497.295611, 4657.72918, 285238.797, 3018.68923, 892.526595,
+                          448.6578,   84312.1791, 12681.8858, 215.652399, 6812.53692, 405.030438, 4657.30444,
+                          0,          3019.20351, 880.505116, 5415.76289, 60625.2546, 12680.7302, 215.1293,
+                          6813.63423, 320.120451, 4656.88759, 395077.389, 3018.24523, 892.484103, 448.6578,
+                          0,          12684.0542, 215.252366, 6808.94253, 350.490935, 4656.22197, 0,
+                          3021.00169, 890.116515, 5940.80933, 0,          12680.2797, 215.826236, 6807.56477,
+                          531.638969, 4655.79077, 374853.594, 3017.87168, 888.634565, 5966.11487, 69882.604,
+                          12681.744,  215.544673, 6808.44647, 341.194623, 4660.53544, 358378.405, 3019.08597,
+                          897.442334, 5968.80824, 65229.1185, 12681.3824, 215.11746,  6807.85243, 426.859145,
+                          4655.99635, 395160.011, 3018.78608});
     // Several, one after the other.
     SimulatedKeys keys;
     keys.plan(answers, offers, judged_trial(5));
     keys.awaited(SessionTime(1s));
     keys.window_opened(SessionTime(2s));
-    check_known(sums_of(all_inputs(keys)),
-                {137, 3047.57482, 391.56, 119883.865, -279.308466, -480.526746, 9.44});
+    check_figures(sums_of(all_inputs(keys)),
+                  {137, 3047.57482, 391.56, 119883.865, -279.308466, -480.526746, 9.44});
 }
 
 TEST_CASE("how a simulated observer turns an object stays what it was with a seed", "[unit]") {
@@ -349,10 +349,10 @@ TEST_CASE("how a simulated observer turns an object stays what it was with a see
             const Figures sums = sums_of(inputs);
             found.insert(found.end(), sums.begin(), sums.end());
         }
-    check_known(found, {329, 7815.06752, 3600.54, 0,         94052.0178, -34742.4,    868.56,
-                        422, 12753.447,  5333.66, 0,         134845.182, -34132.4656, 1310.31,
-                        24,  249.69929,  40.2,    14805.692, 0,          0,           0,
-                        18,  165.665797, 29.34,   10235.841, 0,          0,           0});
+    check_figures(found, {329, 7815.06752, 3600.54, 0,         94052.0178, -34742.4,    868.56,
+                          422, 12753.447,  5333.66, 0,         134845.182, -34132.4656, 1310.31,
+                          24,  249.69929,  40.2,    14805.692, 0,          0,           0,
+                          18,  165.665797, 29.34,   10235.841, 0,          0,           0});
 }
 
 TEST_CASE("the voice and the words of a simulated observer stay what they were with a seed", "[unit]") {
@@ -368,7 +368,7 @@ TEST_CASE("the voice and the words of a simulated observer stay what they were w
         found[1] += value * value;
         found[2] += i < 1600 || i >= 7200 ? std::abs(value) : 0.0;
     }
-    Sitting sitting(41);
+    SimulatedSitting sitting(41);
     for (int i = 0; i < 6; ++i) {
         const SimulatedAnswer answer = sitting.observer.answer_to({i, i % 2, {}});
         found.push_back(to_seconds(answer.after));
@@ -377,12 +377,12 @@ TEST_CASE("the voice and the words of a simulated observer stay what they were w
         found.push_back(static_cast<double>(answer.text.size()));
         found.push_back(to_seconds(sitting.observer.reading_time(i)));
     }
-    check_known(found,
-                {16.834534,   15.8692154,  1.94106732,  3.21483094,  0.481432509, 2.91483094,  5,
-                 2.52014223,  4.92251494,  0.564539002, 4.62251494,  18,          2.82098098,  4.53516191,
-                 0.659596493, 4.23516191,  16,          1.83103301,  11.2404118,  0.661056385, 10.9404118,
-                 26,          2.21330188,  3.58870479,  0.733426264, 3.28870479,  5,           2.89225425,
-                 9.0033735,   0.316537937, 8.7033735,   18,          1.58867201});
+    check_figures(found,
+                  {16.834534,   15.8692154,  1.94106732,  3.21483094,  0.481432509, 2.91483094,  5,
+                   2.52014223,  4.92251494,  0.564539002, 4.62251494,  18,          2.82098098,  4.53516191,
+                   0.659596493, 4.23516191,  16,          1.83103301,  11.2404118,  0.661056385, 10.9404118,
+                   26,          2.21330188,  3.58870479,  0.733426264, 3.28870479,  5,           2.89225425,
+                   9.0033735,   0.316537937, 8.7033735,   18,          1.58867201});
 
     const TemporaryFolder folder;
     CountedClock clock;
@@ -411,9 +411,9 @@ TEST_CASE("the voice and the words of a simulated observer stay what they were w
     const RecordedAnswer answer = recording->result().value();
     CHECK(answer.trial == 4);
     CHECK(answer.fault.empty());
-    check_known({static_cast<double>(answer.samples), answer.onset_sample, answer.measured_rate_hz,
-                 1e3 * to_seconds(answer.onset_uncertainty), answer.peak_dbfs,
-                 answer.voice_onset ? to_seconds(*answer.voice_onset - said.voice_after) : -1.0,
-                 answer.voice_end ? to_seconds(*answer.voice_end - said.voice_until) : -1.0},
-                {32711, 3999.27315, 8000.78803, 0.224812, -3.4226057, 0.001592191, 6.2109e-05});
+    check_figures({static_cast<double>(answer.samples), answer.onset_sample, answer.measured_rate_hz,
+                   1e3 * to_seconds(answer.onset_uncertainty), answer.peak_dbfs,
+                   answer.voice_onset ? to_seconds(*answer.voice_onset - said.voice_after) : -1.0,
+                   answer.voice_end ? to_seconds(*answer.voice_end - said.voice_until) : -1.0},
+                  {32711, 3999.27315, 8000.78803, 0.224812, -3.4226057, 0.001592191, 6.2109e-05});
 }

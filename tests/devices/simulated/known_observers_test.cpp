@@ -10,7 +10,7 @@
 
 using namespace overt;
 using namespace std::chrono_literals;
-using test::Sitting;
+using test::SimulatedSitting;
 
 namespace {
 
@@ -138,7 +138,7 @@ Numbers truth_of(SimulatedObserver& observer, const Trial& trial, SessionTime on
 } // namespace
 
 TEST_CASE("a simulated observer and tracker give with a seed what they gave before", "[unit]") {
-    Sitting sitting(5);
+    SimulatedSitting sitting(5);
     SimulatedTrackerSettings settings;
     settings.rate_hz = 500.0;
     settings.both_eyes = true;
@@ -167,7 +167,7 @@ TEST_CASE("a simulated observer and tracker give with a seed what they gave befo
 }
 
 TEST_CASE("a simulated tracker that is not calibrated gives with a seed what it gave before", "[unit]") {
-    Sitting sitting(6);
+    SimulatedSitting sitting(6);
     SimulatedTrackerSettings settings;
     settings.uncalibrated = true;
     settings.eye = Eye::left;

@@ -70,7 +70,7 @@ TEST_CASE("what answers is read: keys with how long they are held, words, the mo
 }
 
 TEST_CASE("an observer's script answers at its own times, and leaves other keys what they are", "[unit]") {
-    Sitting sitting(31);
+    SimulatedSitting sitting(31);
     VirtualClock& clock = sitting.clock;
     SimulatedResponsePanel panel(clock, sitting.observer,
                                  {read_operator_key("response screen@2+0.5=press 7 for 0.3", 4),
@@ -98,7 +98,7 @@ TEST_CASE("an observer's script answers at its own times, and leaves other keys 
 
 TEST_CASE("a scripted key is pressed once, at its time in its phase, and its question is answered",
           "[unit]") {
-    Sitting sitting(31);
+    SimulatedSitting sitting(31);
     VirtualClock& clock = sitting.clock;
     SimulatedResponsePanel panel(clock, sitting.observer, {read_operator_key("stimulus@2+0.5=skip,2", 4)});
     const auto operators = [&](double seconds) {

@@ -10,14 +10,14 @@
 
 using namespace overt;
 using namespace std::chrono_literals;
-using test::Sitting;
+using test::SimulatedSitting;
 
 namespace {
 
 /// Shows to the simulated observer; keys are pressed when the `n`-th target is shown.
 class WatchedSetupScreen final : public SetupScreen {
   public:
-    explicit WatchedSetupScreen(Sitting& sitting) : sitting_(sitting) {}
+    explicit WatchedSetupScreen(SimulatedSitting& sitting) : sitting_(sitting) {}
     const ScreenGeometry& geometry() const override { return sitting_.observer.scene().screen; }
     SessionTime show_target(ScreenPoint place, Degrees) override {
         if (shown.empty() || !(shown.back() == place))
@@ -53,7 +53,7 @@ class WatchedSetupScreen final : public SetupScreen {
         sitting_.observer.screen_shown(screen, sitting_.clock.now());
         return sitting_.clock.now();
     }
-    Sitting& sitting_;
+    SimulatedSitting& sitting_;
     int looks_ = 0;
 };
 
@@ -67,7 +67,8 @@ SimulatedTrackerSettings uncalibrated(bool both_eyes = false) {
     return settings;
 }
 
-std::unique_ptr<CalibratedTracker> tracker_of(Sitting& sitting, const SimulatedTrackerSettings& settings,
+std::unique_ptr<CalibratedTracker> tracker_of(SimulatedSitting& sitting,
+                                              const SimulatedTrackerSettings& settings,
                                               const CalibrationSettings& calibration = {}) {
     return std::make_unique<CalibratedTracker>(
         std::make_unique<SimulatedEyeTracker>(sitting.clock, sitting.observer, 21, settings), sitting.clock,
@@ -75,7 +76,8 @@ std::unique_ptr<CalibratedTracker> tracker_of(Sitting& sitting, const SimulatedT
 }
 
 /// Mean place of what is recorded for half a second while a place is looked at.
-ScreenPoint measured_at(Sitting& sitting, EyeTracker& tracker, ScreenPoint place, Eye eye = Eye::right) {
+ScreenPoint measured_at(SimulatedSitting& sitting, EyeTracker& tracker, ScreenPoint place,
+                        Eye eye = Eye::right) {
     sitting.observer.screen_shown({.kind = Screen::Kind::target, .text = "", .target_place = place},
                                   sitting.clock.now());
     sitting.clock.wait_until(sitting.clock.now() + 500ms);
@@ -97,7 +99,7 @@ ScreenPoint measured_at(Sitting& sitting, EyeTracker& tracker, ScreenPoint place
     return {sum.x_px / count, sum.y_px / count};
 }
 
-double error_at(Sitting& sitting, EyeTracker& tracker, ScreenPoint place, Eye eye = Eye::right) {
+double error_at(SimulatedSitting& sitting, EyeTracker& tracker, ScreenPoint place, Eye eye = Eye::right) {
     return sitting.observer.scene()
         .screen.angle_between(measured_at(sitting, tracker, place, eye), place)
         .value;
@@ -107,7 +109,7 @@ double error_at(Sitting& sitting, EyeTracker& tracker, ScreenPoint place, Eye ey
 
 TEST_CASE("gaze that is far off before a calibration is right after it", "[unit]") {
     for (const int points : {9, 13}) {
-        Sitting sitting(31);
+        SimulatedSitting sitting(31);
         CalibrationSettings settings;
         settings.points = points;
         const auto tracker = tracker_of(sitting, uncalibrated(), settings);
@@ -136,7 +138,7 @@ TEST_CASE("gaze that is far off before a calibration is right after it", "[unit]
 }
 
 TEST_CASE("what a validation says is what it is: noise of its own, and both eyes", "[unit]") {
-    Sitting sitting(32, test::without_wandering());
+    SimulatedSitting sitting(32, test::without_wandering());
     const auto tracker = tracker_of(sitting, uncalibrated(true));
     WatchedSetupScreen setup_screen(sitting);
     const SetupOutcome outcome = tracker->set_up(setup_screen);
@@ -156,7 +158,7 @@ TEST_CASE("what a validation says is what it is: noise of its own, and both eyes
 }
 
 TEST_CASE("a target that was not looked at at first comes again", "[unit]") {
-    Sitting sitting(33);
+    SimulatedSitting sitting(33);
     const auto tracker = tracker_of(sitting, uncalibrated());
     WatchedSetupScreen setup_screen(sitting);
     const std::vector<ScreenPoint> layout = calibration_targets(9, 0.8, sitting.observer.scene().screen);
@@ -179,13 +181,13 @@ TEST_CASE("a target that was not looked at at first comes again", "[unit]") {
 TEST_CASE("an eye that is never seen, or never follows, calibrates nothing and hangs nothing", "[unit]") {
     ObserverSettings asleep;
     asleep.blinks_per_minute = 1e3;
-    Sitting sitting(34, asleep);
+    SimulatedSitting sitting(34, asleep);
     const auto tracker = tracker_of(sitting, uncalibrated());
     WatchedSetupScreen setup_screen(sitting);
     CHECK(tracker->set_up(setup_screen).kind == SetupOutcome::Kind::failed);
     CHECK(setup_screen.beeps.back() == Beep::calibration_bad);
 
-    Sitting staring(35);
+    SimulatedSitting staring(35);
     const auto second = tracker_of(staring, uncalibrated());
     WatchedSetupScreen ignored(staring);
     ignored.is_ignored = [](ScreenPoint) { return true; };
@@ -198,7 +200,7 @@ TEST_CASE("an eye that is never seen, or never follows, calibrates nothing and h
 TEST_CASE(
     "gaze that rests at one place for all targets is a failed calibration, after which the next can be good",
     "[unit]") {
-    Sitting sitting(34, test::without_wandering());
+    SimulatedSitting sitting(34, test::without_wandering());
     SimulatedTrackerSettings settings = uncalibrated();
     settings.noise_deg = 0.0;
     const auto tracker = tracker_of(sitting, settings);
@@ -214,7 +216,7 @@ TEST_CASE(
 }
 
 TEST_CASE("escape ends a calibration, backspace shows the target before again, space accepts", "[unit]") {
-    Sitting sitting(36);
+    SimulatedSitting sitting(36);
     CalibrationSettings by_key;
     by_key.accept = TargetAcceptance::key;
     const auto tracker = tracker_of(sitting, uncalibrated(), by_key);
@@ -264,7 +266,7 @@ TEST_CASE("who listens hears gaze as it is calibrated", "[unit]") {
         void measured(const GazeSample& sample) noexcept override { heard.push_back(sample); }
         std::vector<GazeSample> heard;
     };
-    Sitting sitting(31);
+    SimulatedSitting sitting(31);
     CalibratedTracker tracker(std::make_unique<Telling>(std::make_unique<SimulatedEyeTracker>(
                                   sitting.clock, sitting.observer, 21, uncalibrated())),
                               sitting.clock, {}, 21);

@@ -11,7 +11,7 @@
 
 using namespace overt;
 using namespace std::chrono_literals;
-using test::Sitting;
+using test::SimulatedSitting;
 
 namespace {
 
@@ -38,7 +38,7 @@ void append(std::vector<GazeSample>& all, const std::vector<GazeSample>& more) {
 }
 
 /// Records one trial, polled at each flip or only afterwards.
-std::vector<GazeSample> record(Sitting& sitting, SimulatedEyeTracker& tracker, const Trial& trial,
+std::vector<GazeSample> record(SimulatedSitting& sitting, SimulatedEyeTracker& tracker, const Trial& trial,
                                bool polled_at_flips = true) {
     std::vector<GazeSample> samples;
     tracker.start_recording();
@@ -65,7 +65,7 @@ Spread spread_of(const std::vector<double>& values) {
 }
 
 /// Measured minus true gaze along x, in degrees, of the samples with gaze.
-std::vector<double> errors_deg(const Sitting& sitting, const SimulatedEyeTracker& tracker,
+std::vector<double> errors_deg(const SimulatedSitting& sitting, const SimulatedEyeTracker& tracker,
                                const std::vector<GazeSample>& samples) {
     std::vector<double> errors;
     const double px_per_deg = px_per_deg_at_centre(sitting.observer.scene().screen).x;
@@ -80,7 +80,7 @@ std::vector<double> errors_deg(const Sitting& sitting, const SimulatedEyeTracker
 } // namespace
 
 TEST_CASE("a recording holds rate times duration samples, 500 us apart", "[unit]") {
-    Sitting sitting(1);
+    SimulatedSitting sitting(1);
     SimulatedEyeTracker tracker(sitting.clock, sitting.observer, 1, perfect());
     for (const SessionDuration length : {SessionDuration(1s), SessionDuration(2345ms + 500us)}) {
         sitting.clock.wait_until(sitting.clock.now() + 777us);
@@ -96,7 +96,7 @@ TEST_CASE("a recording holds rate times duration samples, 500 us apart", "[unit]
 }
 
 TEST_CASE("without noise the tracker gives the observer's gaze, and none while the eye is closed", "[unit]") {
-    Sitting sitting(2);
+    SimulatedSitting sitting(2);
     SimulatedEyeTracker tracker(sitting.clock, sitting.observer, 2, perfect());
     const std::vector<GazeSample> samples = record(sitting, tracker, {0, 0, {}});
     int closed = 0;
@@ -116,7 +116,7 @@ TEST_CASE("without noise the tracker gives the observer's gaze, and none while t
 }
 
 TEST_CASE("samples polled late are the samples polled in time", "[unit]") {
-    Sitting often(3), late(3);
+    SimulatedSitting often(3), late(3);
     SimulatedEyeTracker polled_often(often.clock, often.observer, 3),
         polled_late(late.clock, late.observer, 3);
     const std::vector<GazeSample> a = record(often, polled_often, {0, 0, {}}, true);
@@ -132,7 +132,7 @@ TEST_CASE("samples polled late are the samples polled in time", "[unit]") {
 }
 
 TEST_CASE("samples beyond the queue's capacity are lost, the oldest first, and counted", "[unit]") {
-    Sitting sitting(4);
+    SimulatedSitting sitting(4);
     SimulatedTrackerSettings settings = perfect();
     settings.queue_capacity = 1000;
     SimulatedEyeTracker tracker(sitting.clock, sitting.observer, 4, settings);
@@ -147,7 +147,7 @@ TEST_CASE("samples beyond the queue's capacity are lost, the oldest first, and c
 }
 
 TEST_CASE("a sample is delivered once its latency has passed", "[unit]") {
-    Sitting sitting(5);
+    SimulatedSitting sitting(5);
     SimulatedEyeTracker tracker(sitting.clock, sitting.observer, 5);
     tracker.start_recording();
     sitting.clock.wait_until(sitting.clock.now() + 100ms);
@@ -159,7 +159,7 @@ TEST_CASE("a sample is delivered once its latency has passed", "[unit]") {
 }
 
 TEST_CASE("noise and calibration error are as large as set", "[unit]") {
-    Sitting sitting(6);
+    SimulatedSitting sitting(6);
     SimulatedTrackerSettings settings;
     settings.noise_deg = 0.07;
     settings.accuracy_deg = 0.4;
@@ -185,7 +185,7 @@ TEST_CASE("noise and calibration error are as large as set", "[unit]") {
 
 TEST_CASE("noise across and along are of one size and independent, and so is each sample's of the next",
           "[unit]") {
-    Sitting sitting(8);
+    SimulatedSitting sitting(8);
     SimulatedTrackerSettings settings;
     settings.noise_deg = 0.2;
     settings.accuracy_deg = 0.0;
@@ -223,7 +223,7 @@ TEST_CASE("noise across and along are of one size and independent, and so is eac
 }
 
 TEST_CASE("gaze comes in tenths of a pixel", "[unit]") {
-    Sitting sitting(7);
+    SimulatedSitting sitting(7);
     SimulatedEyeTracker tracker(sitting.clock, sitting.observer, 7);
     tracker.start_recording();
     sitting.clock.wait_until(sitting.clock.now() + 100ms);
@@ -235,7 +235,7 @@ TEST_CASE("gaze comes in tenths of a pixel", "[unit]") {
 
 TEST_CASE("the drift of the tracker's clock comes out of the clock readings", "[unit]") {
     for (const double drift_ppm : {-80.0, 0.0, 40.0}) {
-        Sitting sitting(8);
+        SimulatedSitting sitting(8);
         SimulatedTrackerSettings settings;
         settings.clock_drift_ppm = drift_ppm;
         SimulatedEyeTracker tracker(sitting.clock, sitting.observer, 8, settings);
@@ -262,7 +262,7 @@ TEST_CASE("the drift of the tracker's clock comes out of the clock readings", "[
 }
 
 TEST_CASE("a sample's instant on the session clock comes back through the clock map", "[unit]") {
-    Sitting sitting(9);
+    SimulatedSitting sitting(9);
     SimulatedEyeTracker tracker(sitting.clock, sitting.observer, 9);
     std::vector<ClockPair> pairs;
     for (int i = 0; i < 8; ++i)
@@ -305,7 +305,7 @@ TEST_CASE("on a steady clock a recording is as whole as in virtual time", "[unit
 }
 
 TEST_CASE("a drift check measures the offset of the recording to come", "[unit]") {
-    Sitting sitting(11, test::without_wandering());
+    SimulatedSitting sitting(11, test::without_wandering());
     SimulatedEyeTracker tracker(sitting.clock, sitting.observer, 11);
     const ScreenPoint centre = sitting.observer.scene().screen.centre();
     for (int i = 0; i < 20; ++i) {
@@ -321,7 +321,7 @@ TEST_CASE("a drift check measures the offset of the recording to come", "[unit]"
 TEST_CASE("a drift check of an eye that stays closed finds nothing", "[unit]") {
     ObserverSettings asleep;
     asleep.blinks_per_minute = 1e3; // one after the other
-    Sitting sitting(12, asleep);
+    SimulatedSitting sitting(12, asleep);
     SimulatedEyeTracker tracker(sitting.clock, sitting.observer, 12);
     const DriftOutcome drift = tracker.drift_check(sitting.observer.scene().screen.centre());
     CHECK(drift.kind == DriftOutcome::Kind::no_eye);
@@ -329,7 +329,7 @@ TEST_CASE("a drift check of an eye that stays closed finds nothing", "[unit]") {
 }
 
 TEST_CASE("a validation reports errors as large as the set accuracy makes them", "[unit]") {
-    Sitting sitting(13);
+    SimulatedSitting sitting(13);
     SimulatedTrackerSettings settings;
     settings.accuracy_deg = 0.5;
     SimulatedEyeTracker tracker(sitting.clock, sitting.observer, 13, settings);
@@ -345,7 +345,7 @@ TEST_CASE("a validation reports errors as large as the set accuracy makes them",
 }
 
 TEST_CASE("a tracker with a rate that no tracker has is refused", "[unit]") {
-    Sitting sitting(14);
+    SimulatedSitting sitting(14);
     SimulatedTrackerSettings settings;
     settings.rate_hz = 0.0;
     CHECK_THROWS_AS(SimulatedEyeTracker(sitting.clock, sitting.observer, 1, settings), InputError);
@@ -354,7 +354,7 @@ TEST_CASE("a tracker with a rate that no tracker has is refused", "[unit]") {
 }
 
 TEST_CASE("gaze that is not calibrated is bent by a known way, which grows from the middle", "[unit]") {
-    Sitting sitting(4, test::without_wandering());
+    SimulatedSitting sitting(4, test::without_wandering());
     SimulatedTrackerSettings settings = perfect();
     settings.uncalibrated = true;
     SimulatedEyeTracker tracker(sitting.clock, sitting.observer, 4, settings);
@@ -377,7 +377,7 @@ TEST_CASE("gaze that is not calibrated is bent by a known way, which grows from 
 }
 
 TEST_CASE("pupils have about 1100 units, with two slow waves and even noise of up to four", "[unit]") {
-    Sitting sitting(5);
+    SimulatedSitting sitting(5);
     SimulatedEyeTracker tracker(sitting.clock, sitting.observer, 5, perfect());
     std::vector<double> off;
     for (int trial = 0; trial < 6; ++trial)
@@ -401,7 +401,7 @@ TEST_CASE("pupils have about 1100 units, with two slow waves and even noise of u
 
 TEST_CASE("a validation's targets are a grid of nine, and its errors those between gaze and target",
           "[unit]") {
-    Sitting sitting(6);
+    SimulatedSitting sitting(6);
     SimulatedTrackerSettings settings;
     settings.accuracy_deg = 0.4;
     SimulatedEyeTracker tracker(sitting.clock, sitting.observer, 6, settings);

@@ -8,20 +8,20 @@
 using namespace overt;
 using namespace std::chrono_literals;
 using test::degrees_between;
-using test::Sitting;
+using test::SimulatedSitting;
 
 namespace {
 
 constexpr SessionDuration sample_period = 500us;
 
-bool is_head(const Sitting& sitting, const SurfacePoint& point) {
+bool is_head(const SimulatedSitting& sitting, const SurfacePoint& point) {
     return sitting.mesh.part_names[point.part] == "head";
 }
 
 double distance_px(ScreenPoint a, ScreenPoint b) { return std::hypot(a.x_px - b.x_px, a.y_px - b.y_px); }
 
 /// Where a point of the object is on the screen in a frame.
-ScreenPoint shown_at(const Sitting& sitting, const SurfacePoint& point, AnimationFrameIndex frame) {
+ScreenPoint shown_at(const SimulatedSitting& sitting, const SurfacePoint& point, AnimationFrameIndex frame) {
     const ObservedScene& scene = sitting.observer.scene();
     const SceneView& view = scene.objects[0].scene;
     const glm::dmat4 turn = view.pose_at(scene.animations[0].object_in(frame)).world_from_object();
@@ -30,7 +30,7 @@ ScreenPoint shown_at(const Sitting& sitting, const SurfacePoint& point, Animatio
 }
 
 /// Casts the line of sight of a place on the screen at the object in a frame.
-std::optional<RayHit> cast(const Sitting& sitting, const RayCaster& caster, ScreenPoint place,
+std::optional<RayHit> cast(const SimulatedSitting& sitting, const RayCaster& caster, ScreenPoint place,
                            AnimationFrameIndex frame) {
     const ObservedScene& scene = sitting.observer.scene();
     const SceneView& view = scene.objects[0].scene;
@@ -38,7 +38,7 @@ std::optional<RayHit> cast(const Sitting& sitting, const RayCaster& caster, Scre
                                       view.pose_at(scene.animations[0].object_in(frame))));
 }
 
-template <class Visit> void for_each_sample(const Sitting& sitting, const Visit& visit) {
+template <class Visit> void for_each_sample(const SimulatedSitting& sitting, const Visit& visit) {
     const SessionTime end = sitting.onset() + 8s;
     for (SessionTime time = sitting.onset(); time < end; time += sample_period)
         visit(time);
@@ -47,7 +47,7 @@ template <class Visit> void for_each_sample(const Sitting& sitting, const Visit&
 } // namespace
 
 TEST_CASE("an observer's share of fixation time on the head is the task's", "[unit]") {
-    Sitting sitting(42);
+    SimulatedSitting sitting(42);
     for (const int task : {0, 1}) {
         double on_head_s = 0.0, in_all_s = 0.0;
         int fixations = 0;
@@ -72,7 +72,7 @@ TEST_CASE("an observer's share of fixation time on the head is the task's", "[un
 }
 
 TEST_CASE("the surface under the gaze gives the head's share back", "[unit]") {
-    Sitting sitting(43);
+    SimulatedSitting sitting(43);
     double on_head = 0.0, on_surface = 0.0, meant_for_head = 0.0;
     for (int trial = 0; trial < 8; ++trial) {
         sitting.present({trial, 0, {}});
@@ -90,7 +90,7 @@ TEST_CASE("the surface under the gaze gives the head's share back", "[unit]") {
 }
 
 TEST_CASE("halfway through a lit frame the eye is exactly on its target in that frame", "[unit]") {
-    Sitting sitting(44, test::without_wandering());
+    SimulatedSitting sitting(44, test::without_wandering());
     const RayCaster caster(sitting.mesh);
     const ObservedScene& scene = sitting.observer.scene();
     int met = 0;
@@ -121,7 +121,7 @@ TEST_CASE("halfway through a lit frame the eye is exactly on its target in that 
 }
 
 TEST_CASE("the surface under the gaze is that of the frame really lit, missed refreshes included", "[unit]") {
-    Sitting sitting(45, test::without_wandering());
+    SimulatedSitting sitting(45, test::without_wandering());
     const RayCaster caster(sitting.mesh);
     sitting.present({0, 0, {}}, {3, 100, 101, 102, 480, 700});
     int checked = 0, between_steps = 0;
@@ -152,7 +152,7 @@ TEST_CASE("the surface under the gaze is that of the frame really lit, missed re
 }
 
 TEST_CASE("what a fixation is meant for is visible in every frame lit meanwhile", "[unit]") {
-    Sitting sitting(46);
+    SimulatedSitting sitting(46);
     const RayCaster caster(sitting.mesh);
     const ObservedScene& scene = sitting.observer.scene();
     const SceneView& view = scene.objects[0].scene;
@@ -174,8 +174,8 @@ TEST_CASE("what a fixation is meant for is visible in every frame lit meanwhile"
 }
 
 TEST_CASE("the same seed looks at the same places and another seed elsewhere", "[unit]") {
-    Sitting one(7), same(7), other(8);
-    for (Sitting* sitting : {&one, &same, &other})
+    SimulatedSitting one(7), same(7), other(8);
+    for (SimulatedSitting* sitting : {&one, &same, &other})
         sitting->present({5, 0, {}});
     int alike = 0, compared = 0;
     for_each_sample(one, [&](SessionTime time) {
@@ -192,12 +192,12 @@ TEST_CASE("the same seed looks at the same places and another seed elsewhere", "
 }
 
 TEST_CASE("a trial's scanpath depends on the trial and not on those before it", "[unit]") {
-    Sitting in_order(9), out_of_order(9);
+    SimulatedSitting in_order(9), out_of_order(9);
     for (const int trial : {0, 1, 2})
         in_order.present({trial, 0, {}});
     for (const int trial : {2, 0})
         out_of_order.present({trial, 0, {}});
-    const auto targets = [](const Sitting& sitting, int trial) {
+    const auto targets = [](const SimulatedSitting& sitting, int trial) {
         std::vector<std::uint32_t> triangles;
         for (const ScriptedFixation& fixation : sitting.observer.script_of(trial)->fixations())
             triangles.push_back(fixation.target ? fixation.target->triangle : 0);
@@ -209,7 +209,7 @@ TEST_CASE("a trial's scanpath depends on the trial and not on those before it", 
 }
 
 TEST_CASE("saccades follow the main sequence and the gaze never jumps", "[unit]") {
-    Sitting sitting(47, test::without_wandering());
+    SimulatedSitting sitting(47, test::without_wandering());
     const ObservedScene& scene = sitting.observer.scene();
     int saccades = 0;
     double fastest_deg_per_s = 0.0;
@@ -246,7 +246,7 @@ TEST_CASE("saccades follow the main sequence and the gaze never jumps", "[unit]"
 }
 
 TEST_CASE("fixations last as long as set, about 250 ms", "[unit]") {
-    Sitting sitting(48);
+    SimulatedSitting sitting(48);
     std::vector<double> lengths_s;
     for (int trial = 0; trial < 40; ++trial) {
         sitting.present({trial, 0, {}});
@@ -301,7 +301,7 @@ TEST_CASE("the eye wanders by as much as set", "[unit]") {
 }
 
 TEST_CASE("before and after a presentation the observer looks at the middle of the screen", "[unit]") {
-    Sitting sitting(49, test::without_wandering());
+    SimulatedSitting sitting(49, test::without_wandering());
     const ScreenPoint centre = sitting.observer.scene().screen.centre();
     CHECK(sitting.observer.gaze_at(SessionTime(400ms)).place == centre);
     sitting.present({0, 0, {}});

@@ -7,10 +7,10 @@
 
 using namespace overt;
 using namespace std::chrono_literals;
-using test::Sitting;
+using test::SimulatedSitting;
 
 TEST_CASE("the observer presses a key at its response time, and again while that has no effect", "[unit]") {
-    Sitting sitting(21);
+    SimulatedSitting sitting(21);
     SimulatedResponsePanel panel(sitting.clock, sitting.observer);
     CHECK_FALSE(panel.poll().has_value());
     const Trial trial{3, 1, {}};
@@ -34,7 +34,7 @@ TEST_CASE("the observer presses a key at its response time, and again while that
 }
 
 TEST_CASE("a text is read for a while and answered with a key alone", "[unit]") {
-    Sitting sitting(22);
+    SimulatedSitting sitting(22);
     SimulatedResponsePanel panel(sitting.clock, sitting.observer);
     panel.await_response({0, 0, {}}, SessionTime());
     panel.await_key(SessionTime());
@@ -46,7 +46,7 @@ TEST_CASE("a text is read for a while and answered with a key alone", "[unit]") 
 }
 
 TEST_CASE("a simulated operator ends a pause, and not one that has ended by itself", "[unit]") {
-    Sitting sitting(24);
+    SimulatedSitting sitting(24);
     SimulatedResponsePanel panel(sitting.clock, sitting.observer);
     panel.entered(SessionPhase::pause, 0);
     sitting.clock.wait_until(SessionTime(6s));
@@ -63,7 +63,7 @@ TEST_CASE("a simulated operator ends a pause, and not one that has ended by itse
 
 TEST_CASE("a simulated operator says yes to what is asked five times, and then no until a new trial comes",
           "[unit]") {
-    Sitting sitting(25);
+    SimulatedSitting sitting(25);
     SimulatedResponsePanel panel(sitting.clock, sitting.observer);
     const auto said = [&] {
         const SessionTime since = sitting.clock.now();
@@ -86,7 +86,7 @@ TEST_CASE("a simulated operator says yes to what is asked five times, and then n
 }
 
 TEST_CASE("answers differ between trials and repeat with the seed", "[unit]") {
-    Sitting one(23), same(23);
+    SimulatedSitting one(23), same(23);
     std::set<std::string> texts;
     std::set<SessionDuration> times;
     for (int trial = 0; trial < 30; ++trial) {
@@ -106,7 +106,7 @@ TEST_CASE("answers differ between trials and repeat with the seed", "[unit]") {
 
 TEST_CASE("a place is pointed at from where the eye is then, counted from the middle of the screen",
           "[unit]") {
-    Sitting sitting(8, test::without_wandering());
+    SimulatedSitting sitting(8, test::without_wandering());
     Protocol protocol;
     protocol.tasks.emplace_back().id = "free";
     const SimulatedAnswers answers(protocol, 8);

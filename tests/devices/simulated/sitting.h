@@ -30,14 +30,14 @@ inline ObserverSettings without_wandering() {
     return settings;
 }
 
-class Sitting {
+class SimulatedSitting {
   public:
     Mesh mesh = bust();
     VirtualClock clock;
     SimulatedObserver observer;
     std::vector<FlipRecord> flips; ///< of the last presentation
 
-    explicit Sitting(std::uint64_t seed, const ObserverSettings& settings = {})
+    explicit SimulatedSitting(std::uint64_t seed, const ObserverSettings& settings = {})
         : observer(scene_with(mesh), seed, settings) {}
 
     /// Shows one trial, with a refresh missed before each refresh that `missed` names. Calls `at_flip` after

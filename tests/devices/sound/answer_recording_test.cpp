@@ -218,7 +218,7 @@ TEST_CASE("a recorder that is killed leaves a file that can be heard up to there
 }
 
 TEST_CASE("the voice of a simulated observer comes out of its file where it was put", "[unit]") {
-    Sitting sitting(31);
+    SimulatedSitting sitting(31);
     for (const double noise_dbfs : {-75.0, -60.0, -48.0}) {
         for (int trial = 0; trial < 4; ++trial) {
             CAPTURE(noise_dbfs, trial);
@@ -246,7 +246,7 @@ TEST_CASE("the voice of a simulated observer comes out of its file where it was 
 }
 
 TEST_CASE("a voice that is too loud, and none at all, are said", "[unit]") {
-    Sitting sitting(31);
+    SimulatedSitting sitting(31);
     for (const bool is_loud : {true, false}) {
         const TemporaryFolder folder;
         SimulatedSoundSettings settings;

@@ -39,7 +39,13 @@ TEST_CASE("a serial chip without a port of the system is found and speaks both w
     const auto line = open_serial_line("usb:0403:f1c0", clock, 19200);
     CHECK(chip.last_request(3) == std::pair(0x809C, 0)); // its speed
     CHECK(chip.last_request(9).first == 1);              // a millisecond until it hands over
-    CHECK(chip.last_request(4).first == 8);
+    CHECK(chip.last_request(4) == std::pair(8, 1));
+    CHECK(chip.last_request(9) == std::pair(1, 1));
+    CHECK(chip.last_request(2) == std::pair(0, 1));      // no flow control
+    CHECK(chip.last_request(1) == std::pair(0x0303, 1)); // both lines up
+    CHECK(chip.last_request(0) == std::pair(2, 1));      // what was leaving is gone, at last
+    CHECK(line->name() == "usb:0403:f1c0");
+    CHECK(line->loss().empty());
     std::array<char, 8> none{};
     CHECK(line->read(none, clock.now() - 1ms) == 0);
     CHECK(line->read(none, clock.now() + 20ms) == 0);

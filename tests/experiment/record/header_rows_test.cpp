@@ -165,6 +165,9 @@ TEST_CASE("rows of a header that name what is not there are refused with the tab
     const auto [change, told] = GENERATE(table<const char*, const char*>({
         {"UPDATE schedule_slot SET trial = 4 WHERE trial = 3", "schedule_slot: there is no trial 4"},
         {"UPDATE schedule_level SET trial = 4 WHERE trial = 3", "there is no trial 4"},
+        {"PRAGMA ignore_check_constraints = ON; UPDATE schedule_answer SET role = 'other' WHERE trial = 2",
+         "table schedule_answer: there is no such role of a trial"},
+        {"UPDATE schedule_answer SET trial = 4 WHERE trial = 3", "there is no trial 4"},
         {"UPDATE animation_frame SET motion = 2 WHERE motion = 1", "there is no motion 2"},
         {"UPDATE animation_frame SET pose = 3 WHERE pose = 2", "there is no pose 3"},
         {"UPDATE camera SET object = 2 WHERE object = 1", "there is no object 2"},
@@ -227,4 +230,31 @@ TEST_CASE("a session file that is there is not written over", "[unit]") {
     const std::string before = text_of(file);
     CHECK_THROWS_WITH(create_session_file(file, crowded_header()), Contains("is not overwritten"));
     CHECK(text_of(file) == before);
+}
+
+TEST_CASE("an import of an earlier program, which has a motion that nothing went through, has none",
+          "[unit]") {
+    const TemporaryFolder root;
+    const auto duration_read = [&](bool knows_stimulus, bool has_one_pose) {
+        const fs::path file = root.path() / "a.sqlite";
+        fs::remove(file);
+        SessionHeader header = example_header();
+        header.animations = {Animation()};
+        header.poses = distinct_poses(header.animations.front());
+        if (!knows_stimulus) {
+            header.stimuli.clear();
+            header.maps.clear();
+            for (RecordedObject& object : header.objects)
+                object.mesh_file.clear();
+        }
+        create_session_file(file, header);
+        if (has_one_pose)
+            SQLite::Database(file.string(), SQLite::OPEN_READWRITE)
+                .exec("DELETE FROM animation_frame WHERE frame > 0; DELETE FROM pose WHERE pose > 0");
+        return read_from(file).animations.at(0).duration_s;
+    };
+    CHECK(duration_read(false, true) == 0.0);
+    CHECK(duration_read(false, false) == Animation().duration_s);
+    CHECK(duration_read(true, true) == Animation().duration_s);
+    CHECK(duration_read(true, false) == Animation().duration_s);
 }

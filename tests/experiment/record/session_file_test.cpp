@@ -1,6 +1,9 @@
 #include "experiment/record/session_file.h"
 
 #include <SQLiteCpp/SQLiteCpp.h>
+#include <optional>
+#include <thread>
+
 #include <catch2/catch.hpp>
 #include <sqlite3.h>
 
@@ -208,10 +211,12 @@ TEST_CASE("tables of sessions whose stimuli were of fewer lists get a column for
     const fs::path file = root.path() / session_file_name;
     create_session_file(file, example_header());
     SQLite::Database database(file.string(), SQLite::OPEN_READWRITE);
-    database.exec("CREATE TABLE early (object INTEGER, material INTEGER, light INTEGER); INSERT INTO early "
-                  "VALUES (1, 1, 1); "
-                  "CREATE TABLE of_objects (object INTEGER); CREATE TABLE of_materials (material INTEGER); "
-                  "ALTER TABLE flip DROP COLUMN step; ALTER TABLE step DROP COLUMN places; DROP TABLE slot");
+    database.exec(
+        "CREATE TABLE early (object INTEGER, material INTEGER, light INTEGER); INSERT INTO early "
+        "VALUES (1, 1, 1); "
+        "CREATE TABLE of_objects (object INTEGER); CREATE TABLE of_materials (material INTEGER); "
+        "ALTER TABLE flip DROP COLUMN step; ALTER TABLE step DROP COLUMN places; DROP TABLE slot; "
+        "DROP TABLE missed_refresh; DROP TABLE given_answer; DROP TABLE shown_probe; DROP TABLE swap_modes");
     complete_session_tables(database);
     complete_session_tables(database); // once more changes nothing
     const auto columns = [&](const std::string& table) {
@@ -226,6 +231,12 @@ TEST_CASE("tables of sessions whose stimuli were of fewer lists get a column for
           "1000");
     CHECK(columns("of_objects") == "object ");
     CHECK(columns("of_materials") == "material ");
+    CHECK(columns("missed_refresh") ==
+          "trial_id refresh_in_trial refresh planned shown pose vertical_blank_ns "
+          "uncertainty_ns ");
+    CHECK(columns("swap_modes") == "trial_id flipped copied suboptimal_copied skipped ");
+    CHECK(columns("given_answer").starts_with("trial_id n id item kind is_missed "));
+    CHECK(columns("shown_probe").starts_with("trial_id "));
     CHECK(columns("slot") == "slot id title left_px top_px width_px height_px ");
     CHECK_THAT(columns("flip"), Contains(" step "));
     CHECK_THAT(columns("step"), Contains(" places "));
@@ -254,4 +265,25 @@ TEST_CASE("what lies where SQLite's own files may be is a file of the session's 
     const TemporaryFolder root;
     CHECK_THROWS_AS(open_session_file(root.path() / "none", SessionFileUse::read), InputError);
     CHECK_THROWS_AS(open_session_file(root.path() / "none", SessionFileUse::write), RecordError);
+}
+
+TEST_CASE("a log is folded as soon as whoever reads the file is done, or not within the patience", "[unit]") {
+    const TemporaryFolder root;
+    const fs::path file = root.path() / session_file_name;
+    create_session_file(file, example_header());
+    SQLite::Database database = open_session_file(file, SessionFileUse::write);
+    database.exec("PRAGMA journal_mode = WAL");
+    database.exec("INSERT INTO block VALUES (0, 'one')");
+    std::optional<SQLite::Database> reader(open_session_file(file, SessionFileUse::read));
+    std::optional<SQLite::Statement> rows(std::in_place, *reader, "SELECT id FROM block");
+    REQUIRE(rows->executeStep());
+    CHECK_FALSE(fold_log(database, std::chrono::milliseconds(0)));
+    CHECK_FALSE(fold_log(database, std::chrono::milliseconds(20)));
+    std::thread later([&] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        rows.reset();
+        reader.reset();
+    });
+    CHECK(fold_log(database, std::chrono::seconds(20)));
+    later.join();
 }

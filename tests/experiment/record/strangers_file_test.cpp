@@ -165,3 +165,33 @@ TEST_CASE("seals that are broken are told without looking at anything else", "[u
     CHECK_THAT(found.front(), Contains("table sample") && Contains("is not as it was sealed"));
     CHECK(broken_seals(root.path() / "nowhere").empty());
 }
+
+TEST_CASE("connections to a stranger's file have off what could run something, and limits to what is read",
+          "[unit]") {
+    const TemporaryFolder root;
+    const fs::path file = root.path() / "a.sqlite";
+    const auto is_on = [](SQLite::Database& database, int which) {
+        int value = -1;
+        sqlite3_db_config(database.getHandle(), which, -1, &value);
+        return value;
+    };
+    {
+        SQLite::Database writer(file.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+        writer.exec("CREATE TABLE t (x)");
+        guard_writer(writer);
+        CHECK(is_on(writer, SQLITE_DBCONFIG_ENABLE_TRIGGER) == 0);
+        CHECK(is_on(writer, SQLITE_DBCONFIG_TRUSTED_SCHEMA) == 0);
+        CHECK(is_on(writer, SQLITE_DBCONFIG_ENABLE_LOAD_EXTENSION) == 0);
+        CHECK(is_on(writer, SQLITE_DBCONFIG_DEFENSIVE) == 1);
+    }
+    SQLite::Database reader(file.string(), SQLite::OPEN_READONLY);
+    guard_reader(reader, file);
+    CHECK(is_on(reader, SQLITE_DBCONFIG_ENABLE_VIEW) == 0);
+    CHECK(is_on(reader, SQLITE_DBCONFIG_ENABLE_TRIGGER) == 0);
+    CHECK(is_on(reader, SQLITE_DBCONFIG_TRUSTED_SCHEMA) == 0);
+    CHECK(is_on(reader, SQLITE_DBCONFIG_ENABLE_LOAD_EXTENSION) == 0);
+    CHECK(is_on(reader, SQLITE_DBCONFIG_DEFENSIVE) == 1);
+    CHECK(sqlite3_limit(reader.getHandle(), SQLITE_LIMIT_ATTACHED, -1) == 0);
+    CHECK(sqlite3_limit(reader.getHandle(), SQLITE_LIMIT_LENGTH, -1) == 268'435'456);
+    CHECK(sqlite3_limit(reader.getHandle(), SQLITE_LIMIT_TRIGGER_DEPTH, -1) == 0);
+}
