@@ -124,9 +124,32 @@ TEST_CASE("a study of tasks, without a threshold and in space, has the numbers t
     options.smallest_effect = 0.3;
     options.time_step_s = 0.5;
     options.seed = 5;
-    check_numbers("by_task", test::varied_study(6), options);
+    check_numbers("by_task", test::varied_study({.observers = 6}), options);
 }
 
 TEST_CASE("a study of one observer has the numbers that it had", "[unit]") {
-    check_numbers("of_one", test::varied_study(1), {});
+    check_numbers("of_one", test::varied_study({.observers = 1}), {});
+}
+
+TEST_CASE("a study of small objects, short trials and models has the numbers that it had", "[unit]") {
+    const test::TemporaryFolder folder;
+    ReadStudy study = test::varied_study({.observers = 4, .size = 0.01, .time = 0.2, .is_seen = false});
+    const Mesh& egg = *study.results.objects[0].mesh;
+    const std::filesystem::path model = folder.path() / "model.ply";
+    {
+        std::ofstream out(model);
+        out << "ply\nformat ascii 1.0\nelement vertex " << egg.positions.size()
+            << "\nproperty float x\nproperty float y\nproperty float z\nproperty float density\nelement face "
+            << egg.triangles.size() << "\nproperty list uchar int vertex_indices\nend_header\n";
+        for (const glm::vec3& at : egg.positions)
+            out << at.x << ' ' << at.y << ' ' << at.z << ' ' << 1.0f + std::max(0.0f, at.z) << '\n';
+        for (const glm::uvec3& t : egg.triangles)
+            out << "3 " << t.x << ' ' << t.y << ' ' << t.z << '\n';
+    }
+    StudyOptions options;
+    options.by = {"material", "object"};
+    options.kernel = MapKernel::voxel;
+    options.time_step_s = 0.1;
+    options.models = {{"egg", model}};
+    check_numbers("of_small", std::move(study), options);
 }

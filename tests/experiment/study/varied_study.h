@@ -19,13 +19,20 @@ namespace overt::test {
 
 namespace varied {
 
-inline constexpr int observers = 7;
 inline const std::array<std::string, 3> materials{"smooth", "rough", "matt"};
 inline const std::array<std::string, 2> tasks{"free", "age"};
 
+/// How one such study differs from the usual one.
+struct Kind {
+    int observers = 7;
+    double size = 1.0;   ///< of the objects
+    double time = 1.0;   ///< of presentations and fixations
+    bool is_seen = true; ///< the globe is shown for some time
+};
+
 /// An egg of three parts, or of two, in its own unit.
-inline void add_object(ReadStudy& study, const std::string& id, double radius, double mm_per_unit,
-                       int parts) {
+inline void add_object(ReadStudy& study, const std::string& id, double radius, double mm_per_unit, int parts,
+                       bool is_seen) {
     auto mesh = std::make_shared<Mesh>(icosphere(radius, 3));
     const auto size = static_cast<float>(radius);
     mesh->part_names = {"body", "head", "nose"};
@@ -54,9 +61,9 @@ inline void add_object(ReadStudy& study, const std::string& id, double radius, d
     for (const glm::vec3& at : mesh->positions) {
         // Nothing is seen from behind, and less at the sides.
         const double front = -static_cast<double>(at.y) / radius;
-        object.seconds_visible.push_back(front > -0.2 ? static_cast<float>(2.0 + 5.0 * std::max(front, 0.0))
-                                                      : 0.0f);
-        surface.pixel_seconds.push_back(front > -0.2 ? 0.3 + std::max(front, 0.0) : 0.0);
+        object.seconds_visible.push_back(
+            is_seen && front > -0.2 ? static_cast<float>(2.0 + 5.0 * std::max(front, 0.0)) : 0.0f);
+        surface.pixel_seconds.push_back(is_seen && front > -0.2 ? 0.3 + std::max(front, 0.0) : 0.0);
     }
     const int index = static_cast<int>(study.results.objects.size());
     for (int area = -1; area < parts; ++area) {
@@ -74,6 +81,25 @@ inline void add_object(ReadStudy& study, const std::string& id, double radius, d
     object.mesh = std::move(mesh);
     study.results.objects.push_back(std::move(object));
     study.surfaces.push_back(std::move(surface));
+}
+
+/// Of which there is no surface.
+inline void add_picture(ReadStudy& study) {
+    StudyObject object;
+    object.id = "photo";
+    object.title = "A photo";
+    object.screen.screen_px = {1200, 900};
+    study.results.objects.push_back(std::move(object));
+    study.surfaces.emplace_back();
+}
+
+inline StudyFixation fixation_on_picture(RandomStream& random) {
+    StudyFixation fixation;
+    fixation.duration_s = random.uniform(0.1, 0.4);
+    fixation.place = {random.uniform(0.0, 1200.0), random.uniform(0.0, 900.0)};
+    fixation.why = NotCounted::no_surface;
+    fixation.samples = 9;
+    return fixation;
 }
 
 inline StudyFixation fixation_on(const ReadStudy& study, int object, double towards_head,
@@ -127,7 +153,7 @@ inline StudyFixation fixation_on(const ReadStudy& study, int object, double towa
 }
 
 inline void add_trial(ReadStudy& study, int session, int observer, int number, int task, int object,
-                      int material, RandomStream& random) {
+                      int material, const Kind& kind, RandomStream& random) {
     StudyResults& results = study.results;
     const int index = static_cast<int>(results.trials.size());
     StudyTrial trial;
@@ -141,7 +167,7 @@ inline void add_trial(ReadStudy& study, int session, int observer, int number, i
                   {"task", tasks[static_cast<std::size_t>(task)]},
                   {"object", results.objects[static_cast<std::size_t>(object)].id},
                   {"material", materials[static_cast<std::size_t>(material)]}};
-    trial.presentation_s = 3.0 + 0.25 * (index % 5);
+    trial.presentation_s = kind.time * (3.0 + 0.25 * (index % 5));
     trial.first_fixation = results.fixations.size();
     trial.clock_uncertainty_s = random.uniform(0.0005, 0.004);
     trial.excluded = index % 17 == 5;
@@ -164,12 +190,18 @@ inline void add_trial(ReadStudy& study, int session, int observer, int number, i
     const int count = 3 + static_cast<int>(random.below(7));
     double at_s = random.uniform(-0.05, 0.2);
     for (int i = 0; i < count; ++i) {
-        StudyFixation fixation = fixation_on(study, object, towards_head, random);
+        // Rough ones draw gaze to the head at first, and away from it at the end.
+        const double soon = material == 1 ? 1.0 - at_s / kind.time : 0.0;
+        StudyFixation fixation = object == 2 ? fixation_on_picture(random)
+                                             : fixation_on(study, object, towards_head + soon, random);
+        fixation.duration_s *= kind.time;
         fixation.trial = index;
         fixation.onset_s = at_s;
-        at_s += fixation.duration_s + random.uniform(0.02, 0.08);
+        at_s += fixation.duration_s + kind.time * random.uniform(0.02, 0.08);
         const std::uint64_t fate = random.below(20);
-        if (trial.excluded)
+        if (object == 2)
+            fixation.why = NotCounted::no_surface;
+        else if (trial.excluded)
             fixation.why = NotCounted::trial_excluded;
         else if (fixation.onset_s < 0.0)
             fixation.why = NotCounted::began_before_onset;
@@ -292,16 +324,18 @@ inline void add_gauges(StudyResults& results, int observers, RandomStream& rando
 
 } // namespace varied
 
-/// Seven observers, of whom the second came twice; two eggs, two tasks, three materials.
-inline ReadStudy varied_study(int observers = varied::observers) {
+/// Seven observers, of whom the second came twice; two eggs and a picture, two tasks, three materials.
+inline ReadStudy varied_study(const varied::Kind& kind = {}) {
     ReadStudy study;
     StudyResults& results = study.results;
-    study.levels = {
-        {"task", {"free", "age"}}, {"object", {"egg", "globe"}}, {"material", {"smooth", "rough", "matt"}}};
-    varied::add_object(study, "egg", 50.0, 2.0, 3);
-    varied::add_object(study, "globe", 80.0, 1.25, 2);
+    study.levels = {{"task", {"free", "age"}},
+                    {"object", {"egg", "globe", "photo"}},
+                    {"material", {"smooth", "rough", "matt"}}};
+    varied::add_object(study, "egg", 50.0, 2.0 * kind.size, 3, true);
+    varied::add_object(study, "globe", 80.0, 1.25 * kind.size, 2, kind.is_seen);
+    varied::add_picture(study);
     RandomStream random(11, "varied study");
-    for (int observer = 0; observer < observers; ++observer) {
+    for (int observer = 0; observer < kind.observers; ++observer) {
         int number = 0;
         for (int sitting = 0; sitting < (observer == 1 ? 2 : 1); ++sitting) {
             StudySession& session = results.sessions.emplace_back();
@@ -315,6 +349,8 @@ inline ReadStudy varied_study(int observers = varied::observers) {
             StudyQuality& quality = results.session_quality.emplace_back();
             quality.samples = 9000.0 + observer;
             const int index = static_cast<int>(results.sessions.size()) - 1;
+            if (observer % 2 == 0)
+                varied::add_trial(study, index, observer, ++number, observer / 2 % 2, 2, 0, kind, random);
             for (int task = 0; task < 2; ++task)
                 for (int object = 0; object < 2; ++object)
                     for (int material = 0; material < 3; ++material) {
@@ -323,13 +359,13 @@ inline ReadStudy varied_study(int observers = varied::observers) {
                             continue;
                         const int times = (observer + task + material) % 4 == 1 ? 2 : 1;
                         for (int again = 0; again < times; ++again)
-                            varied::add_trial(study, index, observer, ++number, task, object, material,
+                            varied::add_trial(study, index, observer, ++number, task, object, material, kind,
                                               random);
                     }
         }
     }
     varied::add_answers(results, random);
-    varied::add_gauges(results, observers, random);
+    varied::add_gauges(results, kind.observers, random);
     return study;
 }
 
