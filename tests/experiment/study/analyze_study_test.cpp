@@ -191,3 +191,16 @@ TEST_CASE("maps hold each trial's fixations, by time and by number", "[unit]") {
     // All gaze is on one place, which a Gaussian of 30 mm surrounds.
     CHECK(by_number.peak == Approx(3.0 / (2.0 * 3.14159265 * 900.0)).epsilon(0.15));
 }
+
+TEST_CASE("an analysis tells what it is at, from the first object to the last", "[unit]") {
+    std::vector<std::string> told;
+    StudyOptions options;
+    options.by = {"material"};
+    options.resamples = options.permutations = 20;
+    analyze_study(looks_up_and_front(2), options, [&](std::string_view what, int done, int all) {
+        told.push_back(fmt::format("{} {}/{}", what, done, all));
+    });
+    CHECK(told == std::vector<std::string>{"maps 0/1", "maps 1/1", "comparisons 0/1", "comparisons 1/1",
+                                           "differences 0/1", "differences 1/1", "metrics 0/1",
+                                           "metrics 1/1"});
+}

@@ -177,3 +177,22 @@ TEST_CASE("first fixations are told by their number", "[unit]") {
     CHECK(row("material 1", 1).observers == 4);
     CHECK(std::ranges::none_of(rows, [](const auto& one) { return one.number > most_first_fixations; }));
 }
+
+TEST_CASE("the course of time has as many stretches as the longest trial that counts, and no more than 120",
+          "[unit]") {
+    StudyResults results;
+    results.trials.resize(3);
+    CHECK(longest_presentation_s(results) == 0.0);
+    CHECK(stretches_of_time(results, 1.0) == 0);
+    results.trials[0].presentation_s = 0.4;
+    results.trials[1].presentation_s = 0.7;
+    results.trials[2].presentation_s = 9.0;
+    results.trials[2].excluded = true;
+    CHECK(longest_presentation_s(results) == 0.7);
+    CHECK(stretches_of_time(results, 1.0) == 1);
+    CHECK(stretches_of_time(results, 0.35) == 2);
+    CHECK(stretches_of_time(results, 0.34) == 3);
+    // A thousandth of a stretch is none.
+    CHECK(stretches_of_time(results, 0.6995) == 1);
+    CHECK(stretches_of_time(results, 0.001) == 120);
+}

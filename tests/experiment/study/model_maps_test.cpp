@@ -116,7 +116,17 @@ TEST_CASE("files without a number at each vertex are refused with what they have
     std::ofstream(file) << "x,y\n";
     CHECK_THROWS_WITH(read_vertex_values(file), Catch::Contains("no PLY file"));
     study.options.models = {{"", file}};
-    write_model(file, mesh, "value", [](glm::dvec3 place) { return place.x; });
-    CHECK_THROWS_WITH(model_maps(study.results, study.surfaces, study.options),
-                      Catch::Contains("numbers below 0"));
+    const auto refused =
+        "--model " + file.string() +
+        ": value has numbers below 0, or all are 0: give how probable gaze is at each vertex, "
+        "per area and on any scale.";
+    for (const double other : {0.0, -1.0}) {
+        write_model(file, mesh, "value", [&](glm::dvec3 place) { return place.x > 99.0 ? other : 0.0; });
+        CHECK_THROWS_WITH(model_maps(study.results, study.surfaces, study.options), refused);
+    }
+    // Zeros beside others are numbers like these, and so is 1 everywhere.
+    for (const double other : {0.0, 1.0}) {
+        write_model(file, mesh, "value", [&](glm::dvec3 place) { return place.x > 0.0 ? 1.0 : other; });
+        CHECK(model_maps(study.results, study.surfaces, study.options).size() == 1);
+    }
 }

@@ -83,21 +83,26 @@ inline void add_object(ReadStudy& study, const std::string& id, double radius, d
     study.surfaces.push_back(std::move(surface));
 }
 
-/// Of which there is no surface.
+/// Of which there are ready-made maps without a mesh.
 inline void add_picture(ReadStudy& study) {
     StudyObject object;
     object.id = "photo";
     object.title = "A photo";
+    object.mm_per_unit = 1.5;
+    object.mm_per_deg = 40.0;
+    object.shown_size = 0.5;
     object.screen.screen_px = {1200, 900};
     study.results.objects.push_back(std::move(object));
-    study.surfaces.emplace_back();
+    study.surfaces.emplace_back().scale = ObjectScale{1.5, 900.0, 40.0, 0.5};
 }
 
 inline StudyFixation fixation_on_picture(RandomStream& random) {
     StudyFixation fixation;
     fixation.duration_s = random.uniform(0.1, 0.4);
     fixation.place = {random.uniform(0.0, 1200.0), random.uniform(0.0, 900.0)};
-    fixation.why = NotCounted::no_surface;
+    fixation.position = {random.uniform(-20.0, 20.0), random.uniform(-30.0, 30.0), 0.0};
+    fixation.mm_per_deg = 40.0;
+    fixation.sigma_mm = 40.0;
     fixation.samples = 9;
     return fixation;
 }
@@ -199,9 +204,7 @@ inline void add_trial(ReadStudy& study, int session, int observer, int number, i
         fixation.onset_s = at_s;
         at_s += fixation.duration_s + kind.time * random.uniform(0.02, 0.08);
         const std::uint64_t fate = random.below(20);
-        if (object == 2)
-            fixation.why = NotCounted::no_surface;
-        else if (trial.excluded)
+        if (trial.excluded)
             fixation.why = NotCounted::trial_excluded;
         else if (fixation.onset_s < 0.0)
             fixation.why = NotCounted::began_before_onset;
