@@ -268,9 +268,13 @@ def first_failure(output):
 
 def judge(number, change, tests, folder, environment):
     """Who noticed, or None; "unreached" where no test comes to the place."""
-    reaching = order(change, [test for test in tests if number in test.reached])
+    reaching = [test for test in tests if number in test.reached]
     if not reaching:
         return None, 0
+    # What is made once is reached by the first test alone; those of the file's own tests ask for it, too.
+    stem = pathlib.Path(change.file).stem
+    reaching = order(change, reaching + [test for test in tests if number not in test.reached
+                                         and pathlib.Path(test.file).stem.startswith(stem)])
     names = folder / "names"
     for batch in batches(reaching):
         names.write_text(names_for_catch([test.name for test in batch]))
