@@ -214,6 +214,7 @@ TEST_CASE("tables of sessions whose stimuli were of fewer lists get a column for
     database.exec(
         "CREATE TABLE early (object INTEGER, material INTEGER, light INTEGER); INSERT INTO early "
         "VALUES (1, 1, 1); "
+        "CREATE TABLE earliest (object INTEGER, material INTEGER); "
         "CREATE TABLE of_objects (object INTEGER); CREATE TABLE of_materials (material INTEGER); "
         "ALTER TABLE flip DROP COLUMN step; ALTER TABLE step DROP COLUMN places; DROP TABLE slot; "
         "DROP TABLE missed_refresh; DROP TABLE given_answer; DROP TABLE shown_probe; DROP TABLE swap_modes");
@@ -229,6 +230,7 @@ TEST_CASE("tables of sessions whose stimuli were of fewer lists get a column for
     CHECK(columns("early") == "object material light motion view background ");
     CHECK(database.execAndGet("SELECT light || motion || view || background FROM early").getString() ==
           "1000");
+    CHECK(columns("earliest") == "object material light motion view background ");
     CHECK(columns("of_objects") == "object ");
     CHECK(columns("of_materials") == "material ");
     CHECK(columns("missed_refresh") ==
