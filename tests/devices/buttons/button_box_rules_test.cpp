@@ -103,7 +103,7 @@ struct HeldBoxes {
         CHECK(press->pressed_at == clock.time + since_asked);
         using Key = ResponsePress::Key;
         if (press->key == Key::character)
-            return {1, static_cast<char>(press->character)};
+            return std::string(1, static_cast<char>(press->character));
         for (const auto& [key, word] :
              {std::pair{Key::next, "next"}, {Key::back, "back"}, {Key::yes, "yes"}, {Key::no, "no"}})
             if (press->key == key)
