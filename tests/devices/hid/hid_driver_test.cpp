@@ -248,3 +248,70 @@ TEST_CASE("places in the page of pointers, times in other units and eyes by them
     CHECK(off->right_mm);
     CHECK(off->at == tracker_time(1'000));
 }
+
+TEST_CASE("a HID eye tracker's rate is its own where it tells one, and has five seconds to be ready",
+          "[unit]") {
+    TrackerBench bench;
+    bench.wish.rate_hz = 90.0;
+    bench.far.features[0x13] = bytes_of({0x13, 1, 1, 0}); // 1 Hz
+    CHECK(bench.driver().connect(bench.wish).sample_rate_hz == 1.0);
+    bench.far.features[0x13] = bytes_of({0x13, 1, 0, 0});
+    CHECK(bench.driver().connect(bench.wish).sample_rate_hz == 90.0);
+    bench.far.features[0x13] = bytes_of({0x13, 2, 0, 0}); // sets itself up
+    const SessionTime before = bench.clock.now();
+    CHECK_THROWS_WITH(bench.driver().connect(bench.wish),
+                      Catch::Contains("still setting itself up after 5 s"));
+    CHECK(bench.clock.now() - before >= 5s);
+    CHECK(bench.clock.now() - before <= 5050ms);
+}
+
+TEST_CASE("arrivals bound a HID eye tracker's clock at the first report, and each half second after it",
+          "[unit]") {
+    TrackerBench bench;
+    bench.settings.longest_delay = 40ms;
+    HidDriver driver = bench.driver();
+    driver.connect(bench.wish);
+    bench.far.arriving.push_back({bench.clock.now(), gaze_report(1, 1000, 2000)}); // before the recording
+    driver.start();
+    const SessionTime began = bench.clock.now();
+    for (const SessionDuration at : {3ms, 400ms, 502ms, 503ms, 504ms}) {
+        bench.far.arriving.push_back({began + at, gaze_report(1000, 1000, 2000)});
+        bench.clock.wait_until(began + at);
+        CHECK(driver.read(bench.kept, bench.clock.now()) == RecordingState::running);
+    }
+    CHECK(bench.kept.all<GazeSample>().size() == 5);
+    const auto pairs = bench.kept.all<ClockPair>();
+    REQUIRE(pairs.size() == 2);
+    CHECK(pairs[0].after - began >= 3ms);
+    CHECK(pairs[0].after - began < 4ms);
+    CHECK(pairs[0].after - pairs[0].before == 40ms);
+    CHECK(pairs[1].after - pairs[0].after >= 500ms);
+    CHECK(pairs[1].after - pairs[0].after < 502ms);
+    // What waits is read without waiting more, and no longer than the deadline is waited for it.
+    const SessionTime asked = bench.clock.now();
+    CHECK(driver.read(bench.kept, asked + 7ms) == RecordingState::running);
+    CHECK(bench.clock.now() - asked >= 7ms);
+    CHECK(bench.clock.now() - asked < 8ms);
+}
+
+TEST_CASE("a HID device is named by its path or numbers, and what is there is listed where it is not",
+          "[unit]") {
+    TrackerBench bench;
+    for (const char* const name : {"", "1209:0e7e", "1209:0E7E", "/dev/hidraw0"}) {
+        bench.settings.device = name;
+        CHECK_NOTHROW(bench.driver().connect(bench.wish));
+    }
+    for (const char* const name : {"1209:0e7f", "1208:0e7e", "/dev/hidraw1"}) {
+        bench.settings.device = name;
+        CHECK_THROWS_WITH(
+            bench.driver().connect(bench.wish),
+            std::string("No HID device ") + name +
+                " is plugged in. HID devices that are: /dev/hidraw0 (1209:0e7e Mock Eye Tracker).");
+    }
+    bench.settings.device = "1209";
+    CHECK_THROWS_AS(bench.driver().connect(bench.wish), InputError);
+    CHECK(hid_numbers("0:ffff") == std::pair<std::uint16_t, std::uint16_t>(0, 0xFFFF));
+    CHECK_FALSE(hid_numbers("0:10000"));
+    CHECK_FALSE(hid_numbers(":1"));
+    CHECK_FALSE(hid_numbers("1:"));
+}

@@ -158,3 +158,33 @@ TEST_CASE("the photometer is found by its USB numbers or by its port", "[unit]")
     ports.resize(1);
     CHECK_THROWS_WITH(find_colorcal(ports, std::nullopt, open, photometer.clock), Contains("no ColorCAL"));
 }
+
+TEST_CASE("an answer of a photometer is two letters and two digits, and its name has six fields at least",
+          "[unit]") {
+    const auto opens_with = [](const std::string& answer) {
+        Photometer photometer;
+        photometer.answers["IDR"] = answer;
+        try {
+            return photometer.open().identity().build;
+        } catch (const DeviceError&) {
+            return -1;
+        }
+    };
+    CHECK(opens_with("OK00,a,b,c,d, 7") == 7); // six
+    CHECK(opens_with("OK00,a,b,c, 7") == -1);
+    CHECK(opens_with("OK00,a,b,c,d,e, 8") == 8);
+    CHECK(opens_with("OK00,a,b,c,d,e") == -1);
+    CHECK(opens_with("OK0x\nOKx0\nOK\nXX00\nok00\n> OK00,a,b,c,d, 9") == 9); // what is none stands before it
+    for (const auto& [entry, value] :
+         {std::pair{"0", 0.0}, {"49999", 4.9999}, {"50000", 0.0}, {"50001", -0.0001}, {"99999", -4.9999}})
+        CHECK(colorcal_matrix_entry(entry) == value);
+    CHECK_FALSE(colorcal_matrix_entry("100000"));
+    CHECK_FALSE(colorcal_matrix_entry("-1"));
+    CHECK_FALSE(colorcal_matrix_entry("1.5"));
+    for (const char* const numbers : {"OK00,1,2", "OK00,1,2,3,4", "OK00,1,2,x"}) {
+        Photometer photometer;
+        ColorCal colorcal = photometer.open();
+        photometer.answers["MES"] = numbers;
+        CHECK_THROWS_WITH(colorcal.measure_xyz(), Contains("was not answered with three numbers"));
+    }
+}
