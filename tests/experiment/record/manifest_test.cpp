@@ -182,3 +182,11 @@ TEST_CASE("a file of a session keeps the hash that it had first, and the session
     CHECK(read.programs == std::vector{other});
     CHECK(read.files.at(1).sha256 == hash_of_text("changed"));
 }
+
+TEST_CASE("a manifest that is not there, or is no file, is an error that names it", "[unit]") {
+    const TemporaryFolder root;
+    CHECK_THROWS_WITH(read_manifest(root.path()), Contains((root.path() / manifest_file_name).string() +
+                                                           ": is not there, or cannot be read"));
+    fs::create_directory(root.path() / manifest_file_name);
+    CHECK_THROWS_WITH(read_manifest(root.path()), Contains("is not there, or cannot be read"));
+}

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "experiment/record/header_tables.h"
+#include "experiment/record/preview_file.h"
 #include "experiment/record/read/session_record.h"
 #include "experiment/record/session_schema.h"
 #include "tests/experiment/record/session_fixture.h"
@@ -153,4 +154,19 @@ TEST_CASE("a slot of another size shows a further view, whose screen has its ima
     CHECK(stimulus_name(header, header.in_slot({side, 2}), "_") == "vase_gold_side_c");
     CHECK(stimulus_name(header, {1, 0, 0, 0, 5, 0}) == "vase/gold/side");
     CHECK(entry_counts(header) == std::array<std::size_t, stimulus_lists.size()>{2, 2, 1, 1, 2, 1});
+}
+
+TEST_CASE("a stimulus of a session is found by all of it, and named by the entries of its lists", "[unit]") {
+    SessionHeader header = example_header();
+    header.stimuli.clear();
+    const Stimulus first{0, 0, 0, 0, 0, 0}, second{0, 0, 0, 0, 1, 0}, third{0, 0, 0, 0, 0, 1};
+    CHECK(stimulus_of(header, first) == nullptr);
+    header.stimuli.resize(2);
+    header.stimuli[0].stimulus = first;
+    header.stimuli[1].stimulus = second;
+    CHECK(stimulus_of(header, first) == &header.stimuli[0]);
+    CHECK(stimulus_of(header, second) == &header.stimuli[1]);
+    CHECK(stimulus_of(header, third) == nullptr);
+    CHECK(preview_file(header, first) == "stimuli/" + stimulus_name(header, first, "_") + ".png");
+    CHECK(light_file(header, first) == "stimuli/" + stimulus_name(header, first, "_") + "_light.exr");
 }
