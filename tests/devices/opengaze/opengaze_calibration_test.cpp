@@ -126,3 +126,33 @@ TEST_CASE("the tracker's clock goes on over a calibration, after which its secon
     CHECK(bench.items.all<GazeSample>().front().sampled_at > before);
     CHECK(bench.items.all<GazeSample>().front().sampled_at < before + 5s);
 }
+
+TEST_CASE("of a calibration's result twenty-five points are read, of the eyes that are wished", "[unit]") {
+    std::string attributes = " ID=\"CALIB_RESULT\"";
+    for (int i = 1; i <= 26; ++i)
+        attributes += fmt::format(
+            " CALX{0}=\"0.5\" CALY{0}=\"0.5\" LX{0}=\"0.5\" LY{0}=\"0.5\" LV{0}=\"1\" RX{0}=\"0.5\" "
+            "RY{0}=\"0.5\" RV{0}=\"{1}\"",
+            i, i % 2);
+    OpenGazeMessage message;
+    message.kind = OpenGazeMessage::Kind::calibration;
+    message.attributes = attributes;
+    OpenGazeSettings settings;
+    TrackerWish wish;
+    wish.both_eyes = true;
+    const SetupOutcome both = outcome_of(message, settings, wish);
+    CHECK(both.method == "tracker, 25 points");
+    CHECK(both.validation.value().targets.size() == 50);
+    CHECK_THAT(both.message, Catch::StartsWith("38 of 50 measurements"));
+    wish.both_eyes = false;
+    wish.eye = Eye::left;
+    CHECK_THAT(outcome_of(message, settings, wish).message, Catch::StartsWith("25 of 25 measurements"));
+    wish.eye = Eye::right;
+    CHECK_THAT(outcome_of(message, settings, wish).message, Catch::StartsWith("13 of 25 measurements"));
+    settings.point = TrackedPoint::best;
+    CHECK(outcome_of(message, settings, wish).validation.value().targets.size() == 50);
+    message.attributes = " ID=\"CALIB_RESULT\"";
+    CHECK(outcome_of(message, settings, wish).kind == SetupOutcome::Kind::failed);
+    CHECK(outcome_of(message, settings, wish).message ==
+          "the tracker ended its calibration without a result");
+}

@@ -208,6 +208,16 @@ TEST_CASE("a command is a key, and answers only the question that the session as
         std::this_thread::sleep_for(2ms);
     }
     CHECK(comes_to_say(client, "no trial is under way"));
+    client.send(operator_command("note all is well").value());
+    bool is_of_trial = false;
+    for (int tries = 0; tries < 500 && !is_of_trial; ++tries) {
+        CHECK(!panel.poll());
+        client.read(10ms);
+        for (const ViewedEvent& event : client.take_events())
+            is_of_trial =
+                is_of_trial || (event.detail == "the note goes into the record" && event.trial == 2);
+    }
+    CHECK(is_of_trial);
 }
 
 TEST_CASE("the command that ends the session does not wait for the one before it", "[unit]") {

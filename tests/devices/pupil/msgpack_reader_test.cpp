@@ -1,6 +1,7 @@
 #include "devices/pupil/msgpack_reader.h"
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 using namespace overt;
@@ -121,4 +122,80 @@ TEST_CASE("a map of MessagePack whose keys are no texts is no map that is read",
         return key == "k";
     }));
     CHECK(value == 3.0);
+}
+
+TEST_CASE("each head of MessagePack is of its kind, up to the bytes beside those of the next", "[unit]") {
+    const auto of = [](std::initializer_list<int> bytes, std::size_t more = 0) {
+        std::string all;
+        for (const int byte : bytes)
+            all += static_cast<char>(byte);
+        return all + std::string(more, 'x');
+    };
+    // By its head alone: what it is, its number or count, and how much of what follows it takes.
+    const auto read = [](const std::string& bytes) -> std::string {
+        const std::string behind = bytes + "\x2a"; // the number 42
+        const auto with = [&](const auto& ask) -> std::string {
+            MsgpackReader reader(behind);
+            const auto found = ask(reader);
+            return found ? fmt::format("{} then {}", *found, reader.number().value_or(-1.0)) : std::string();
+        };
+        if (std::string map = with([](MsgpackReader& reader) { return reader.begin_map(); }); !map.empty())
+            return "map " + map;
+        if (std::string array = with([](MsgpackReader& reader) { return reader.begin_array(); });
+            !array.empty())
+            return "array " + array;
+        if (std::string text = with([](MsgpackReader& reader) -> std::optional<std::size_t> {
+                const auto found = reader.text();
+                return found ? std::optional(found->size()) : std::nullopt;
+            });
+            !text.empty())
+            return "text " + text;
+        if (std::string flag = with([](MsgpackReader& reader) { return reader.boolean(); }); !flag.empty())
+            return "flag " + flag;
+        if (std::string number = with([](MsgpackReader& reader) { return reader.number(); }); !number.empty())
+            return "number " + number;
+        MsgpackReader reader(behind);
+        reader.skip();
+        return fmt::format("passed over then {}", reader.number().value_or(-1.0));
+    };
+    CHECK(read(of({0x00})) == "number 0 then 42");
+    CHECK(read(of({0x7F})) == "number 127 then 42");
+    CHECK(read(of({0x80})) == "map 0 then 42");
+    CHECK(read(of({0x8F})) == "map 15 then 42");
+    CHECK(read(of({0x90})) == "array 0 then 42");
+    CHECK(read(of({0x9F})) == "array 15 then 42");
+    CHECK(read(of({0xA0})) == "text 0 then 42");
+    CHECK(read(of({0xBF}, 31)) == "text 31 then 42");
+    CHECK(read(of({0xC0})) == "passed over then 42");
+    CHECK(read(of({0xC1})) == "passed over then -1"); // never used
+    CHECK(read(of({0xC2})) == "flag false then 42");
+    CHECK(read(of({0xC3})) == "flag true then 42");
+    CHECK(read(of({0xC4, 3}, 3)) == "passed over then 42");
+    CHECK(read(of({0xC5, 1, 2}, 258)) == "passed over then 42");
+    CHECK(read(of({0xC6, 0, 0, 1, 2}, 258)) == "passed over then 42");
+    CHECK(read(of({0xC7, 3}, 4)) == "passed over then 42"); // and its type
+    CHECK(read(of({0xC8, 1, 2}, 259)) == "passed over then 42");
+    CHECK(read(of({0xC9, 0, 0, 1, 2}, 259)) == "passed over then 42");
+    CHECK(read(of({0xCA, 0x3F, 0xC0, 0, 0})) == "number 1.5 then 42");
+    CHECK(read(of({0xCB, 0xBF, 0xF8, 0, 0, 0, 0, 0, 0})) == "number -1.5 then 42");
+    CHECK(read(of({0xCC, 0xFF})) == "number 255 then 42");
+    CHECK(read(of({0xCD, 1, 2})) == "number 258 then 42");
+    CHECK(read(of({0xCE, 0, 1, 2, 3})) == "number 66051 then 42");
+    CHECK(read(of({0xCF, 0, 0, 0, 0, 0, 1, 2, 3})) == "number 66051 then 42");
+    CHECK(read(of({0xD0, 0xFF})) == "number -1 then 42");
+    CHECK(read(of({0xD1, 0xFF, 0xFE})) == "number -2 then 42");
+    CHECK(read(of({0xD2, 0xFF, 0xFF, 0xFF, 0xFD})) == "number -3 then 42");
+    CHECK(read(of({0xD3, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFC})) == "number -4 then 42");
+    for (int i = 0; i < 5; ++i)
+        CHECK(read(of({0xD4 + i}, (1u << i) + 1)) == "passed over then 42");
+    CHECK(read(of({0xD9, 200}, 200)) == "text 200 then 42");
+    CHECK(read(of({0xDA, 1, 2}, 258)) == "text 258 then 42");
+    CHECK(read(of({0xDB, 0, 0, 1, 2}, 258)) == "text 258 then 42");
+    CHECK(read(of({0xDC, 1, 2})) == "array 258 then 42");
+    CHECK(read(of({0xDD, 0, 1, 2, 3})) == "array 66051 then 42");
+    CHECK(read(of({0xDE, 1, 2})) == "map 258 then 42");
+    CHECK(read(of({0xDF, 0, 1, 2, 3})) == "map 66051 then 42");
+    CHECK(read(of({0xE0})) == "number -32 then 42");
+    CHECK(read(of({0xFF})) == "number -1 then 42");
+    CHECK(read(of({0x92, 0x01, 0x02})) == "array 2 then 1");
 }
