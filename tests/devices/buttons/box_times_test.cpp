@@ -5,6 +5,7 @@
 
 #include "devices/buttons/iolab_box.h"
 #include "devices/buttons/xid_box.h"
+#include "devices/buttons/xid_trigger.h"
 #include "experiment/base/error.h"
 #include "tests/devices/hid/hid_bytes.h"
 #include "tests/devices/link/in_memory_line.h"
@@ -190,4 +191,15 @@ TEST_CASE("an ioLab box's reports are read by their letters, and a report of ano
     CHECK(command[1] == std::byte{'J'});
     for (std::size_t i = 2; i < 9; ++i)
         CHECK(command[i] == static_cast<std::byte>(i - 1));
+}
+
+TEST_CASE("an XID device takes wide commands from the second firmware on, and as a StimTracker", "[unit]") {
+    for (const auto& [firmware, is_wide] :
+         {std::pair{"0", false}, {"1", false}, {"2", true}, {"9", true}, {"A", false}}) {
+        XidWire wire;
+        wire.firmware = firmware;
+        const XidTrigger trigger("/dev/ttyUSB0", wire.opener(), wire.clock);
+        CAPTURE(firmware);
+        CHECK(wire.heard.ends_with(is_wide ? std::string("mh\0\0", 4) : std::string("ah\xFF\0", 4)));
+    }
 }

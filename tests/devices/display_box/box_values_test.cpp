@@ -104,3 +104,42 @@ TEST_CASE("a gamma table's name has up to 64 characters, and a rate is below 100
     bench.box.model.rate_hz = -1.0;
     CHECK_THROWS_AS(display.video_rate_hz(), DeviceError);
 }
+
+TEST_CASE("a box that is switched again after the way back is noted again, and so is another mode",
+          "[unit]") {
+    const TemporaryFolder folder;
+    Bench bench;
+    bench.settings.record_folder = folder.path();
+    DisplayPlusPlus display = bench.open();
+    for (int i = 0; i < 2; ++i) {
+        display.set_mode(BoxMode::mono_plus_plus);
+        CHECK_FALSE(std::filesystem::is_empty(folder.path()));
+        display.restore_desktop();
+        CHECK(std::filesystem::is_empty(folder.path()));
+    }
+}
+
+TEST_CASE("of status that nobody fetches the last 4096 samples are kept, and those before are counted",
+          "[unit]") {
+    Bench bench;
+    DisplayPlusPlus display = bench.open();
+    display.start_status();
+    const std::uint64_t first = bench.box.model.next_sample;
+    for (int i = 0; i < 1000 && bench.box.model.next_sample < first + 4200; ++i) {
+        bench.clock.wait_until(bench.clock.now() + 15ms);
+        display.video_rate_hz(); // an answer is looked for among what comes
+    }
+    REQUIRE(bench.box.model.next_sample >= first + 4200);
+    std::vector<std::uint64_t> numbers;
+    std::array<ArrivedStatus, 64> some;
+    for (std::size_t count = 1; count > 0 && numbers.size() < 4096;) {
+        count = display.poll_status(some);
+        for (std::size_t i = 0; i < count; ++i)
+            numbers.push_back(some[i].sample.number);
+    }
+    REQUIRE(numbers.size() == 4096);
+    for (std::size_t i = 1; i < numbers.size(); ++i)
+        REQUIRE(numbers[i] == numbers[i - 1] + 1);
+    CHECK(display.lost_samples() > 0);
+    CHECK(numbers.front() > first);
+}

@@ -1,6 +1,8 @@
 // When the EyeLink's driver does what it does, by a clock that goes only where it is waited for.
 #include "devices/eyelink/eyelink_driver.h"
 
+#include <cmath>
+
 #include <catch2/catch.hpp>
 
 #include "experiment/base/error.h"
@@ -153,6 +155,16 @@ TEST_CASE("readings of an EyeLink's clock are as wide as it cannot be known", "[
     REQUIRE(pair);
     CHECK(pair->before == before - 250us);
     CHECK(pair->after == before + 250us);
+
+    for (const double us : {1.0, 1e17}) {
+        bench.library.set("microseconds", us);
+        REQUIRE(driver.read_clocks());
+        CHECK(driver.read_clocks()->other == tracker_time(static_cast<std::int64_t>(us)));
+    }
+    for (const double us : {0.0, -1.0, 1.1e17, std::nan(""), HUGE_VAL}) {
+        bench.library.set("microseconds", us);
+        CHECK_FALSE(driver.read_clocks());
+    }
 
     TimedBench older(OVERT_STAND_IN_EYELINK_OLD);
     EyelinkDriver exchanging(older.settings, older.clock);

@@ -440,7 +440,7 @@ i16 setup_graphic_hook_functions_V2(Hooks2* given_hooks) {
     uses_hooks2 = true;
     return 0;
 }
-double eyelink_tracker_double_usec() { return host_us(); }
+double eyelink_tracker_double_usec() { return number("microseconds", host_us()); }
 i16 eyelink_mode_data(i16* rate, i16* mode, i16* file_filter, i16* link_filter) {
     *rate = static_cast<i16>(sample_rate_hz());
     *mode = *file_filter = *link_filter = 1;

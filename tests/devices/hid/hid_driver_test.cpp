@@ -315,3 +315,37 @@ TEST_CASE("a HID device is named by its path or numbers, and what is there is li
     CHECK_FALSE(hid_numbers(":1"));
     CHECK_FALSE(hid_numbers("1:"));
 }
+
+TEST_CASE("a HID eye tracker's time in several numbers is one, whatever the signs of its parts", "[unit]") {
+    for (const int bits : {8, 16, 32}) {
+        DescriptorText text;
+        text.page(0x12).open(0x01, 1).open(0x10, 2).id(0x20);
+        text.usage(0x20)
+            .logical(-(std::int64_t{1} << (bits - 1)), (std::int64_t{1} << (bits - 1)) - 1)
+            .size(bits, 2)
+            .input(0x02);
+        text.unit(0x11, -2)
+            .logical(-10'000, 10'000)
+            .size(16, 2)
+            .open(0x24, 0)
+            .usage(0x21)
+            .usage(0x22)
+            .input(0x02)
+            .close();
+        text.close().close();
+        std::string why;
+        const auto layout = HidGazeLayout::find(parse_report_descriptor(text.bytes), why);
+        INFO(why);
+        REQUIRE(layout);
+        std::vector<std::byte> report{std::byte{0x20}};
+        for (int i = 0; i < bits / 8; ++i)
+            report.push_back(std::byte{0xFF});
+        report.push_back(std::byte{1});
+        for (int i = 1; i < bits / 8; ++i)
+            report.push_back(std::byte{0});
+        report.resize(report.size() + 4);
+        const auto told = layout->read(report);
+        REQUIRE(told);
+        CHECK(told->at == tracker_time((std::int64_t{1} << (bits + 1)) - 1));
+    }
+}

@@ -250,7 +250,7 @@ TEST_CASE("boxes on HID are found by their kind, and one by its numbers, its pat
     UmockdevBed bed;
     const std::string before = std::setlocale(LC_CTYPE, nullptr);
     REQUIRE(std::setlocale(LC_CTYPE, "C.UTF-8")); // by which the library reads names
-    const std::string name = "K\u00e4stchen \u20ac \U0001F441";
+    const std::string name = "K\u00e4stchen \u20ac \U0001F441 \u07ff\u0800\ue000\uffff\U00010000";
     const std::vector<std::byte> plain = DescriptorText()
                                              .item(0x04, 0xFF00, 2)
                                              .open(1, 1)

@@ -151,7 +151,10 @@ TEST_CASE("places are in px by the unit that a stream tells or a protocol names,
     CHECK(place("px", StreamUnit::normalized, 0.5, 0.5) == ScreenPoint{960.0, 540.0});
     CHECK(place("", StreamUnit::percent, 100.0, 100.0) == ScreenPoint{1920.0, 1080.0});
     CHECK_THROWS_AS(place("", StreamUnit::as_told, 0.5, 0.5), DeviceError);
-    CHECK_THROWS_AS(place("degrees", StreamUnit::as_told, 0.5, 0.5), DeviceError);
+    CHECK_THROWS_WITH(
+        place("degrees", StreamUnit::as_told, 0.5, 0.5),
+        "The stream s tells gaze in \"degrees\", which is neither pixels nor normalized nor percent; "
+        "name the unit.");
     const auto eye_mm = [](const char* unit) {
         const LslGazeLayout layout({{"x", "", "ScreenX", "px", ""},
                                     {"y", "", "ScreenY", "px", ""},

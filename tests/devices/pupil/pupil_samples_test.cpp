@@ -160,3 +160,16 @@ TEST_CASE(
     CHECK(details[1].confidence == 0.6f);
     CHECK(details[3].confidence == 0.0f);
 }
+
+TEST_CASE("a message of Pupil Capture that cannot be read is a gap after the last gaze, of no known length",
+          "[unit]") {
+    PupilSamples samples = both_eyes();
+    KeptItems items;
+    samples.take(gaze_at(12.5), items);
+    samples.take_noise(items);
+    const auto gaps = items.all<TrackerGap>();
+    REQUIRE(gaps.size() == 1);
+    CHECK(gaps[0].reason == TrackerGap::Reason::unreadable);
+    CHECK(gaps[0].after == items.all<GazeSample>().back().sampled_at);
+    CHECK(gaps[0].lost_samples == 0);
+}

@@ -441,3 +441,24 @@ TEST_CASE("an effect on one of the stimuli shifts how it is seen against the oth
     which.truth.lapses = 0.2;
     CHECK(share_right(1, 3) == Approx(0.1 + 0.8 * normal_probability(0.7)).margin(2e-3));
 }
+
+TEST_CASE("a number without a lower end is set in steps from zero, and one with it from there", "[unit]") {
+    Protocol protocol = sided();
+    TaskAnswer& steps = protocol.tasks[0].answers[2];
+    steps.truth = AnswerTruth();
+    steps.truth.noise = 0.0;
+    steps.truth.offset = 3.2;
+    const SimulatedAnswers answers(protocol, 3);
+    AnswerOffer offer;
+    offer.id = "steps";
+    offer.kind = "number";
+    offer.step = 2.0;
+    CHECK(answers.answer(offer, trial_of(0, 1, 2)).number == 4.0);
+    offer.low = 1.0;
+    CHECK(answers.answer(offer, trial_of(0, 1, 2)).number == 3.0);
+    offer.high = 2.5;
+    CHECK(answers.answer(offer, trial_of(0, 1, 2)).number == 2.5);
+    offer.low = 3.9;
+    offer.high.reset();
+    CHECK(answers.answer(offer, trial_of(0, 1, 2)).number == 3.9);
+}

@@ -231,3 +231,76 @@ TEST_CASE("the calibration that is to fail fails, and the one after it does not"
     CHECK(bench.tracker.set_up(setup_screen).kind == SetupOutcome::Kind::done);
     CHECK(bench.tracker.take_struck() == std::vector<std::string>{"calibration 2 failed"});
 }
+
+namespace {
+
+/// Gives what waits, and writes down what it is told to do.
+class DiaryTracker final : public EyeTracker {
+  public:
+    explicit DiaryTracker(std::string& calls, std::vector<TrackerItem>& waiting)
+        : calls_(calls), waiting_(waiting) {}
+    TrackerDescription description() const override { return {"diary", 500.0, Eye::right}; }
+    SetupOutcome set_up(SetupScreen&) override { return {}; }
+    DriftOutcome drift_check(ScreenPoint) override { return {}; }
+    std::optional<ClockPair> read_clocks() noexcept override { return ClockPair{}; }
+    void start_recording() override { calls_ += "start "; }
+    void stop_recording() override { calls_ += "stop "; }
+    void reconnect() override { calls_ += "reconnect "; }
+    std::size_t poll(std::span<TrackerItem> into) noexcept override {
+        const std::size_t count = std::min(into.size(), waiting_.size());
+        std::copy_n(waiting_.begin(), count, into.begin());
+        waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(count));
+        return count;
+    }
+
+  private:
+    std::string& calls_;
+    std::vector<TrackerItem>& waiting_;
+};
+
+} // namespace
+
+TEST_CASE("a fault strikes from its first instant to the one before its end, and what was lost does not come "
+          "after a "
+          "connection",
+          "[unit]") {
+    VirtualClock clock;
+    std::string calls;
+    std::vector<TrackerItem> waiting;
+    const auto wait_for = [&](std::initializer_list<int> milliseconds) {
+        for (const int at : milliseconds)
+            waiting.push_back(GazeSample{.sampled_at = tracker_time(1'000'000 + 1000 * at),
+                                         .eye = Eye::right,
+                                         .gaze = ScreenPoint{1.0 * at, 0.0}});
+    };
+    TrackerFault gap{.kind = Kind::gap};
+    gap.at_s = 0.25;
+    gap.s = 0.25;
+    TrackerFault unplug{.kind = Kind::unplug};
+    unplug.at_s = 1.0;
+    FaultyTracker tracker(std::make_unique<DiaryTracker>(calls, waiting), clock,
+                          {.granted_rate_hz = {}, .given = {gap, unplug}});
+    tracker.mark({clock.now(), "TRIALID 1"});
+    const auto polled = [&] {
+        std::vector<TrackerItem> items(64);
+        items.resize(tracker.poll(items));
+        std::string all;
+        for (const TrackerItem& item : items)
+            if (const auto* sample = std::get_if<GazeSample>(&item))
+                all += fmt::format("{} ", sample->gaze->x_px);
+            else if (const auto* lost = std::get_if<TrackerGap>(&item))
+                all += fmt::format("gap of {} ", lost->lost_samples);
+        return all;
+    };
+    tracker.start_recording();
+    wait_for({0, 249, 250, 499, 500, 999, 1000, 1001, 1002});
+    CHECK(polled() == "0 249 gap of 2 500 999 ");
+    CHECK(tracker.recording_state() == RecordingState::lost);
+    CHECK_FALSE(tracker.read_clocks());
+    tracker.reconnect();
+    CHECK(calls == "start stop reconnect ");
+    CHECK(tracker.recording_state() == RecordingState::running);
+    CHECK(polled().empty());
+    wait_for({2000, 2001});
+    CHECK(polled() == "2000 2001 ");
+}

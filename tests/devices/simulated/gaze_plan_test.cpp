@@ -296,3 +296,16 @@ TEST_CASE("a fixating eye wanders with the standard deviations that are asked fo
     CHECK(std::log(drawn[15'000] / drawn[5'000]) == Approx(1.349 * 0.4).epsilon(0.06));
     CHECK(log_normal_within(random, 0.25, 0.4, 5.0, 6.0) == 5.0);
 }
+
+TEST_CASE("a favour of an area that a plan has not changes nothing", "[unit]") {
+    GazePlan plan;
+    plan.area_count = 2;
+    plan.shares = {0.2, 0.4};
+    for (const int area : {-1, 2, 3}) {
+        GazePlan favoured = plan;
+        favour_area(favoured, {-1, 0.0, area, 5.0});
+        CHECK(favoured.shares == plan.shares);
+    }
+    favour_area(plan, {-1, 0.0, 1, 5.0});
+    CHECK(plan.shares[1] == Approx(2.0 / 2.6));
+}

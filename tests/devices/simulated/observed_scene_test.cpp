@@ -37,6 +37,10 @@ TEST_CASE("simulated devices take their numbers from the protocol", "[unit]") {
     CHECK(tracker.noise_deg == 0.01);
     CHECK(tracker.accuracy_deg == protocol.tracker.simulated_accuracy_deg);
     CHECK(tracker.clock_drift_ppm == protocol.tracker.simulated_clock_drift_ppm);
+    protocol.tracker.simulated_clock_drift_ppm = 77.0;
+    protocol.tracker.simulated_accuracy_deg = 0.77;
+    CHECK(simulated_tracker_settings(protocol.tracker).clock_drift_ppm == 77.0);
+    CHECK(simulated_tracker_settings(protocol.tracker).accuracy_deg == 0.77);
 }
 
 TEST_CASE("simulated effects come from the protocol by number", "[unit]") {
@@ -73,6 +77,8 @@ TEST_CASE("a row's light comes after the vertical blank by the latency and its s
     CHECK(scene.light_delay(-5.0) == 2ms);
     CHECK(to_seconds(scene.light_delay(540.0)) == Approx(0.002 + 0.5 / 120.0));
     CHECK(scene.light_delay(2000.0) == scene.light_delay(1080.0));
+    CHECK(to_seconds(scene.frame_period(0)) == Approx(1.0 / 30.0));
+    scene.refresh_hz = 100.0; // no whole number of refreshes
     CHECK(to_seconds(scene.frame_period(0)) == Approx(1.0 / 30.0));
     scene.refresh_hz = 119.88; // four refreshes to a frame all the same
     CHECK(to_seconds(scene.frame_period(0)) == Approx(4.0 / 119.88));

@@ -132,3 +132,29 @@ TEST_CASE("a place is pointed at from where the eye is then, counted from the mi
     CHECK(std::abs(input->right_px - (1200.0 - middle.x_px)) < 25.0);
     CHECK(std::abs(input->down_px - (300.0 - middle.y_px)) < 25.0);
 }
+
+TEST_CASE("who presses too early does so 20 ms after the question, before it can be answered", "[unit]") {
+    SimulatedSitting sitting(8);
+    Protocol protocol;
+    protocol.tasks.emplace_back().id = "free";
+    protocol.tasks[0].answers.emplace_back().id = "which";
+    protocol.tasks[0].answers[0].truth.early = 1.0;
+    const SimulatedAnswers answers(protocol, 8);
+    SimulatedResponsePanel panel(sitting.clock, sitting.observer, {}, &answers);
+    AnswerOffer offer;
+    offer.id = "which";
+    offer.kind = "choice";
+    offer.values = offer.keys = {"f", "j"};
+    const Trial trial;
+    const SessionTime asked = sitting.clock.now();
+    panel.await(Awaited::answer, asked, &trial);
+    panel.offer({offer});
+    sitting.clock.wait_until(asked + 20ms - 1ns);
+    CHECK_FALSE(panel.next_input());
+    sitting.clock.wait_until(asked + 20ms);
+    const auto input = panel.next_input();
+    REQUIRE(input);
+    CHECK(input->at == asked + 20ms);
+    CHECK(input->key.view() == "f");
+    CHECK(input->kind == ObserverInput::Kind::key_down);
+}
