@@ -188,3 +188,48 @@ TEST_CASE("what is no knob is refused, and only those of their makers are 3D mic
     device.vendor_id = 0x1234;
     CHECK_FALSE(is_spacemouse(device));
 }
+
+TEST_CASE(
+    "a knob's axis goes on as it is held, beyond its dead zone, for a tenth of a second, in whole steps",
+    "[unit]") {
+    const SessionTime begin(std::chrono::seconds(5));
+    const auto steps_after = [&](double deflection, double dead_zone, SessionDuration held) {
+        KnobAxis axis;
+        axis.hold(deflection, 100.0, dead_zone, begin);
+        axis.go_on(begin + held);
+        return axis.take_steps();
+    };
+    using namespace std::chrono_literals;
+    CHECK(steps_after(1.0, 0.0, 50ms) == 5);
+    CHECK(steps_after(-1.0, 0.0, 50ms) == -5);
+    CHECK(steps_after(0.5, 0.0, 100ms) == 5);
+    CHECK(steps_after(1.0, 0.0, 100ms) == 10);
+    CHECK(steps_after(1.0, 0.0, 5s) == 10); // a report of its release may have been lost
+    CHECK(steps_after(0.6, 0.2, 100ms) == 5);
+    CHECK(steps_after(0.2, 0.2, 100ms) == 0);
+    CHECK(steps_after(0.1, 0.2, 100ms) == 0);
+    CHECK(steps_after(1.0, 0.0, 9ms) == 0);
+    KnobAxis axis;
+    axis.hold(1.0, 100.0, 0.0, begin);
+    axis.go_on(begin + 15ms);
+    CHECK(axis.take_steps() == 1);
+    axis.go_on(begin + 14ms); // no time goes back
+    axis.hold(1.0, 100.0, 0.0, begin + 20ms);
+    CHECK(axis.take_steps() == 1); // what was left of the first stayed
+    axis.go_on(begin + 25ms);
+    axis.hold(0.0, 100.0, 0.0, begin + 25ms);
+    axis.hold(1.0, 100.0, 0.0, begin + 30ms);
+    axis.go_on(begin + 36ms);
+    CHECK(axis.take_steps() == 0); // and is gone when it is let go
+    axis.add(0.4);
+    CHECK(axis.take_steps() == 1);
+    axis.add(2.5e6);
+    CHECK(axis.take_steps() == 1'000'000);
+    CHECK(axis.take_steps() == 1'000'000);
+    axis.forget();
+    CHECK(axis.take_steps() == 0);
+    axis.add(-0.3);
+    axis.add(-0.3);
+    axis.add(-0.4);
+    CHECK(axis.take_steps() == -1); // whose sum misses a step by its rounding
+}

@@ -156,3 +156,27 @@ TEST_CASE("of a calibration's result twenty-five points are read, of the eyes th
     CHECK(outcome_of(message, settings, wish).message ==
           "the tracker ended its calibration without a result");
 }
+
+TEST_CASE("what a calibration says while answers are waited for is kept, four hundred messages of it",
+          "[unit]") {
+    VirtualClock clock;
+    FarEnd far(clock);
+    far.answer = [](std::string_view) {
+        std::string all = "<REC CNT=\"1\" />\r\n";
+        for (int i = 0; i < 405; ++i)
+            all += fmt::format("<CAL ID=\"CALIB_START_PT\" PT=\"{}\" />\r\n", i);
+        return all + "<ACK ID=\"OTHER\" />\r\n<ACK ID=\"PRODUCT_ID\" VALUE=\"it\" />\r\n";
+    };
+    OpenGazeLink link(std::make_unique<InMemoryLine>(far), clock, {});
+    const auto answer = link.get("PRODUCT_ID");
+    REQUIRE(answer);
+    CHECK(answer->message().value("VALUE") == "it");
+    int count = 0;
+    while (const auto said = link.next_calibration_message(clock.now()))
+        CHECK(said->message().number("PT") == count++);
+    CHECK(count == 400);
+    far.answer = [](std::string_view) { return std::string("<CAL ID=\"x\" />\r\n<NACK ID=\"Y\" />\r\n"); };
+    CHECK_FALSE(link.set("Y", "STATE=\"1\"")->is_granted);
+    link.forget();
+    CHECK_FALSE(link.next_calibration_message(clock.now()));
+}

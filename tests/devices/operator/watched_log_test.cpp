@@ -2,9 +2,12 @@
 #include "devices/operator/watched_log.h"
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
 #include "devices/operator/operator_client.h"
+#include "experiment/ports/answer_offer.h"
 #include "experiment/ports/event_kinds.h"
+#include "experiment/ports/turning_offer.h"
 #include "tests/support/temporary_folder.h"
 
 using namespace overt;
@@ -242,4 +245,61 @@ TEST_CASE("a view sees what came of trials, validations and phases, and the leve
     watch.clock.time += 2ms; // seen() waits for a later time than the last
     watch.seen();
     CHECK((view.level_peak == 0.75 && view.level_rms == 0.125 && !view.is_clipping));
+}
+
+namespace {
+
+/// Writes down what it is asked.
+class DiaryPanel final : public ResponsePanel {
+  public:
+    std::string calls;
+    std::optional<ResponsePress> press;
+    void await(Awaited what, SessionTime since, const Trial*) override {
+        calls += fmt::format("await {} {} ", static_cast<int>(what), to_seconds(since));
+    }
+    void offer(const std::vector<AnswerOffer>& offers) override {
+        calls += fmt::format("offer {} ", offers.size());
+    }
+    void offer_turning(const TurningOffer&) override { calls += "turning "; }
+    void window_opened(SessionTime) noexcept override { calls += "opened "; }
+    std::optional<SetupKey> next_setup_key() override { return SetupKey{SetupKey::Kind::enter}; }
+    std::optional<ObserverInput> next_input() noexcept override { return ObserverInput{}; }
+    std::optional<ResponsePress> poll() noexcept override { return std::exchange(press, std::nullopt); }
+    bool has_keyboard() const noexcept override { return false; }
+    std::string answer() override { return "typed"; }
+    std::vector<std::string> closing_warnings() const override { return {"one"}; }
+    void write_down(SessionLog&) override { calls += "written "; }
+    void entered(SessionPhase phase, int trial) noexcept override {
+        calls += fmt::format("entered {} {} ", name_of(phase), trial);
+    }
+};
+
+} // namespace
+
+TEST_CASE(
+    "an operator's view stands beside the panel that answers, which is asked and told all that it would be",
+    "[unit]") {
+    const TemporaryFolder folder;
+    OperatorServer server(watched_options(folder.path() / "s"));
+    SetClock clock;
+    DiaryPanel answering;
+    NamedCalls log;
+    OperatorPanel panel(server, clock, answering);
+    panel.await(Awaited::response, SessionTime(2s), nullptr);
+    panel.offer(std::vector<AnswerOffer>(3));
+    panel.offer_turning({});
+    panel.window_opened({});
+    panel.entered(SessionPhase::stimulus, 5);
+    panel.write_down(log);
+    CHECK(answering.calls == fmt::format("await {} 2 offer 3 turning opened entered stimulus 5 written ",
+                                         static_cast<int>(Awaited::response)));
+    CHECK(log.calls.empty());
+    CHECK(panel.next_setup_key()->kind == SetupKey::Kind::enter);
+    CHECK(panel.next_input());
+    CHECK_FALSE(panel.has_keyboard());
+    CHECK(panel.answer() == "typed");
+    CHECK(panel.closing_warnings() == std::vector<std::string>{"one"});
+    CHECK_FALSE(panel.poll());
+    answering.press = ResponsePress{ResponsePress::Key::next, SessionTime(3s)};
+    CHECK(panel.poll()->pressed_at == SessionTime(3s));
 }

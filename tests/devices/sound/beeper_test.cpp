@@ -153,3 +153,34 @@ TEST_CASE("a machine without a sound device says so", "[unit]") {
                    Catch::Contains("sound device that plays") || Catch::Contains("does not play"));
     }
 }
+
+TEST_CASE("each beep is made of the tones that its users know it by", "[unit]") {
+    const auto words_of = [](Beep beep) {
+        std::string words;
+        for (const BeepTone& tone : tones_of(beep))
+            words += fmt::format("{}{} Hz {} s", words.empty() ? "" : ", ", tone.pitch_hz, tone.length_s);
+        return words;
+    };
+    CHECK(words_of(Beep::target_appears) == "800 Hz 0.08 s");
+    for (const Beep good : {Beep::calibration_good, Beep::drift_good})
+        CHECK(words_of(good) == "800 Hz 0.1 s, 0 Hz 0.03 s, 1200 Hz 0.15 s");
+    for (const Beep bad : {Beep::calibration_bad, Beep::drift_bad})
+        CHECK(words_of(bad) == "600 Hz 0.15 s, 0 Hz 0.05 s, 400 Hz 0.3 s");
+    CHECK(words_of(Beep::answered) == "600 Hz 0.1 s");
+    CHECK(words_of(Beep::correct) == "1200 Hz 0.1 s");
+    CHECK(words_of(Beep::wrong) == "300 Hz 0.25 s");
+    CHECK(words_of(Beep::missed) == "300 Hz 0.1 s, 0 Hz 0.05 s, 300 Hz 0.1 s");
+    // Within 5 ms of both its ends a tone is faded, and else 0.3 of full scale.
+    BeepSound sound(sound_rate_hz);
+    sound.start(Beep::answered);
+    std::vector<float> samples(4801);
+    sound.fill(samples);
+    for (std::size_t i = 0; i < 4800; ++i) {
+        const double at_s = static_cast<double>(i) / sound_rate_hz, from_end_s = std::min(at_s, 0.1 - at_s);
+        REQUIRE(samples[i] ==
+                Approx(0.3 * std::min(1.0, from_end_s / 0.005) * std::sin(6.283185307179586 * 600.0 * at_s))
+                    .margin(1e-5));
+    }
+    CHECK(samples[4800] == 0.0f);
+    CHECK(sound.silent_samples() == 1);
+}
