@@ -204,3 +204,18 @@ TEST_CASE("an analysis tells what it is at, from the first object to the last", 
                                            "differences 0/1", "differences 1/1", "metrics 0/1",
                                            "metrics 1/1"});
 }
+
+TEST_CASE(
+    "maps of differences are said to be of too few where no cluster can be significant, not where one can",
+    "[unit]") {
+    const auto says_too_few = [](int observers, double confidence) {
+        StudyOptions options;
+        options.confidence = confidence;
+        return remarks_of(analyzed(looks_up_and_front(observers), options))
+                   .find("no cluster can have a smaller p") != std::string::npos;
+    };
+    // Six observers can give 1/32.
+    CHECK_FALSE(says_too_few(6, 1.0 - 1.0 / 32.0));
+    CHECK(says_too_few(6, 0.97));
+    CHECK_FALSE(says_too_few(6, 0.95));
+}

@@ -173,3 +173,43 @@ TEST_CASE("the error budget is what its parts say, in millimetres", "[unit]") {
     results.trials[0].turns.resize(1);
     CHECK(surface_speed_mm_s(results.fixations[0], results.trials[0], results.objects[0]) == 0.0);
 }
+
+TEST_CASE("a surface is as fast as its turns about the axis take it, of the frames about a fixation",
+          "[unit]") {
+    StudyObject object;
+    object.mm_per_unit = 2.0;
+    object.axis_point = {5.0, 7.0, 0.0};
+    StudyFixation fixation;
+    fixation.position = {8.0, 11.0, 99.0}; // 5 units from the axis
+    fixation.onset_s = 1.05;
+    fixation.duration_s = 0.2;
+    StudyTrial trial;
+    CHECK_FALSE(surface_speed_mm_s(fixation, trial, object));
+    // Angles go up by 1, 2, 3, ... degrees, and every third time down by so much.
+    double angle_deg = 0.0;
+    for (int i = 0; i < 20; ++i) {
+        angle_deg += i % 3 == 2 ? -i : i;
+        trial.turns.push_back({0.1 * i, angle_deg, i});
+    }
+    // On 1.05 to 1.25 s: the turns from 0.9 s on (10, 11, 12, 13, and one after: 0.9 to 1.3).
+    const double turned = 10.0 + 11.0 + 12.0 + 13.0;
+    CHECK(surface_speed_mm_s(fixation, trial, object).value() ==
+          Approx(turned * std::numbers::pi / 180.0 / 0.4 * 5.0 * 2.0));
+    // At the end there is none after it, at the beginning none before.
+    fixation.onset_s = 1.85;
+    CHECK(surface_speed_mm_s(fixation, trial, object).value() ==
+          Approx((18.0 + 19.0) * std::numbers::pi / 180.0 / 0.2 * 10.0));
+    fixation.onset_s = -0.5;
+    fixation.duration_s = 0.55;
+    CHECK(surface_speed_mm_s(fixation, trial, object).value() ==
+          Approx(1.0 * std::numbers::pi / 180.0 / 0.1 * 10.0));
+    trial.turns.resize(1);
+    CHECK(surface_speed_mm_s(fixation, trial, object).value() == 0.0);
+    // Two turns at one time say nothing of a speed.
+    trial.turns.push_back(trial.turns.front());
+    trial.turns.back().angle_deg += 9.0;
+    fixation.onset_s = 0.0;
+    CHECK(surface_speed_mm_s(fixation, trial, object).value() == 0.0);
+    object.mm_per_unit.reset();
+    CHECK_FALSE(surface_speed_mm_s(fixation, trial, object));
+}

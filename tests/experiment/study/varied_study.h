@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -231,6 +232,15 @@ inline void add_trial(ReadStudy& study, int session, int observer, int number, i
     results.trials.push_back(std::move(trial));
 }
 
+/// The last trials of each observer show both eggs side by side.
+inline void add_pair(ReadStudy& study, int session, int observer, int number, const Kind& kind,
+                     RandomStream& random) {
+    for (const int object : {0, 1}) {
+        add_trial(study, session, observer, number, 0, object, number % 2, kind, random);
+        study.results.trials.back().keys.push_back({"slot", object == 0 ? "left" : "right"});
+    }
+}
+
 inline StudyAnswer answer_to(const StudyResults& results, const StudyTrial& trial, const std::string& id,
                              const std::string& kind) {
     StudyAnswer answer;
@@ -247,7 +257,32 @@ inline StudyAnswer answer_to(const StudyResults& results, const StudyTrial& tria
 }
 
 inline void add_answers(StudyResults& results, RandomStream& random) {
+    std::set<std::pair<int, int>> pairs;
     for (const StudyTrial& trial : results.trials) {
+        if (trial.key("slot") == "n/a" || !pairs.emplace(trial.session, trial.number).second)
+            continue;
+        StudyAnswer which;
+        which.observer = results.sessions[static_cast<std::size_t>(trial.session)].observer;
+        which.task = "free";
+        which.answer = "which";
+        which.kind = "choice";
+        which.is_missed = false;
+        which.session = trial.session;
+        which.trial = trial.number;
+        which.value = random.uniform() < 0.6 ? "left" : "right";
+        which.response_s = random.uniform(0.5, 2.0);
+        for (const char* const slot : {"left", "right"}) {
+            const double size = random.uniform(1.0, 3.0);
+            which.shown.push_back({slot,
+                                   {{"size", fmt::format("{:.1f}", size)}},
+                                   {{"size", size}},
+                                   1.0 + 0.3 * (trial.number % 4)});
+        }
+        results.answers.given.push_back(std::move(which));
+    }
+    for (const StudyTrial& trial : results.trials) {
+        if (trial.key("slot") != "n/a")
+            continue;
         StudyAnswer metal = answer_to(results, trial, "metal", "choice");
         metal.correct = trial.number % 3 == 0 ? "no" : "yes";
         metal.value = random.uniform() < 0.75 ? metal.correct : metal.correct == "no" ? "yes" : "no";
@@ -365,6 +400,9 @@ inline ReadStudy varied_study(const varied::Kind& kind = {}) {
                             varied::add_trial(study, index, observer, ++number, task, object, material, kind,
                                               random);
                     }
+            // Of the fourth there is one alone.
+            for (int pair = 0; pair < (observer == 3 ? 1 : 5); ++pair)
+                varied::add_pair(study, index, observer, ++number, kind, random);
         }
     }
     varied::add_answers(results, random);

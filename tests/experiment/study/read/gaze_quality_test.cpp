@@ -154,7 +154,8 @@ TEST_CASE("of several trials numbers add up, precisions have medians, accuracies
           "[unit]") {
     StudyQuality a, b, c;
     a.accuracy_deg = 0.3, a.worst_accuracy_deg = 0.6, a.rms_s2s_deg = 0.02, a.rate_hz = 1000.0;
-    b.accuracy_deg = 0.6, b.worst_accuracy_deg = 0.9, b.rms_s2s_deg = 0.05, b.rate_hz = 500.0;
+    b.accuracy_deg = 0.6, b.worst_accuracy_deg = 0.9, b.rms_s2s_deg = 0.05, b.rate_hz = 500.0,
+    b.sd_deg = 0.07;
     c.rms_s2s_deg = 0.03, c.rate_hz = 1000.0, c.drift_deg = 0.4;
     a.samples = 100, a.lost = 3, a.lost_in_blinks = 5, a.blinks = 1, a.refreshes = 960,
     a.missed_refreshes = 1;
@@ -167,7 +168,7 @@ TEST_CASE("of several trials numbers add up, precisions have medians, accuracies
     CHECK(*all.rms_s2s_deg == 0.03);
     CHECK(*all.rate_hz == 1000.0);
     CHECK(*all.drift_deg == 0.4);
-    CHECK_FALSE(all.sd_deg);
+    CHECK(*all.sd_deg == 0.07);
     CHECK(all.samples == 300);
     CHECK(all.lost == 7);
     CHECK(all.lost_in_blinks == 5);
@@ -180,6 +181,7 @@ TEST_CASE("of several trials numbers add up, precisions have medians, accuracies
 TEST_CASE("two samples have a rate, and five in a fixation a precision", "[unit]") {
     CHECK(*gaze_quality(samples_at(250.0, 2), {}, screen).rate_hz == Approx(250.0));
     CHECK_FALSE(gaze_quality(samples_at(250.0, 1), {}, screen).rate_hz);
+    CHECK(*gaze_quality(samples_at(1e6, 9), {}, screen).rate_hz == Approx(1e6));
     // All of one time have none.
     std::vector<PlacedSample> at_once(3);
     CHECK_FALSE(gaze_quality(at_once, {}, screen).rate_hz);
@@ -213,11 +215,18 @@ TEST_CASE("scatter is about a line of its own in each fifth of a second", "[unit
     const std::array events{event_of(GazeEvent::Kind::fixation, samples, 0, 59)};
     CHECK(*gaze_quality(samples, events, screen).sd_deg == Approx(0.0).margin(1e-6));
     // A stretch of fewer than five samples at the end is none.
-    samples.resize(43);
+    std::vector<PlacedSample> shorter(samples.begin(), samples.begin() + 43);
     for (std::size_t i = 40; i < 43; ++i)
-        samples[i].gaze.y_px += 40.0 * static_cast<double>(i);
-    const std::array shorter{event_of(GazeEvent::Kind::fixation, samples, 0, 42)};
-    CHECK(*gaze_quality(samples, shorter, screen).sd_deg == Approx(0.0).margin(1e-6));
+        shorter[i].gaze.y_px += 40.0 * static_cast<double>(i);
+    const std::array whole{event_of(GazeEvent::Kind::fixation, shorter, 0, 42)};
+    CHECK(*gaze_quality(shorter, whole, screen).sd_deg == Approx(0.0).margin(1e-6));
+    // To and fro by a quarter of a degree to each side: 20 samples to a line, of which two are its own.
+    for (int i = 0; i < 60; ++i)
+        samples[static_cast<std::size_t>(i)].gaze = {screen.centre().x_px + 0.25 * (i % 2 == 0 ? 1.0 : -1.0) *
+                                                                                screen.px_per_deg_at_centre(),
+                                                     screen.centre().y_px};
+    CHECK(*gaze_quality(samples, events, screen).sd_deg ==
+          Approx(std::sqrt((1.25 - 6.25 / 665.0) / 18.0)).epsilon(1e-6));
 }
 
 TEST_CASE("blinks take as many lost samples as there are, and nothing that was seen", "[unit]") {

@@ -228,6 +228,11 @@ TEST_CASE("a setting of a gauge has its place as the camera sees it, and its pic
                    without = asked_session(root.path(), other, {{trial, outcome}});
     const std::vector<GaugeSettingRow> rows =
         read_gauge_settings(std::array{without, session}, SameObservers{{"ZZ", "Z"}, {"AB7", "one"}});
+    // Of one session after the other.
+    const auto of_three = read_gauge_settings(std::array{session, without, session}, {});
+    REQUIRE(of_three.size() == 4);
+    CHECK(of_three[1].session == 0);
+    CHECK(of_three[3].session == 2);
     REQUIRE(rows.size() == 2);
     CHECK(rows[0].of == ReliefOf{"one", "age", "lean", "vase", "gold", "noon", "to and fro", "front", 0});
     CHECK(rows[0].session == 1);
@@ -277,6 +282,18 @@ TEST_CASE("an object that was turned has its ways, times and levels, show by sho
                                            {{turned, outcome_at(0), flips}, {planned, outcome_at(10'000)}});
     const std::vector<ExplorationRow> rows =
         read_explorations(std::array{without, session}, SameObservers{{"ZZ", "Z"}, {"AB7", "one"}});
+    // A session with one task and one motion alone has no levels of these.
+    header.schedule.observer.label = "GH1";
+    header.tasks.resize(1);
+    header.motions.clear();
+    header.animations.resize(1);
+    header.poses.of_motion.resize(1);
+    turned.task = 0;
+    const fs::path alone = asked_session(root.path(), header, {{turned, outcome_at(0), flips}});
+    const auto of_three = read_explorations(std::array{session, without, alone}, {});
+    REQUIRE(of_three.size() == 2);
+    CHECK(of_three[1].session == 2);
+    CHECK(level_pairs(of_three[1].levels) == "object=bust material=silver");
     REQUIRE(rows.size() == 1);
     CHECK(rows[0].observer == "one");
     CHECK(rows[0].session == 1);

@@ -107,6 +107,13 @@ TEST_CASE("sessions are read with their trials, their quality and where on the o
             CHECK(fixation.surface_way_deg2 > 0.0);
             CHECK(fixation.gaze_with_surface_deg2 == Approx(fixation.surface_way_deg2).epsilon(0.2));
             CHECK(fixation.sigma_mm == Approx(fixation.mm_per_deg));
+            // The cone is of the tracker's error, and lies on the ball.
+            CHECK(fixation.cone_at_edge.value() < 0.1);
+            CHECK(fixation.cone_mm.value() > 0.9 * (index == 0 ? 0.3 : 0.5) * fixation.mm_per_deg);
+            CHECK(fixation.cone_mm.value() < 3.0 * (index == 0 ? 0.3 : 0.5) * fixation.mm_per_deg);
+            CHECK(fixation.displaced_motion.value().surface_way_deg2 ==
+                  Approx(fixation.surface_way_deg2).epsilon(0.5));
+            CHECK(fixation.lut_mm.value() < 0.01);
         }
         CHECK(fixations[2].why == NotCounted::not_on_surface);
         CHECK(fixations[2].on_surface == 0.0);

@@ -169,6 +169,15 @@ TEST_CASE("shards that do not make a study are refused in words", "[unit]") {
     CHECK(refusal({shard(1), shard(2)}, wider) == "shards/1 was read with --sigma 1deg, and here stands "
                                                   "--sigma 30mm: give the same, or make the shards "
                                                   "again.");
+    StudyOptions narrower;
+    narrower.sigma = {0.5, false};
+    CHECK(refusal({shard(1), shard(2)}, narrower) == "shards/1 was read with --sigma 1deg, and here stands "
+                                                     "--sigma 0.5deg: give the same, or make the shards "
+                                                     "again.");
+    StudyOptions in_mm;
+    in_mm.sigma = {1.0, true};
+    CHECK(refusal({shard(1), shard(2)}, in_mm).find("--sigma 1deg, and here stands --sigma 1mm") !=
+          std::string::npos);
     StudyOptions other_seed;
     other_seed.seed = 7;
     other_seed.by = {"material"};
