@@ -5,6 +5,7 @@
 #include "experiment/base/error.h"
 #include "experiment/observer_label.h"
 #include "experiment/record/read/session_record.h"
+#include "experiment/record/session_lock.h"
 #include "tests/experiment/record/session_fixture.h"
 
 using namespace overt;
@@ -154,4 +155,11 @@ TEST_CASE("whatever else lies beside sessions, each like-named observer of them 
     CHECK_THROWS_WITH(check_session_place({root.path() / "file", "tiny", "9"}, {}),
                       Catch::Contains("it is no folder"));
     CHECK_NOTHROW(check_session_place({root.path() / "not/there/yet", "tiny", "9"}, {}));
+}
+
+TEST_CASE("a session has one writer, and where there is none it is said", "[unit]") {
+    const TemporaryFolder root;
+    CHECK_THROWS_WITH(SessionLock(root.path() / "none"), Contains("none: there is no session here."));
+    const SessionLock first(root.path());
+    CHECK_THROWS_WITH(SessionLock(root.path()), Contains("another program is running this session"));
 }

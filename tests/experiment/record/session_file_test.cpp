@@ -289,3 +289,19 @@ TEST_CASE("a log is folded as soon as whoever reads the file is done, or not wit
     CHECK(fold_log(database, std::chrono::seconds(20)));
     later.join();
 }
+
+TEST_CASE("a file of before its tables had today's names is read by these, and looked at as it is by its own",
+          "[unit]") {
+    const TemporaryFolder root;
+    const fs::path file = root.path() / session_file_name;
+    create_session_file(file, example_header());
+    SQLite::Database(file.string(), SQLite::OPEN_READWRITE).exec("ALTER TABLE object RENAME TO sculpture");
+    const auto has_objects = [&](SessionFileUse use) {
+        SQLite::Database database = open_session_file(file, use);
+        return database.tryExec("SELECT COUNT(*) FROM object") == SQLITE_OK;
+    };
+    CHECK_FALSE(has_objects(SessionFileUse::read)); // of a format that has them, nothing else is meant
+    SQLite::Database(file.string(), SQLite::OPEN_READWRITE).exec("PRAGMA user_version = 1");
+    CHECK(has_objects(SessionFileUse::read));
+    CHECK_FALSE(has_objects(SessionFileUse::as_it_is));
+}
