@@ -349,3 +349,28 @@ TEST_CASE("a HID eye tracker's time in several numbers is one, whatever the sign
         CHECK(told->at == tracker_time((std::int64_t{1} << (bits + 1)) - 1));
     }
 }
+
+TEST_CASE("a time in another report than the gaze is not that of the gaze", "[unit]") {
+    DescriptorText text;
+    text.page(0x12).open(0x01, 1).open(0x10, 2).id(0x21);
+    text.usage(0x20).logical(0, 2'147'483'647).size(32, 1).input(0x02);
+    text.id(0x20)
+        .unit(0x11, -2)
+        .logical(-10'000, 10'000)
+        .size(16, 2)
+        .open(0x24, 0)
+        .usage(0x21)
+        .usage(0x22)
+        .input(0x02)
+        .close();
+    text.close().close();
+    std::string why;
+    const auto layout = HidGazeLayout::find(parse_report_descriptor(text.bytes), why);
+    INFO(why);
+    REQUIRE(layout);
+    const auto told = layout->read(bytes_of({0x20, 1, 0, 2, 0}));
+    REQUIRE(told);
+    CHECK_FALSE(told->at);
+    CHECK(told->gaze_mm);
+    CHECK_FALSE(layout->read(bytes_of({0x21, 1, 0, 2, 0})));
+}

@@ -132,3 +132,20 @@ TEST_CASE("gaze on a surface becomes samples in px, y downward, with each eye's 
     CHECK(details[0].confidence == 0.9f);
     CHECK(details[2].confidence == 0.0f);
 }
+
+TEST_CASE("a place of Pupil Capture has all its numbers, or is none", "[unit]") {
+    const auto eye_of = [](const json& centre) {
+        json map = pupil_map();
+        map["sphere"]["center"] = centre;
+        return read_pupil_datum(message_of(map)).value().eye_mm;
+    };
+    CHECK(eye_of({1.0, 2.0, 3.0}) == glm::vec3(1.0f, 2.0f, 3.0f));
+    CHECK(eye_of({1.0, 2.0, 3.0, "more"}) == glm::vec3(1.0f, 2.0f, 3.0f));
+    CHECK_FALSE(eye_of({1.0, 2.0}));
+    CHECK_FALSE(eye_of({1.0, "x", 3.0}));
+    CHECK_FALSE(eye_of({1.0, 2.0, std::numeric_limits<double>::infinity()}));
+    CHECK_FALSE(eye_of("nowhere"));
+    json gaze = gaze_map(2.0, json::array());
+    gaze["norm_pos"] = {0.25, "x"};
+    CHECK(gazes_of(json::array({gaze, gaze_map(3.0, json::array())})).size() == 1);
+}

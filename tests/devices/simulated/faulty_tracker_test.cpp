@@ -290,11 +290,18 @@ TEST_CASE("a fault strikes from its first instant to the one before its end, and
                 all += fmt::format("{} ", sample->gaze->x_px);
             else if (const auto* lost = std::get_if<TrackerGap>(&item))
                 all += fmt::format("gap of {} ", lost->lost_samples);
+            else if (const auto* pressed = std::get_if<TrackerButton>(&item))
+                all += fmt::format("button {} ", pressed->number);
         return all;
     };
     tracker.start_recording();
-    wait_for({0, 249, 250, 499, 500, 999, 1000, 1001, 1002});
-    CHECK(polled() == "0 249 gap of 2 500 999 ");
+    const TrackerButton button{tracker_time(5), 3, true};
+    wait_for({0, 249});
+    waiting.push_back(button);
+    wait_for({250, 499});
+    waiting.push_back(button); // of the gap
+    wait_for({500, 999, 1000, 1001, 1002});
+    CHECK(polled() == "0 249 button 3 gap of 2 500 999 ");
     CHECK(tracker.recording_state() == RecordingState::lost);
     CHECK_FALSE(tracker.read_clocks());
     tracker.reconnect();
@@ -303,4 +310,34 @@ TEST_CASE("a fault strikes from its first instant to the one before its end, and
     CHECK(polled().empty());
     wait_for({2000, 2001});
     CHECK(polled() == "2000 2001 ");
+}
+
+TEST_CASE("a slow start ends at its instant, and a clock that jumps takes all items with it", "[unit]") {
+    VirtualClock clock;
+    std::string calls;
+    std::vector<TrackerItem> waiting;
+    TrackerFault slow{.kind = Kind::slow_start};
+    slow.s = 0.25;
+    TrackerFault jump{.kind = Kind::clock_jump};
+    jump.at_s = 0.5;
+    jump.ms = 40.0;
+    FaultyTracker tracker(std::make_unique<DiaryTracker>(calls, waiting), clock,
+                          {.granted_rate_hz = {}, .given = {slow, jump}});
+    tracker.mark({clock.now(), "TRIALID 1"});
+    tracker.start_recording();
+    for (const int at : {0, 249, 250, 499, 500, 501})
+        waiting.push_back(
+            GazeSample{.sampled_at = tracker_time(1'000'000 + 1000 * at), .eye = Eye::right, .gaze = {}});
+    waiting.push_back(TrackerButton{tracker_time(1'502'000), 3, true});
+    std::vector<TrackerItem> items(16);
+    items.resize(tracker.poll(items));
+    REQUIRE(items.size() == 5);
+    const std::int64_t wanted[] = {1'250'000, 1'499'000, 1'540'000, 1'541'000};
+    for (std::size_t i = 0; i < 4; ++i)
+        CHECK(std::get<GazeSample>(items[i]).sampled_at == tracker_time(wanted[i]));
+    CHECK(std::get<TrackerButton>(items[4]).at == tracker_time(1'542'000));
+    CHECK(tracker.read_clocks()->other == tracker_time(40'000));
+    tracker.stop_recording();
+    CHECK(tracker.take_struck().size() == 2);
+    CHECK(tracker.take_struck().empty());
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiment/events/main_sequence.h"
 #include "tests/devices/simulated/sitting.h"
 
 using namespace overt;
@@ -340,4 +341,32 @@ TEST_CASE("an object of which only pictures exist is looked at within the pictur
         }
     }
     CHECK(places > 10);
+}
+
+TEST_CASE("between two targets the eye is on its way, evenly about the middle of it, and then stays",
+          "[unit]") {
+    SimulatedSitting sitting(4, test::without_wandering());
+    const ScreenPoint centre = sitting.observer.scene().screen.centre(),
+                      there{centre.x_px + 400.0, centre.y_px - 300.0};
+    Screen screen;
+    screen.kind = Screen::Kind::target;
+    screen.target_place = there;
+    const SessionTime onset(std::chrono::seconds(10));
+    sitting.observer.screen_shown(screen, onset);
+    const auto share_at = [&](SessionDuration after) {
+        const TrueGaze gaze = sitting.observer.gaze_at(onset + after);
+        const double share = (gaze.place.x_px - centre.x_px) / 400.0;
+        CHECK((gaze.place.y_px - centre.y_px) / -300.0 == Approx(share).margin(1e-9));
+        return share;
+    };
+    using namespace std::chrono_literals;
+    CHECK(share_at(-1s) == 0.0);
+    CHECK(share_at(200ms) == Approx(0.0).margin(1e-9));
+    const SessionDuration way =
+        saccade_duration(sitting.observer.scene().screen.angle_between(centre, there));
+    CHECK(share_at(200ms + way / 2) == Approx(0.5).margin(0.01));
+    CHECK(share_at(200ms + way / 4) + share_at(200ms + 3 * way / 4) == Approx(1.0).margin(0.01));
+    CHECK(share_at(200ms + way / 4) < 0.4);
+    CHECK(share_at(200ms + way) == Approx(1.0));
+    CHECK(share_at(5s) == Approx(1.0));
 }
