@@ -72,6 +72,12 @@ TEST_CASE("an ioLab box is set up as its maker's library does", "[unit]") {
     CHECK(model.was_told({0, 'Q', 0, 0, 0, 0, 0, 0, 0}));
     CHECK(box.description().has_clock);
     CHECK(box.button_name(3) == "3");
+    const auto asked = [&] {
+        return std::ranges::count(model.far.written, bytes_of({0, 'T', 0, 0, 0, 0, 0, 0, 0}));
+    };
+    CHECK(asked() == 3); // its clock is read three times, and before each trial
+    box.begin();
+    CHECK(asked() == 6);
 }
 
 TEST_CASE(

@@ -209,7 +209,8 @@ TEST_CASE("of two eyes of a relayed tracker each value stands in its own channel
     SampleDetail late = left;
     late.sampled_at = tracker_time(2600); // of another sample
     late.confidence = 0.125f;
-    tracker->reads = {{sample_of(Eye::left, 2500, ScreenPoint{1.0, 2.0}, 3.0f), left,
+    tracker->reads = {{sample_of(Eye::left, 2400, ScreenPoint{1.0, 2.0}, 0.0f), // a pupil that is not known
+                       sample_of(Eye::left, 2500, ScreenPoint{1.0, 2.0}, 3.0f), left,
                        sample_of(Eye::right, 2500, ScreenPoint{4.0, 5.0}, 6.0f), right, late}};
     LslGazeRelay relay(std::move(tracker), load_lsl(LslBench::library()), "s01", bench.clock);
     TrackerWish wish;
@@ -218,6 +219,8 @@ TEST_CASE("of two eyes of a relayed tracker each value stands in its own channel
     KeptItems items;
     CHECK(relay.read(items, SessionTime()) == RecordingState::running);
     const FakeStream& stream = *bench.fake().sent.back();
-    REQUIRE(stream.pushed.size() == 1);
-    CHECK(stream.pushed[0].values == std::vector<double>{1.0, 2.0, 3.0, 0.25, 4.0, 5.0, 6.0, 0.5, 0.0025});
+    REQUIRE(stream.pushed.size() == 2);
+    CHECK(stream.pushed[0].values[0] == 1.0);
+    CHECK(std::isnan(stream.pushed[0].values[2]));
+    CHECK(stream.pushed[1].values == std::vector<double>{1.0, 2.0, 3.0, 0.25, 4.0, 5.0, 6.0, 0.5, 0.0025});
 }

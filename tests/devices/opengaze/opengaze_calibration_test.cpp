@@ -177,6 +177,10 @@ TEST_CASE("what a calibration says while answers are waited for is kept, four hu
     CHECK(count == 400);
     far.answer = [](std::string_view) { return std::string("<CAL ID=\"x\" />\r\n<NACK ID=\"Y\" />\r\n"); };
     CHECK_FALSE(link.set("Y", "STATE=\"1\"")->is_granted);
+    CHECK(link.send_set("Y", "", clock.now() + std::chrono::milliseconds(1)));
+    far.takes_bytes = false;
+    CHECK_FALSE(link.send_set("Y", "", clock.now() + std::chrono::milliseconds(1)));
+    far.takes_bytes = true;
     link.forget();
     CHECK_FALSE(link.next_calibration_message(clock.now()));
 }
