@@ -4,19 +4,13 @@
 #include <cmath>
 #include <limits>
 
-#include <embree3/rtcore.h>
-#include <fmt/format.h>
-
 #include "experiment/base/error.h"
 #include "experiment/base/parallel.h"
+#include "experiment/scene/embree_tree.h"
 
 namespace overt {
 
 namespace {
-
-/// A ray's origin and direction are rounded to float for the tree: that moves it by at most 2^-24 of the
-/// sphere's radius each, a quarter of a millionth of the radius in all. Boxes and limits are widened by more.
-constexpr double widening = 2e-6;
 
 /// A ray with its origin moved up to the sphere around the mesh: coordinates and distances are then no larger
 /// than the mesh, and rounding is relative to that and not to the camera's distance.
@@ -85,21 +79,6 @@ std::optional<Meeting> meet(const Target& target, std::uint32_t triangle, const 
     return Meeting{triangle, volumes / sum, glm::dot(normal, a - ray.origin) / approach};
 }
 
-void refuse(RTCDevice device, const char* what) {
-    const RTCError error = rtcGetDeviceError(device);
-    if (error != RTC_ERROR_NONE) {
-        throw GraphicsError(fmt::format("Embree cannot {} (its error {}): check that enough memory is free",
-                                        what, static_cast<int>(error)));
-    }
-}
-
-struct DeviceRelease {
-    void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
-};
-struct SceneRelease {
-    void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
-};
-
 } // namespace
 
 struct RayCaster::Tree {
@@ -107,8 +86,7 @@ struct RayCaster::Tree {
     glm::dvec3 centre{0.0};
     double radius = 0.0; ///< of a sphere about the centre that holds the mesh
     double margin = 0.0; ///< that boxes are widened by
-    std::unique_ptr<RTCDeviceTy, DeviceRelease> device;
-    std::unique_ptr<RTCSceneTy, SceneRelease> scene;
+    EmbreeTree embree;
 
     explicit Tree(const Mesh& of_mesh);
     Tree(const Tree&) = delete; // Embree holds its address
@@ -126,18 +104,7 @@ struct RayCaster::Tree {
 
 void RayCaster::Tree::give_bounds(const RTCBoundsFunctionArguments* arguments) {
     const Tree& tree = *static_cast<const Tree*>(arguments->geometryUserPtr);
-    const glm::uvec3 corners = tree.mesh->triangles[arguments->primID];
-    const glm::dvec3 a(tree.mesh->positions[corners.x]), b(tree.mesh->positions[corners.y]),
-        c(tree.mesh->positions[corners.z]);
-    const glm::vec3 low(glm::min(a, glm::min(b, c)) - tree.centre - tree.margin);
-    const glm::vec3 high(glm::max(a, glm::max(b, c)) - tree.centre + tree.margin);
-    RTCBounds& bounds = *arguments->bounds_o;
-    bounds.lower_x = low.x;
-    bounds.lower_y = low.y;
-    bounds.lower_z = low.z;
-    bounds.upper_x = high.x;
-    bounds.upper_y = high.y;
-    bounds.upper_z = high.z;
+    *arguments->bounds_o = box_of(*tree.mesh, arguments->primID, tree.centre, tree.margin);
 }
 
 void RayCaster::Tree::meet_first(const RTCIntersectFunctionNArguments* arguments) {
@@ -169,25 +136,13 @@ RayCaster::Tree::Tree(const Mesh& of_mesh) : mesh(&of_mesh) {
     const Bounds bounds = of_mesh.bounds();
     centre = bounds.centre();
     radius = 0.501 * bounds.diagonal();
-    margin = widening * radius;
-    device.reset(rtcNewDevice(nullptr));
-    if (!device)
-        refuse(nullptr, "start");
-    scene.reset(rtcNewScene(device.get()));
-    rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
-    rtcSetSceneBuildQuality(scene.get(), RTC_BUILD_QUALITY_HIGH);
-
-    const RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER);
-    rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(of_mesh.triangles.size()));
+    margin = tree_widening * radius;
+    const RTCGeometry geometry = embree.user_geometry(of_mesh.triangles.size());
     rtcSetGeometryUserData(geometry, this);
     rtcSetGeometryBoundsFunction(geometry, give_bounds, nullptr);
     rtcSetGeometryIntersectFunction(geometry, meet_first);
     rtcSetGeometryOccludedFunction(geometry, meet_any);
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(scene.get(), geometry);
-    rtcReleaseGeometry(geometry); // the scene keeps it
-    rtcCommitScene(scene.get());
-    refuse(device.get(), "build the tree of a mesh");
+    embree.build(geometry, "build the tree of a mesh");
 }
 
 std::optional<NearRay> RayCaster::Tree::brought_near(const Ray& ray) const noexcept {
@@ -237,7 +192,7 @@ std::optional<RayHit> RayCaster::first_hit(const Ray& object_ray) const noexcept
     RTCRayHit ray_hit{};
     ray_hit.ray = tree_->tree_ray(*near_ray, std::numeric_limits<double>::infinity());
     ray_hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(tree_->scene.get(), &query.context, &ray_hit);
+    rtcIntersect1(tree_->embree.scene(), &query.context, &ray_hit);
     const Meeting& nearest = query.nearest;
     if (std::isinf(nearest.distance))
         return std::nullopt;
@@ -270,7 +225,7 @@ bool RayCaster::is_hidden(glm::dvec3 surface_point, glm::dvec3 eye) const noexce
     if (!(query.hidden_within > 0.0))
         return false;
     RTCRay ray = tree_->tree_ray(*near_ray, query.hidden_within + query.limit_margin);
-    rtcOccluded1(tree_->scene.get(), &query.context, &ray);
+    rtcOccluded1(tree_->embree.scene(), &query.context, &ray);
     return ray.tfar < 0.0f;
 }
 

@@ -151,11 +151,15 @@ std::optional<SurfaceSite> site_of_vertex(const Mesh& mesh, std::uint32_t vertex
     return std::nullopt;
 }
 
+SurfaceSite nearest_of_triangle(const Mesh& mesh, std::uint32_t triangle, const glm::dvec3& position) {
+    return {triangle, nearest_weights(triangle_corners(mesh, triangle), position)};
+}
+
 SurfaceSite nearest_site(const Mesh& mesh, const glm::dvec3& position) {
     SurfaceSite best;
     double least = std::numeric_limits<double>::infinity();
     for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
-        const SurfaceSite site{i, nearest_weights(triangle_corners(mesh, i), position)};
+        const SurfaceSite site = nearest_of_triangle(mesh, i, position);
         const glm::dvec3 off = position_of(mesh, site) - position;
         if (const double squared = glm::dot(off, off); squared < least) {
             least = squared;

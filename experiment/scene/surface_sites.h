@@ -30,8 +30,12 @@ glm::dvec3 shading_normal_of(const Mesh& mesh, const std::vector<glm::vec3>& ver
 /// The first triangle that has this vertex, at its corner; nothing if none has it.
 std::optional<SurfaceSite> site_of_vertex(const Mesh& mesh, std::uint32_t vertex);
 
+/// The place of one triangle that is nearest to a position in object coordinates.
+SurfaceSite nearest_of_triangle(const Mesh& mesh, std::uint32_t triangle, const glm::dvec3& position);
+
 /// The place of the surface that is nearest to a position in object coordinates; of several the one of the
-/// lowest triangle. Looks at all triangles. The mesh has one at least.
+/// lowest triangle. Looks at all triangles: for many positions see NearestSites. The mesh
+/// has one at least.
 SurfaceSite nearest_site(const Mesh& mesh, const glm::dvec3& position);
 
 /// `count` places, drawn so that each piece of surface that is wanted has a share by its area, and so far
