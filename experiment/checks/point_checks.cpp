@@ -62,6 +62,39 @@ void check_point_list(ProtocolExamination& examination, std::size_t index) {
             examination.error({at("vertices")}, fmt::format("{:g} is no number of a vertex", vertex));
 }
 
+/// Lists of one id are of different objects, and as long: their places correspond by their numbers.
+void check_corresponding_lists(ProtocolExamination& examination) {
+    const std::vector<PointListSettings>& lists = examination.protocol.point_lists;
+    for (std::size_t i = 0; i < lists.size(); ++i) {
+        const auto first = std::ranges::find(lists, lists[i].id, &PointListSettings::id);
+        if (first == lists.begin() + static_cast<std::ptrdiff_t>(i))
+            continue;
+        const auto same = std::find_if(
+            first, lists.begin() + static_cast<std::ptrdiff_t>(i), [&](const PointListSettings& other) {
+                return other.id == lists[i].id &&
+                       (other.object.empty() || lists[i].object.empty() || other.object == lists[i].object);
+            });
+        const std::string at = fmt::format("points[{}].id", i);
+        if (same != lists.begin() + static_cast<std::ptrdiff_t>(i))
+            examination.error({at}, fmt::format("the id \"{}\" is there twice", lists[i].id),
+                              "lists of one id, whose places correspond, are each of another object: write "
+                              "object in all of them, or call this one otherwise");
+        else if (first->evenly || lists[i].evenly)
+            examination.error(
+                {at},
+                fmt::format("the places of \"{}\" on several objects correspond, and places that "
+                            "are spread evenly do not",
+                            lists[i].id),
+                "give them one by one, or call this list otherwise");
+        else if (first->count() != lists[i].count())
+            examination.error(
+                {at}, fmt::format("\"{}\" has {} on \"{}\" and {} on \"{}\": places of one id correspond "
+                                  "by their numbers",
+                                  lists[i].id, counted(first->count(), "place"), first->object,
+                                  lists[i].count(), lists[i].object));
+    }
+}
+
 /// Of one task.
 class ProbeChecks {
   public:
@@ -226,8 +259,11 @@ class ProbeChecks {
         return -1;
     }
     bool is_on(std::size_t probe, int object) const {
-        const PointListSettings* const list = point_list(protocol_, task_.probes[probe].points);
-        return !list || is_on_object(protocol_, *list, static_cast<std::size_t>(object));
+        const std::string& id = task_.probes[probe].points;
+        const auto is_there = [&](const PointListSettings& list) {
+            return list.id == id && is_on_object(protocol_, list, static_cast<std::size_t>(object));
+        };
+        return !point_list(protocol_, id) || std::ranges::any_of(protocol_.point_lists, is_there);
     }
 
     static std::vector<std::string_view> ids_of_views(const std::vector<PointListSettings>& lists) {
@@ -247,10 +283,7 @@ class ProbeChecks {
 
 void check_points(ProtocolExamination& examination) {
     const Protocol& protocol = examination.protocol;
-    std::vector<std::string_view> ids;
-    for (const PointListSettings& list : protocol.point_lists)
-        ids.push_back(list.id);
-    check_ids_differ(examination, "points", ids);
+    check_corresponding_lists(examination);
     for (std::size_t i = 0; i < protocol.point_lists.size(); ++i)
         check_point_list(examination, i);
     for (std::size_t task = 0; task < protocol.tasks.size(); ++task)

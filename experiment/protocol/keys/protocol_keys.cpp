@@ -187,9 +187,9 @@ const KeyTable& protocol_keys() {
             {"material", &Protocol::materials, material(),
              "What every object is made of in turn. At least one, but for a protocol of pictures."},
             {"points", &Protocol::point_lists, points(),
-             "A list of places on the surface of objects, for probes: spread evenly, or given one by one. "
-             "They "
-             "are in the record with triangle, millimetres and part; see [points.md](points.md)."},
+             "A list of places on the surface of objects, for probes and as landmarks: spread evenly, or given "
+             "one by one. Lists of one id, each of another object, correspond by their numbers. They are in "
+             "the record with triangle, millimetres and part; see [points.md](points.md)."},
             {"slot", &Protocol::slot_entries, slot(),
              "A place on the screen in which a stimulus is shown, or several on a circle or a grid, for "
              "tasks "

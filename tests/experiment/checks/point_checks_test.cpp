@@ -49,6 +49,25 @@ TEST_CASE("lists of points say in one way where their places are", "[unit]") {
     CHECK(findings_of_list("evenly = 4\n[[points]]\nid = \"p\"\nevenly = 3").size() == 1);
 }
 
+TEST_CASE("lists of one id are of different objects and correspond by their numbers", "[unit]") {
+    const std::string two = "[[object]]\nid = \"b\"\nshipped = \"runner\"\n[[object]]\nid = \"c\"\nshipped = "
+                            "\"runner\"\n";
+    const auto findings = [&](const std::string& of_c) {
+        return findings_of_list("object = \"b\"\nvertices = [1, 2]\n[[points]]\nid = \"p\"\n" + of_c + "\n" +
+                                two);
+    };
+    CHECK(findings("object = \"c\"\nnear_mm = [[1, 2, 3], [4, 5, 6]]").empty());
+    CHECK(findings("object = \"b\"\nvertices = [1, 2]") == PointLines{"17:6: the id \"p\" is there twice"});
+    CHECK(findings("near_mm = [[1, 2, 3], [4, 5, 6]]") == PointLines{"17:6: the id \"p\" is there twice"});
+    CHECK(findings("object = \"c\"\nvertices = [1]") ==
+          PointLines{"17:6: \"p\" has 2 places on \"b\" and 1 place on \"c\": places of one id correspond by "
+                     "their numbers"});
+    CHECK(findings("object = \"c\"\nevenly = 2") ==
+          PointLines{
+              "17:6: the places of \"p\" on several objects correspond, and places that are spread evenly "
+              "do not"});
+}
+
 TEST_CASE("probes know their list, their slot and their name", "[unit]") {
     CHECK(findings_of_task(shown_until, a_probe + a_gauge).empty());
     CHECK(findings_of_task("{ show = \"centre\" }", "[[task.probe]]\nid = \"place\"\npoints = \"q\"\n") ==
