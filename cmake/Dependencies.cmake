@@ -10,6 +10,7 @@ find_package(tomlplusplus REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(meshoptimizer REQUIRED)
+find_package(draco REQUIRED)
 find_package(embree 3 REQUIRED)
 find_package(Eigen3 REQUIRED NO_MODULE) # sparse Cholesky; headers only, of which we use those under MPL 2
 pkg_check_modules(OSMESA REQUIRED osmesa) # its header: the library is loaded by the first context that needs it

@@ -135,7 +135,8 @@ std::size_t GltfAccessors::count(const GltfValue& index) const {
     return count_of(gltf_entry(root_, "accessors", index));
 }
 
-GltfNumbers GltfAccessors::numbers(const GltfValue& index, std::initializer_list<std::string_view> types) {
+GltfAccessors::Form GltfAccessors::form(const GltfValue& index,
+                                        std::initializer_list<std::string_view> types) const {
     const GltfValue accessor = gltf_entry(root_, "accessors", index);
     const GltfValue type_name = accessor.at("type");
     if (std::ranges::find(types, std::string_view(type_name.text())) == types.end())
@@ -144,20 +145,24 @@ GltfNumbers GltfAccessors::numbers(const GltfValue& index, std::initializer_list
     const ComponentType& type = component_type(accessor.at("componentType"));
     if (type.code == 5125)
         accessor.at("componentType").fail("a corner's attribute has no whole numbers of 32 bits.");
-    const std::size_t components = components_of(type_name), count = count_of(accessor);
-    const std::size_t bytes = components * type.bytes;
-    const bool is_normalised = accessor.truth_or("normalized", false);
-    if (is_normalised && type.most == 0.0)
+    Form form{components_of(type_name), count_of(accessor), type.most,
+              accessor.truth_or("normalized", false)};
+    if (form.is_normalised && type.most == 0.0)
         accessor.at("normalized").fail("floats are not normalised.");
-    const double factor = is_normalised ? 1.0 / type.most : 1.0;
+    return form;
+}
 
-    GltfNumbers numbers{components, {}, is_normalised};
+GltfNumbers GltfAccessors::numbers(const GltfValue& index, std::initializer_list<std::string_view> types) {
+    const Form of = form(index, types);
+    const std::size_t components = of.components, count = of.count;
+    const GltfValue accessor = gltf_entry(root_, "accessors", index);
+    const ComponentType& type = component_type(accessor.at("componentType"));
+    const std::size_t bytes = components * type.bytes;
+
+    GltfNumbers numbers{components, {}, of.is_normalised};
     const auto take = [&](const char* from, std::size_t element) {
         for (std::size_t i = 0; i < components; ++i) {
-            // The lowest of a type with a sign stands for -1, too.
-            double value = number_at(from + i * type.bytes, type) * factor;
-            if (is_normalised)
-                value = std::max(value, -1.0);
+            const double value = of.value_of(number_at(from + i * type.bytes, type));
             if (!std::isfinite(value))
                 accessor.fail(
                     fmt::format("number {} of element {} (counted from 0) is not finite.", i, element));

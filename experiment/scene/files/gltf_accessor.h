@@ -1,6 +1,7 @@
 /// Numbers of a glTF file's buffers, as its accessors describe them.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <initializer_list>
 #include <string_view>
@@ -26,6 +27,19 @@ class GltfAccessors {
   public:
     /// Both must outlive it.
     GltfAccessors(const GltfValue& root, GltfBuffers& buffers) : root_(root), buffers_(&buffers) {}
+
+    /// What an accessor says of its numbers, wherever they lie.
+    struct Form {
+        std::size_t components = 0, count = 0;
+        double most = 0.0; ///< what stands for 1 if they are normalised; 0: floats
+        bool is_normalised = false;
+        /// The number that is meant by one that is stored; the lowest of a type with a sign is -1, too.
+        double value_of(double stored) const {
+            return is_normalised ? std::max(stored / most, -1.0) : stored;
+        }
+    };
+    /// Of the accessor that `index` names, which has elements of one of the `types` ("VEC3").
+    Form form(const GltfValue& index, std::initializer_list<std::string_view> types) const;
 
     /// Of the accessor that `index` names, which has elements of one of the `types` ("VEC3"). Whole numbers
     /// that are normalised become 0 … 1 or -1 … 1; numbers that are not finite are refused.

@@ -13,6 +13,7 @@
 #include "experiment/base/counted.h"
 #include "experiment/base/error.h"
 #include "experiment/base/safe_text.h"
+#include "experiment/scene/files/draco_primitive.h"
 #include "experiment/scene/files/gltf_accessor.h"
 #include "experiment/scene/files/gltf_materials.h"
 #include "experiment/scene/files/gltf_nodes.h"
@@ -22,11 +23,15 @@
 namespace overt {
 namespace {
 
-constexpr std::array extensions_read{
-    std::string_view("KHR_texture_transform"),   std::string_view("KHR_mesh_quantization"),
-    std::string_view("KHR_lights_punctual"),     std::string_view("EXT_texture_webp"),
-    std::string_view("KHR_texture_basisu"),      std::string_view("KHR_xmp_json_ld"),
-    std::string_view("EXT_meshopt_compression"), std::string_view("KHR_meshopt_compression")};
+constexpr std::array extensions_read{std::string_view("KHR_texture_transform"),
+                                     std::string_view("KHR_mesh_quantization"),
+                                     std::string_view("KHR_lights_punctual"),
+                                     std::string_view("EXT_texture_webp"),
+                                     std::string_view("KHR_texture_basisu"),
+                                     std::string_view("KHR_xmp_json_ld"),
+                                     std::string_view("EXT_meshopt_compression"),
+                                     std::string_view("KHR_meshopt_compression"),
+                                     draco_extension};
 
 /// Extensions that the file cannot be read without.
 void expect_known_extensions(const GltfValue& root) {
@@ -38,11 +43,6 @@ void expect_known_extensions(const GltfValue& root) {
         if (std::ranges::find(extensions_read, std::string_view(name)) != extensions_read.end() ||
             name.starts_with("KHR_materials_"))
             continue;
-        if (name == "KHR_draco_mesh_compression")
-            item.fail(
-                fmt::format("the file is compressed by {}, which overt does not read; export it without "
-                            "compression.",
-                            name));
         if (name.find("gaussian_splatting") != std::string::npos)
             item.fail("this holds points, not triangles: mesh it first.");
         item.fail(fmt::format("needs the extension {}, which overt does not read; export without it.",
@@ -103,17 +103,14 @@ class GltfReader {
             return;
         }
         if (const std::optional<GltfValue> extensions = primitive.find("extensions")) {
-            if (extensions->find("KHR_draco_mesh_compression"))
-                primitive.fail(
-                    "is compressed by KHR_draco_mesh_compression, which overt does not read; export it "
-                    "without compression.");
             if (extensions->find("KHR_materials_variants"))
                 has_variants_ = true;
         }
         const GltfValue attributes = primitive.at("attributes");
         const GltfValue position = attributes.at("POSITION");
         expect_room(accessors_.count(position), position);
-        const GltfNumbers places = accessors_.numbers(position, {"VEC3"});
+        unpack(primitive, mode);
+        const GltfNumbers places = numbers_of(attributes, "POSITION", {"VEC3"});
         const std::size_t count = places.count();
         const auto first_vertex = static_cast<std::uint32_t>(mesh_.positions.size());
         for (std::size_t i = 0; i < count; ++i) {
@@ -136,13 +133,37 @@ class GltfReader {
             add_look(primitive, attributes, material, triangles, count);
     }
 
+    /// What Draco packed of a primitive, if it did.
+    void unpack(const GltfValue& primitive, std::uint64_t mode) {
+        draco_.reset();
+        const std::optional<GltfValue> extensions = primitive.find("extensions");
+        const std::optional<GltfValue> packed = extensions ? extensions->find(draco_extension) : std::nullopt;
+        if (!packed)
+            return;
+        if (mode != 4 && mode != 5)
+            primitive.at("mode").fail("Draco packs triangles and strips.");
+        packed->at("attributes").at("POSITION"); // its corners are vertices that it packs
+        // Strips are told by their own indices; what is packed are triangles.
+        const std::uint64_t corners = accessors_.count(primitive.at("indices"));
+        draco_.emplace(*packed, buffers_.view(packed->at("bufferView")).bytes,
+                       mode == 4 ? std::optional(corners) : std::nullopt);
+    }
+
+    /// Of each vertex of the primitive.
+    GltfNumbers numbers_of(const GltfValue& attributes, std::string_view name,
+                           std::initializer_list<std::string_view> types) {
+        const GltfValue index = attributes.at(name);
+        return draco_ && draco_->has(name) ? draco_->numbers(name, accessors_.form(index, types))
+                                           : accessors_.numbers(index, types);
+    }
+
     /// By an attribute _AOI: a whole number for each vertex, as Blender exports the attribute of a face, with
     /// the same number at its corners. Where they differ, the middle one of the three.
     void add_areas(const GltfValue& attributes, const std::vector<glm::uvec3>& triangles, std::size_t count) {
         const std::optional<GltfValue> index = attributes.find("_AOI");
         if (!index)
             return;
-        const GltfNumbers numbers = accessors_.numbers(*index, {"SCALAR"});
+        const GltfNumbers numbers = numbers_of(attributes, "_AOI", {"SCALAR"});
         expect_count(*index, numbers, count);
         std::vector<PartLabel> labels;
         for (std::size_t i = 0; i < count; ++i) {
@@ -179,7 +200,7 @@ class GltfReader {
                 of_file->fail(
                     "with these the file makes more triangles than its bytes can mean; place its meshes "
                     "less often.");
-            indices = accessors_.indices(*of_file, count);
+            indices = draco_ ? draco_->corners() : accessors_.indices(*of_file, count);
         } else {
             indices.resize(count);
             for (std::size_t i = 0; i < count; ++i)
@@ -192,7 +213,7 @@ class GltfReader {
         const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
             triangles.push_back(turns ? glm::uvec3(a, c, b) : glm::uvec3(a, b, c));
         };
-        if (mode == 4) {
+        if (mode == 4 || draco_) {
             for (std::size_t i = 0; i + 2 < indices.size(); i += 3)
                 add(indices[i], indices[i + 1], indices[i + 2]);
             return triangles;
@@ -246,7 +267,7 @@ class GltfReader {
                     fmt::format("its material {} has a picture, but it does not say where on it its corners "
                                 "lie ({}): unwrap it, or give it another material.",
                                 MeshText::quoted(materials_[material].look.name), name));
-            const GltfNumbers uvs = accessors_.numbers(*index, {"VEC2"});
+            const GltfNumbers uvs = numbers_of(attributes, name, {"VEC2"});
             expect_count(*index, uvs, count);
             look.uvs[set].resize(before);
             for (const glm::uvec3& triangle : triangles) {
@@ -257,7 +278,7 @@ class GltfReader {
             }
         }
         if (const std::optional<GltfValue> index = attributes.find("COLOR_0")) {
-            const GltfNumbers colours = accessors_.numbers(*index, {"VEC3", "VEC4"});
+            const GltfNumbers colours = numbers_of(attributes, "COLOR_0", {"VEC3", "VEC4"});
             expect_count(*index, colours, count);
             constexpr CornerColours white{glm::vec3(1.0f), glm::vec3(1.0f), glm::vec3(1.0f)};
             look.colours.resize(before, white);
@@ -376,6 +397,7 @@ class GltfReader {
     const GltfValue root_;
     GltfBuffers buffers_;
     GltfAccessors accessors_;
+    std::optional<DracoPrimitive> draco_; ///< of the primitive at hand
     const bool wants_look_;
     RawMesh mesh_;
     std::vector<GltfMaterial> materials_;

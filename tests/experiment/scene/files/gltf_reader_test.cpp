@@ -347,8 +347,6 @@ TEST_CASE("a glTF file that lies about its bytes is refused at the place in its 
          "mesh it first"},
         {"an extension that nobody knows", [](GlbMaker& m) { m.json["extensionsRequired"] = {"ACME_shape"}; },
          "'ACME_shape'"},
-        {"Draco", [](GlbMaker& m) { m.json["extensionsRequired"] = {"KHR_draco_mesh_compression"}; },
-         "without compression"},
         {"packed bytes of no mode",
          [](GlbMaker& m) {
              m.json["bufferViews"][0]["extensions"] = {{"EXT_meshopt_compression", Json::object()}};
