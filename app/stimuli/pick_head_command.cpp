@@ -8,11 +8,10 @@
 #include "app/stimuli/head_outline.h"
 #include "app/stimuli/picture_window.h"
 #include "app/stimuli/stimulus_commands.h"
+#include "app/stimuli/surface_view.h"
 #include "experiment/base/error.h"
 #include "experiment/scene/files/mesh_reader.h"
-#include "experiment/scene/ray_caster.h"
 #include "render/gl/headless_context.h"
-#include "render/stimulus/live_view.h"
 #include "render/window/window_system.h"
 
 namespace overt {
@@ -22,24 +21,6 @@ namespace {
 constexpr double radius_step = 1.05;
 constexpr const char* picking_keys = "drag: turn    wheel: nearer    ↑ ↓: larger, smaller    "
                                      "backspace: take back    enter: done    Esc: end";
-
-/// A protocol that shows one object in a plain material, without a head.
-Protocol plain_protocol(const PickHeadOptions& options) {
-    Protocol protocol;
-    ObjectSettings object;
-    object.id = options.mesh.stem().string();
-    object.mesh = options.mesh;
-    object.up = options.up;
-    object.unit = options.unit;
-    protocol.objects = {object};
-    MaterialSettings material;
-    material.id = "grey";
-    material.kind = MaterialKind::diffuse;
-    protocol.materials = {material};
-    protocol.display.background = 0.1;
-    protocol.views.front().width_px = protocol.views.front().height_px = 900;
-    return protocol;
-}
 
 PartRegion given_head(const PickHeadOptions& options) {
     PartRegion head{"head", {}, {}};
@@ -63,93 +44,40 @@ PartRegion given_head(const PickHeadOptions& options) {
 class HeadView {
   public:
     HeadView(const GlContext& context, const Protocol& protocol, const Object& object, glm::ivec2 image_px)
-        : object_(&object), caster_(object.mesh), view_(context, protocol, {&object, 1}, image_px),
-          scene_(object.scene()) {
-        scene_.view.image_px = image_px;
-        view_.choose({0, 0});
-    }
+        : object_(&object), surface_(context, protocol, object, image_px) {}
 
     /// Share of the surface's area that belongs to it, by triangles, as a protocol has it.
     double take(const std::optional<PartRegion>& head) {
-        is_head_.assign(object_->mesh->triangles.size(), false);
+        const Mesh& mesh = object_->mesh;
+        is_head_.assign(mesh.triangles.size(), false);
         double area = 0.0;
-        for (std::size_t t = 0; head && t < is_head_.size(); ++t) {
-            const auto [a, b, c] = corners(t);
+        for (std::size_t i = 0; head && i < is_head_.size(); ++i) {
+            const glm::uvec3& t = mesh.triangles[i];
+            const glm::dvec3 a(mesh.positions[t.x]), b(mesh.positions[t.y]), c(mesh.positions[t.z]);
             if (head->contains((a + b + c) / 3.0)) {
-                is_head_[t] = true;
+                is_head_[i] = true;
                 area += 0.5 * glm::length(glm::cross(b - a, c - a));
             }
         }
-        return area / object_->mesh->area();
+        return area / mesh.area();
     }
 
     /// The surface under a point of the picture.
     std::optional<glm::dvec3> surface_at(glm::dvec2 image_px, const Orbit& orbit) const {
-        const std::optional<RayHit> hit = caster_.first_hit(ray_at(image_px, orbit));
+        const std::optional<RayHit> hit = surface_.surface_at(image_px, orbit);
         return hit ? std::optional(hit->position) : std::nullopt;
     }
 
     LinearImage draw(const Orbit& orbit, std::span<const glm::dvec3> points) {
-        LinearImage picture = view_.draw(orbit);
-        tint_head(picture, orbit);
-        for (const glm::dvec3& point : points)
-            mark(picture, orbit, point);
-        return picture;
+        const auto tint = [&](std::uint32_t triangle) {
+            return is_head_[triangle] ? std::optional(glm::vec3(1.0f, 0.45f, 0.15f)) : std::nullopt;
+        };
+        return surface_.draw(orbit, tint, points);
     }
 
   private:
-    std::array<glm::dvec3, 3> corners(std::size_t triangle) const {
-        const Mesh& mesh = object_->mesh;
-        const glm::uvec3& t = mesh.triangles[triangle];
-        return {glm::dvec3(mesh.positions[t.x]), glm::dvec3(mesh.positions[t.y]),
-                glm::dvec3(mesh.positions[t.z])};
-    }
-    Ray ray_at(glm::dvec2 image_px, const Orbit& orbit) const {
-        return to_object(seen_from(scene_, orbit).view.ray_through(image_px),
-                         scene_.pose_at({{orbit.turn_deg}}));
-    }
-    /// In squares of two pixels, which is fine enough to judge and quick enough to follow the hand.
-    void tint_head(LinearImage& picture, const Orbit& orbit) const {
-        const View view = seen_from(scene_, orbit).view;
-        const TurntablePose pose = scene_.pose_at({{orbit.turn_deg}});
-        const glm::ivec2 squares = picture.size_px / 2;
-        std::vector<Ray> rays;
-        rays.reserve(static_cast<std::size_t>(squares.x) * static_cast<std::size_t>(squares.y));
-        for (int y = 0; y < squares.y; ++y)
-            for (int x = 0; x < squares.x; ++x)
-                rays.push_back(to_object(view.ray_through({2.0 * x + 1.0, 2.0 * y + 1.0}), pose));
-        std::vector<std::optional<RayHit>> hits(rays.size());
-        caster_.first_hits(rays, hits);
-        for (std::size_t i = 0; i < hits.size(); ++i) {
-            if (!hits[i] || !is_head_[hits[i]->triangle])
-                continue;
-            const glm::ivec2 corner =
-                2 * glm::ivec2(static_cast<int>(i) % squares.x, static_cast<int>(i) / squares.x);
-            for (const glm::ivec2 step :
-                 {glm::ivec2(0, 0), glm::ivec2(1, 0), glm::ivec2(0, 1), glm::ivec2(1, 1)}) {
-                glm::vec4& pixel = picture.at(corner.x + step.x, corner.y + step.y);
-                pixel *= glm::vec4(1.0f, 0.45f, 0.15f, 1.0f);
-            }
-        }
-    }
-    void mark(LinearImage& picture, const Orbit& orbit, glm::dvec3 point) const {
-        const glm::dmat4 world_from_object = scene_.pose_at({{orbit.turn_deg}}).world_from_object();
-        const View view = seen_from(scene_, orbit).view;
-        const glm::ivec2 middle(view.project(glm::dvec3(world_from_object * glm::dvec4(point, 1.0))));
-        for (int y = -4; y <= 4; ++y) {
-            for (int x = -4; x <= 4; ++x) {
-                const glm::ivec2 at = middle + glm::ivec2(x, y);
-                if (x * x + y * y <= 16 && at.x >= 0 && at.y >= 0 && at.x < picture.size_px.x &&
-                    at.y < picture.size_px.y)
-                    picture.at(at.x, at.y) = glm::vec4(0.1f, 0.5f, 1.0f, 1.0f);
-            }
-        }
-    }
-
     const Object* object_;
-    RayCaster caster_;
-    LiveView view_;
-    SceneView scene_;
+    SurfaceView surface_;
     std::vector<bool> is_head_;
 };
 
@@ -210,23 +138,17 @@ bool pick_in_window(OpenDisplay& opened, HeadView& view, HeadOutline& outline) {
 
 } // namespace
 
-int run_pick_head(const PickHeadOptions& given_options) {
-    PickHeadOptions options = given_options;
-    const bool is_gltf = is_gltf_name(options.mesh);
-    if (options.up.empty())
-        options.up = is_gltf ? "y" : "z";
-    if (options.unit.empty())
-        options.unit = is_gltf ? "m" : "mm";
+int run_pick_head(const PickHeadOptions& options) {
     const bool in_window = options.picture.empty();
     if (in_window && !display_is_available())
         throw InputError("there is no display to pick a head on: look at one that is given with --sphere and "
                          "--plane by --picture FILE");
-    const Protocol protocol = plain_protocol(options);
+    const Protocol protocol = plain_protocol(options.mesh, options.up, options.unit);
     const ObjectSettings& settings = protocol.objects.front();
     const PartRegion given = given_head(options);
     fmt::print(stderr, "reading {} …\n", options.mesh.string());
     const Object object = load_object(settings, protocol, cache_folder());
-    const glm::dmat3 object_from_file = z_up_from_file(up_axis_named(options.up));
+    const glm::dmat3 object_from_file = z_up_from_file(up_axis_named(settings.up));
     const double scale = mm_of_unit(settings.unit);
     const bool is_given = !given.spheres.empty() || !given.half_spaces.empty();
     const double height = object.scene().bounds.max.z - object.scene().bounds.min.z;

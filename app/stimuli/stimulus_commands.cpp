@@ -46,6 +46,40 @@ void add_pick_head(CLI::App& app, ChosenCommand& chosen) {
     add_context_option(command, options.context);
 }
 
+void add_paint_areas(CLI::App& app, ChosenCommand& chosen) {
+    const auto [command, options] = add_command(
+        app, chosen, run_paint_areas, "paint-areas",
+        "Paints named areas on a mesh with a brush and writes the file `labels` of a protocol's object",
+        "overt paint-areas scan.ply --area eyes --area mouth\n"
+        "  overt paint-areas scan.ply --labels scan_areas.txt --area nose      goes on\n"
+        "  overt paint-areas scan.ply --area eye --dab eye -31 -70 240 12 --mirror eye --picture eyes.png\n"
+        "In the window: left button paints, right button turns, wheel goes nearer, up and down make the "
+        "brush "
+        "larger and smaller, 1 to 9 and tab choose the area, 0 rubs out, g and s grow and shrink it, m "
+        "paints the "
+        "other side alike, backspace takes back, enter saves, Escape ends.");
+    command.add_option("MESH", options.mesh, "PLY, OBJ, STL or glTF")->required();
+    option(command, "--area", options.areas, "NAME", "An area to be painted; once for each", one_each_time);
+    option(command, "--labels", options.labels, "FILE",
+           "Labels to go on with, as an object's `labels` has them (default: those of the mesh file)");
+    option(command, "--out", options.out, "FILE",
+           "Where to write the labels (default: MESH_areas.txt beside it)");
+    command.add_flag("--overwrite", options.overwrite, "Replace a file that is there");
+    option(command, "--dab", options.dabs, "NAME X Y Z R",
+           "Paint an area without a hand: about the place of the surface that is nearest to this one, with a "
+           "brush of radius R, in the file's coordinates; once for each");
+    option(command, "--mirror", options.mirrored, "NAME",
+           "then paint an area alike on the other side of the middle, from left to right; once for each",
+           one_each_time);
+    option(command, "--up", options.up, "", "Axis of the file that points up (z; of glTF y)",
+           one_of({"x", "y", "z", "-x", "-y", "-z"}));
+    option(command, "--unit", options.unit, "", "Unit of the file: mm, cm, m, in or own (mm; of glTF m)",
+           one_of({"mm", "cm", "m", "in", "own"}));
+    option(command, "--picture", options.picture, "FILE", "Write a PNG of it, without a window");
+    option(command, "--turn", options.turn_deg, "DEG", "Turn of that picture's turntable, in degrees");
+    add_context_option(command, options.context);
+}
+
 void add_bake(CLI::App& app, ChosenCommand& chosen) {
     const auto [command, options] = add_command(
         app, chosen, run_bake, "bake", "Renders the stimuli by spectral path tracing, and keeps each frame",
@@ -146,6 +180,7 @@ void add_reconstruct(CLI::App& app, ChosenCommand& chosen) {
 void add_stimulus_commands(CLI::App& app, ChosenCommand& chosen) {
     add_play(app, chosen);
     add_pick_head(app, chosen);
+    add_paint_areas(app, chosen);
     add_bake(app, chosen);
     add_lut(app, chosen);
     add_reconstruct(app, chosen);

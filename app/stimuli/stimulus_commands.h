@@ -1,10 +1,11 @@
-/// The commands for looking at stimuli and making them: play, pick-head, bake, lut, reconstruct.
+/// The commands for looking at stimuli and making them: play, pick-head, paint-areas, bake, lut, reconstruct.
 #pragma once
 
 #include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "app/cli/chosen_command.h"
@@ -38,6 +39,23 @@ struct PickHeadOptions {
 };
 /// Prints the key `head` of an object. Throws InputError, GraphicsError, RecordError.
 int run_pick_head(const PickHeadOptions& options);
+
+struct PaintAreasOptions {
+    std::filesystem::path mesh;
+    std::string up, unit;           ///< as [[object]] has them; empty: as is usual for the file's format
+    std::vector<std::string> areas; ///< names, beside those that the mesh has
+    std::filesystem::path labels;   ///< to go on with; empty: the labels of the mesh file
+    std::filesystem::path out;      ///< empty: beside the mesh
+    /// Painted before anything else: an area, and a place and a radius in the file's coordinates.
+    std::vector<std::tuple<std::string, double, double, double, double>> dabs;
+    std::vector<std::string> mirrored; ///< areas that are then painted alike on the other side
+    std::filesystem::path picture;     ///< empty: a window, unless something is painted already
+    double turn_deg = 0.0;             ///< of the picture
+    bool overwrite = false;
+    ContextChoice context;
+};
+/// Writes a file of labels of a mesh. Throws InputError, GraphicsError, RecordError.
+int run_paint_areas(const PaintAreasOptions& options);
 
 struct BakeOptions {
     std::filesystem::path protocol;
