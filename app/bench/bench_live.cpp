@@ -10,7 +10,6 @@
 #include "render/bake/eye_rays.h"
 #include "render/bake/frame_baker.h"
 #include "render/bake/light_colour.h"
-#include "render/bake/own_surface.h"
 #include "render/gl/headless_context.h"
 #include "render/stimulus/stimulus_renderer.h"
 
@@ -56,7 +55,13 @@ BenchFigures bench_live(const BenchOptions& options) {
         MaterialSettings material;
         material.kind = known.kind;
         const bool is_of_file = material.is_of_file();
-        renderer.set_material(is_of_file ? on_average(material, *look, object.mesh) : material);
+        std::optional<PaintedSurface> painted;
+        if (is_of_file) {
+            painted.emplace(*context, object.mesh, buffers, *look, material);
+            renderer.set_painted(*painted);
+        } else {
+            renderer.set_material(material);
+        }
         const LinearImage live = renderer.draw(buffers, view, Pose{});
         const BakeScene scene(object.mesh, material, is_of_file ? look : nullptr);
         const SpectralFrame frame =

@@ -267,17 +267,14 @@ std::vector<bool> given_materials(const MaterialSettings& material, const Surfac
     return given;
 }
 
-MaterialSettings on_average(const MaterialSettings& material, const SurfaceAppearance& appearance,
-                            const Mesh& mesh) {
-    MaterialSettings mean = material;
+namespace {
+
+/// The sums of what some of the file's materials are, by area.
+struct LookSums {
     double area = 0.0, metallic = 0.0, roughness = 0.0;
-    glm::dvec3 colour(0.0);
-    const std::vector<MeanLook> looks = mean_looks(appearance, mesh);
-    const std::vector<bool> given = given_materials(material, appearance);
-    const bool is_own = material.kind == MaterialKind::own;
-    for (std::size_t i = 0; i < looks.size(); ++i) {
-        const MeanLook& of = looks[i];
-        const bool may_be_given = is_own && given[i];
+    glm::dvec3 colour{0.0};
+
+    void add(const MaterialSettings& material, const MeanLook& of, bool may_be_given) {
         area += of.area;
         colour += of.area *
                   (may_be_given && material.reflectance ? *material.reflectance : glm::dvec3(of.look.colour));
@@ -286,17 +283,52 @@ MaterialSettings on_average(const MaterialSettings& material, const SurfaceAppea
         roughness += of.area * (may_be_given && material.roughness ? *material.roughness
                                                                    : static_cast<double>(of.look.roughness));
     }
-    if (!(area > 0.0))
+
+    MaterialSettings mean_of(const MaterialSettings& material) const {
+        MaterialSettings mean = material;
+        mean.reflectance = colour / area;
+        mean.base = MaterialBase::given;
+        mean.bumps = MaterialBumps::none;
+        if (material.kind == MaterialKind::own) {
+            mean.kind = MaterialKind::metallic_roughness;
+            mean.metallic = metallic / area;
+            mean.roughness = std::max(0.001, roughness / area);
+        }
         return mean;
-    mean.reflectance = colour / area;
-    mean.base = MaterialBase::given;
-    mean.bumps = MaterialBumps::none;
-    if (is_own) {
-        mean.kind = MaterialKind::metallic_roughness;
-        mean.metallic = metallic / area;
-        mean.roughness = std::max(0.001, roughness / area);
     }
-    return mean;
+};
+
+/// By the file's materials: what each is, and whether something is given in its place.
+std::vector<LookSums> look_sums(const MaterialSettings& material, const SurfaceAppearance& appearance,
+                                const Mesh& mesh) {
+    const std::vector<MeanLook> looks = mean_looks(appearance, mesh);
+    const std::vector<bool> given = given_materials(material, appearance);
+    std::vector<LookSums> sums(looks.size());
+    for (std::size_t i = 0; i < looks.size(); ++i)
+        sums[i].add(material, looks[i], material.kind == MaterialKind::own && given[i]);
+    return sums;
+}
+
+} // namespace
+
+std::vector<std::optional<MaterialSettings>>
+each_on_average(const MaterialSettings& material, const SurfaceAppearance& appearance, const Mesh& mesh) {
+    std::vector<std::optional<MaterialSettings>> each;
+    for (const LookSums& of : look_sums(material, appearance, mesh))
+        each.push_back(of.area > 0.0 ? std::optional(of.mean_of(material)) : std::nullopt);
+    return each;
+}
+
+MaterialSettings on_average(const MaterialSettings& material, const SurfaceAppearance& appearance,
+                            const Mesh& mesh) {
+    LookSums all;
+    for (const LookSums& of : look_sums(material, appearance, mesh)) {
+        all.area += of.area;
+        all.colour += of.colour;
+        all.metallic += of.metallic;
+        all.roughness += of.roughness;
+    }
+    return all.area > 0.0 ? all.mean_of(material) : material;
 }
 
 } // namespace overt

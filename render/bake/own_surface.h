@@ -70,6 +70,11 @@ class OwnSurface {
 /// properties hold for that are given in place of the file's (MaterialSettings::of).
 std::vector<bool> given_materials(const MaterialSettings& material, const SurfaceAppearance& appearance);
 
+/// What each of the file's materials is where one colour, share of metal and roughness have to stand for all
+/// of it: the means over its triangles. One without triangles has none.
+std::vector<std::optional<MaterialSettings>>
+each_on_average(const MaterialSettings& material, const SurfaceAppearance& appearance, const Mesh& mesh);
+
 /// What a material of the file's is where one colour has to stand for all: the mean over the surface.
 MaterialSettings on_average(const MaterialSettings& material, const SurfaceAppearance& appearance,
                             const Mesh& mesh);

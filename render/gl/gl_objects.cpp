@@ -23,6 +23,8 @@ GlFormat gl_format(PixelFormat format) noexcept {
         // copy of memory: with Mesa's software renderer a twentieth of the time. Only a format without a size
         // leaves the choice to the order; Texture2D and TextureArray see that 8 bits come of it.
         return {GL_RGBA, GL_RGBA, GL_UNSIGNED_BYTE, 4, "RGBA8", GL_BGRA};
+    case PixelFormat::srgba8:
+        return {GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE, 4, "SRGB8_ALPHA8", GL_RGBA};
     case PixelFormat::rgb10_a2:
         return {GL_RGB10_A2, GL_RGBA, GL_UNSIGNED_INT_2_10_10_10_REV, 4, "RGB10_A2", GL_RGBA};
     case PixelFormat::rgba16:
@@ -107,6 +109,20 @@ void Texture2D::set_linear_filter_wrapped() {
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_REPEAT);
+}
+
+void Texture2D::set_as_picture(GLint across, GLint down, bool is_nearest) {
+    const GladGLContext& gl = name_.context().gl();
+    gl.BindTexture(GL_TEXTURE_2D, *name_);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, across);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, down);
+    if (is_nearest)
+        return;
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 1000);
+    gl.GenerateMipmap(GL_TEXTURE_2D);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    throw_on_gl_error(name_.context(), "making smaller ones of a picture");
 }
 
 void Texture2D::bind(int unit) const {

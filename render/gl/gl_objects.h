@@ -11,8 +11,8 @@
 
 namespace overt {
 
-/// rgb10_a2: a 32-bit word, red in the lowest ten bits.
-enum class PixelFormat { rgba8, rgb10_a2, rgba16, rgba32f, r32ui };
+/// rgb10_a2: a 32-bit word, red in the lowest ten bits. srgba8: codes of sRGB, which shaders read as light.
+enum class PixelFormat { rgba8, srgba8, rgb10_a2, rgba16, rgba32f, r32ui };
 
 /// What pixels of a format take.
 std::size_t bytes_in(glm::ivec2 size_px, PixelFormat format);
@@ -56,6 +56,9 @@ class Texture2D {
     void upload(std::span<const std::byte> pixels);
     /// Bilinear; repeats horizontally and clamps vertically, as a latitude-longitude picture needs.
     void set_linear_filter_wrapped();
+    /// As a picture that lies on a surface: smaller ones are made of it, and read between; or by sharp
+    /// texels. `across`, `down`: OpenGL's names for what lies beyond its edges.
+    void set_as_picture(GLint across, GLint down, bool is_nearest);
     void bind(int unit) const;
 
     GLuint name() const { return *name_; }

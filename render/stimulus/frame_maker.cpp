@@ -127,13 +127,19 @@ void FrameMaker::draw_live_frame(const Stimulus& stimulus, const Pose& pose, con
     live_size_px_ = scene.view.image_px;
     const MaterialSettings& material = cache_->material_of(stimulus);
     const Object& object = cache_->object_of(stimulus);
-    if (live_material_ != stimulus.material || (material.is_own() && live_object_ != stimulus.object))
-        renderer_->set_material(material.is_own() && object.appearance
-                                    ? on_average(material, *object.appearance, object.mesh)
-                                    : material);
+    const MeshBuffers& buffers = maps_->buffers_of(stimulus.object, true);
+    if (live_material_ != stimulus.material || (material.is_own() && live_object_ != stimulus.object)) {
+        if (material.is_own() && object.appearance) {
+            painted_.reset();
+            painted_.emplace(*context_, object.mesh, buffers, *object.appearance, material);
+            renderer_->set_painted(*painted_);
+        } else {
+            renderer_->set_material(material);
+        }
+    }
     live_material_ = stimulus.material;
     live_object_ = stimulus.object;
-    LinearImage image = renderer_->draw(maps_->buffers_of(stimulus.object, true), scene, pose);
+    LinearImage image = renderer_->draw(buffers, scene, pose);
     if (writing.valid())
         writing.get();
     const GlDescription& gl = context_->description();

@@ -50,6 +50,8 @@ class FrameMaker {
     int light_of_ = -1;
     std::optional<BakeScene> scene_;
     int scene_object_ = -1, scene_material_ = -1;
+    std::optional<PaintedSurface>
+        painted_; ///< that the renderer draws, where the object's file says its look
     std::optional<StimulusRenderer> renderer_;
     // That the renderer is prepared for.
     int live_light_ = -1, live_material_ = -1, live_object_ = -1;

@@ -8,7 +8,6 @@
 #include "experiment/base/error.h"
 #include "experiment/colour/display_colour.h"
 #include "experiment/protocol/all_stimuli.h"
-#include "render/bake/own_surface.h"
 #include "render/image/text_layout.h"
 
 namespace overt {
@@ -48,8 +47,7 @@ void LiveView::choose(const Stimulus& stimulus) {
     const bool is_of_object = material.is_own() && object.appearance;
     if (is_lit_otherwise || stimulus.material != stimulus_.material ||
         (is_of_object && stimulus.object != stimulus_.object))
-        renderer_->set_material(is_of_object ? on_average(material, *object.appearance, object.mesh)
-                                             : material);
+        set_material(material, object, is_of_object);
     stimulus_ = stimulus;
     TextStyle style;
     style.line_height_px = std::max(12, image_px_.y / 36);
@@ -58,6 +56,18 @@ void LiveView::choose(const Stimulus& stimulus) {
     style.grey = label_grey_;
     style.centred = false;
     label_ = draw_text("Live preview, approximate: " + stimulus_name(*protocol_, stimulus), style);
+}
+
+void LiveView::set_material(const MaterialSettings& material, const Object& object, bool is_of_object) {
+    if (!is_of_object) {
+        renderer_->set_material(material);
+        painted_.reset();
+        return;
+    }
+    std::optional<PaintedSurface> painted;
+    painted.emplace(*context_, object.mesh, *buffers_, *object.appearance, material);
+    painted_ = std::move(painted);
+    renderer_->set_painted(*painted_);
 }
 
 LinearImage LiveView::draw(const Orbit& orbit, const Pose& pose) {

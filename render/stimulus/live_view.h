@@ -26,6 +26,8 @@ class LiveView {
     LinearImage draw(const Orbit& orbit, const Pose& pose = {});
 
   private:
+    void set_material(const MaterialSettings& material, const Object& object, bool is_of_object);
+
     const GlContext* context_;
     const Protocol* protocol_;
     std::span<const Object> objects_;
@@ -33,6 +35,7 @@ class LiveView {
     std::optional<StimulusRenderer> renderer_; ///< for the light
     Stimulus stimulus_{-1, -1, -1, -1, -1};
     std::optional<MeshBuffers> buffers_;
+    std::optional<PaintedSurface> painted_; ///< of a material that the object's file says
     float label_grey_;
     LinearImage label_;
 };

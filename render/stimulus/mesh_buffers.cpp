@@ -111,7 +111,7 @@ MeshBuffers::MeshBuffers(const GlContext& context, const Mesh& mesh) : MeshBuffe
 
 MeshBuffers::MeshBuffers(const GlContext& context, const Mesh& mesh, std::span<const glm::vec4> openness)
     : context_(&context), array_(context), index_count_(static_cast<GLsizei>(mesh.triangles.size() * 3)),
-      centre_(mesh.bounds().centre()) {
+      centre_(mesh.bounds().centre()), openness_(openness.begin(), openness.end()) {
     OVERT_EXPECTS(openness.empty() || openness.size() == mesh.positions.size());
     const GladGLContext& gl = context.gl();
     array_.bind();
@@ -134,6 +134,7 @@ MeshBuffers::MeshBuffers(const GlContext& context, const Mesh& mesh, std::span<c
 
 void MeshBuffers::draw() const {
     array_.bind();
+    context_->gl().VertexAttrib3f(4, 1.0f, 1.0f, 1.0f); // no colours of corners
     context_->gl().DrawElements(GL_TRIANGLES, index_count_, GL_UNSIGNED_INT, nullptr);
 }
 

@@ -1,6 +1,7 @@
 /// A mesh on the graphics card, drawn by triangle number.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "experiment/scene/mesh.h"
@@ -26,6 +27,9 @@ class MeshBuffers {
     /// What was subtracted from all positions.
     glm::dvec3 centre() const { return centre_; }
 
+    /// As it was given; empty for the hidden pass alone.
+    std::span<const glm::vec4> openness() const { return openness_; }
+
     /// No edge is open: back faces are never seen from outside.
     bool is_closed() const { return is_closed_; }
 
@@ -35,6 +39,7 @@ class MeshBuffers {
     std::vector<Buffer> buffers_;
     GLsizei index_count_;
     glm::dvec3 centre_;
+    std::vector<glm::vec4> openness_;
     bool is_closed_ = false;
 };
 

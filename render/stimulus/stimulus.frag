@@ -5,6 +5,8 @@ in vec3 world_position;
 in vec3 world_normal;
 in vec3 object_position;
 in vec4 world_openness;
+in vec2 place;
+in vec3 colour;
 
 layout(location = 0) out vec4 linear_light; // display RGB, alpha 1 on the object
 
@@ -18,7 +20,12 @@ uniform float exposure;
 uniform float light_turn;        // of the probe about the vertical, in whole turns
 uniform int is_diffuse;
 uniform int is_coated;
-uniform sampler2D shares;        // of metals and plastics, by the root of the cosine: mirrored, with the clear coat's in alpha; below, even
+uniform int is_painted;          // the object's file says its colours
+uniform int has_picture;
+uniform sampler2D picture;       // of colours
+// Of metals and plastics, by the root of the cosine: mirrored, with the clear coat's in alpha; even; where the file says colours, these are
+// of black, and two more rows of what each share of its colour adds.
+uniform sampler2D shares;
 uniform float coat_ior;
 uniform float glass_ior;         // 1: no light goes through
 uniform vec3 coat_absorbance;    // for one pass of the nominal thickness, at normal incidence
@@ -69,10 +76,17 @@ vec3 evenly_lit(vec3 normal, vec3 tint) {
     return probe(soft, outward) * open / (vec3(1.0) - clamp(tint, 0.0, 0.98) * (1.0 - open));
 }
 
-vec4 share_of(int kind, float cosine) {
-    float place = sqrt(cosine) * float(textureSize(shares, 0).x - 1);
-    int row = min(int(place), textureSize(shares, 0).x - 2);
-    return mix(texelFetch(shares, ivec2(row, kind), 0), texelFetch(shares, ivec2(row + 1, kind), 0), place - float(row));
+vec4 share_in(int row, float cosine) {
+    float at = sqrt(cosine) * float(textureSize(shares, 0).x - 1);
+    int before = min(int(at), textureSize(shares, 0).x - 2);
+    return mix(texelFetch(shares, ivec2(before, row), 0), texelFetch(shares, ivec2(before + 1, row), 0), at - float(before));
+}
+
+vec4 share_of(int kind, float cosine, vec3 own) {
+    vec4 share = share_in(kind, cosine);
+    if (is_painted == 1)
+        share.rgb = clamp(share.rgb + own * share_in(kind + 2, cosine).rgb, 0.0, 1.0);
+    return share;
 }
 
 // Noise of Perlin's kind on a lattice, with its gradient; hashing after Jarzynski and Olano 2020 (pcg3d).
@@ -118,8 +132,11 @@ void main() {
     // Interpolated normals may lean away at the silhouette.
     normal = normalize(normal + to_camera * max(0.0, 1e-3 - dot(normal, to_camera)));
     vec3 light;
+    vec3 own = reflectance;
+    if (is_painted == 1)
+        own = clamp(colour * (has_picture == 1 ? texture(picture, place).rgb : vec3(1.0)), 0.0, 1.0);
     if (is_diffuse == 1) {
-        light = reflectance * evenly_lit(normal, reflectance);
+        light = own * evenly_lit(normal, own);
     } else if (is_coated == 1) {
         vec3 bumpy = bumpy_normal(normal);
         bumpy = normalize(bumpy + to_camera * max(0.0, 0.02 - dot(bumpy, to_camera)));
@@ -138,8 +155,8 @@ void main() {
     } else {
         float cosine = clamp(dot(normal, to_camera), 0.0, 1.0);
         vec3 mirror = reflect(-to_camera, normal);
-        vec4 shown = share_of(0, cosine);
-        vec3 even = share_of(1, cosine).rgb;
+        vec4 shown = share_of(0, cosine, own);
+        vec3 even = share_of(1, cosine, own).rgb;
         vec3 tint = shown.rgb + even;
         if (glass_ior > 1.0) {
             // As through a ball that has the same normal, in and out: what is behind, turned upside down.

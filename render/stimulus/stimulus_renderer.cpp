@@ -1,5 +1,8 @@
 #include "render/stimulus/stimulus_renderer.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "experiment/base/error.h"
@@ -30,28 +33,92 @@ StimulusRenderer::StimulusRenderer(const GlContext& context, const LightSettings
       resolve_(context, "resolve", embedded::encode_vert, embedded::resolve_frag), no_attributes_(context),
       image_(context, image_px, PixelFormat::rgba32f) {}
 
+StimulusRenderer::Prepared StimulusRenderer::prepared(const MaterialSettings& material,
+                                                      bool is_painted) const {
+    Prepared made{material, &model_of(material.kind).live, nullptr, std::nullopt, glm::dvec3(0.0)};
+    const bool coated = made.live->shading == LiveApproximation::Shading::coated_metal;
+    made.reflectance = material.kind == MaterialKind::glass ? glm::dvec3(0.0)
+                       : row_of(material.kind).has_key("reflectance")
+                           ? material.given_reflectance()
+                           : linear_rec709_of(normal_reflectance(load_metal(material.metal),
+                                                                 coated ? material.coat_ior : 1.0));
+    for (const Prepared& other : prepared_)
+        if (other.material.kind == material.kind && other.material.roughness == material.roughness)
+            made.mirrored = other.mirrored;
+    if (!made.mirrored)
+        made.mirrored =
+            std::make_shared<Texture2D>(texture_of(*context_, made.live->mirrored(probe_, material)));
+    if (made.live->shading != LiveApproximation::Shading::metal &&
+        made.live->shading != LiveApproximation::Shading::plastic)
+        return made;
+    LiveShares shares = live_shares(material);
+    std::vector<glm::vec4> rows = shares.mirrored;
+    rows.insert(rows.end(), shares.even.begin(), shares.even.end());
+    if (is_painted) {
+        // Shares rise with the colour nearly on a line: from black through the mean of the surface.
+        MaterialSettings black = material;
+        black.reflectance = glm::dvec3(0.0);
+        const LiveShares of_black = live_shares(black);
+        std::vector<glm::vec4> painted = of_black.mirrored;
+        painted.insert(painted.end(), of_black.even.begin(), of_black.even.end());
+        const glm::vec4 mean(glm::max(glm::vec3(made.reflectance), glm::vec3(0.02f)), 1.0f);
+        for (std::size_t i = 0; i < rows.size(); ++i)
+            rows[i] = (rows[i] - painted[i]) / mean;
+        rows.insert(rows.begin(), painted.begin(), painted.end());
+    }
+    made.shares.emplace(*context_, glm::ivec2(LiveShares::rows, is_painted ? 4 : 2), PixelFormat::rgba32f);
+    made.shares->upload(std::as_bytes(std::span(rows)));
+    return made;
+}
+
 void StimulusRenderer::set_material(const MaterialSettings& material) {
-    material_ = material;
-    live_ = &model_of(material.kind).live;
-    mirrored_ = texture_of(*context_, live_->mirrored(probe_, material));
-    const bool coated = live_->shading == LiveApproximation::Shading::coated_metal;
-    reflectance_ = material.kind == MaterialKind::glass ? glm::dvec3(0.0)
-                   : row_of(material.kind).has_key("reflectance")
-                       ? material.given_reflectance()
-                       : linear_rec709_of(normal_reflectance(load_metal(material.metal),
-                                                             coated ? material.coat_ior : 1.0));
-    shares_.reset();
-    if (live_->shading == LiveApproximation::Shading::metal ||
-        live_->shading == LiveApproximation::Shading::plastic) {
-        LiveShares shares = live_shares(material);
-        shares.mirrored.insert(shares.mirrored.end(), shares.even.begin(), shares.even.end());
-        shares_.emplace(*context_, glm::ivec2(LiveShares::rows, 2), PixelFormat::rgba32f);
-        shares_->upload(std::as_bytes(std::span(shares.mirrored)));
+    prepared_.clear();
+    painted_ = nullptr;
+    prepared_.push_back(prepared(material, false));
+}
+
+void StimulusRenderer::set_painted(const PaintedSurface& surface) {
+    prepared_.clear();
+    painted_ = &surface;
+    // Materials of nearly one roughness have one picture of the probe.
+    constexpr double roughness_step = 1.0 / 32.0;
+    for (const PaintedSurface::Piece& piece : surface.pieces()) {
+        MaterialSettings material = piece.material;
+        if (material.roughness)
+            material.roughness =
+                std::max(0.001, roughness_step * std::round(*material.roughness / roughness_step));
+        prepared_.push_back(prepared(material, true));
     }
 }
 
+void StimulusRenderer::use(const Prepared& of, const SceneView& scene, const Texture2D* picture) {
+    using Shading = LiveApproximation::Shading;
+    const MaterialSettings& material = of.material;
+    const double half_height = 0.5 * scene.bounds.extent().z;
+    program_.set("reflectance", glm::vec3(of.reflectance));
+    program_.set("lobe_radius", of.live->lobe_radius(material));
+    program_.set("is_diffuse", of.live->shading == Shading::matt ? 1 : 0);
+    program_.set("is_coated", of.live->shading == Shading::coated_metal ? 1 : 0);
+    program_.set("glass_ior", material.kind == MaterialKind::glass ? static_cast<float>(material.ior) : 1.0f);
+    program_.set("coat_ior", static_cast<float>(material.coat_ior));
+    program_.set("coat_absorbance",
+                 glm::vec3(glm::dvec3(material.coat_absorbance[0], material.coat_absorbance[1],
+                                      material.coat_absorbance[2])));
+    // Bumps of the height asked for on a lattice of 1/25 of the figure's height.
+    const double bumps_per_unit = 12.5 / half_height;
+    program_.set("bump_scale", static_cast<float>(bumps_per_unit));
+    program_.set("bump_slope", static_cast<float>(material.coat_bump * half_height * bumps_per_unit));
+    program_.set("is_painted", painted_ ? 1 : 0);
+    program_.set("has_picture", picture ? 1 : 0);
+    of.mirrored->bind(0);
+    if (of.shares)
+        of.shares->bind(3);
+    if (picture)
+        picture->bind(4);
+}
+
 LinearImage StimulusRenderer::draw(const MeshBuffers& mesh, const SceneView& scene, const Pose& pose) {
-    OVERT_EXPECTS(mirrored_.has_value() && scene.view.image_px == image_px_);
+    OVERT_EXPECTS(!prepared_.empty() && scene.view.image_px == image_px_);
     const GladGLContext& gl = context_->gl();
     samples_.bind();
     draw_nearest_only(gl);
@@ -59,8 +126,6 @@ LinearImage StimulusRenderer::draw(const MeshBuffers& mesh, const SceneView& sce
     gl.ClearBufferfv(GL_COLOR, 0, nothing);
     gl.ClearBufferfv(GL_DEPTH, 0, &far);
 
-    using Shading = LiveApproximation::Shading;
-    const double half_height = 0.5 * scene.bounds.extent().z;
     TurntablePose about_centre{glm::dvec3(0.0), pose.object};
     program_.use();
     program_.set("clip_from_object", clip_from_centred_object(scene, pose.object));
@@ -69,28 +134,12 @@ LinearImage StimulusRenderer::draw(const MeshBuffers& mesh, const SceneView& sce
     program_.set("mirrored", 0);
     program_.set("sharp", 1);
     program_.set("soft", 2);
-    program_.set("reflectance", glm::vec3(reflectance_));
-    program_.set("lobe_radius", live_->lobe_radius(material_));
+    program_.set("shares", 3);
+    program_.set("picture", 4);
     program_.set("exposure", static_cast<float>(light_.exposure));
     program_.set("light_turn", static_cast<float>(pose.light.value / 360.0));
-    program_.set("is_diffuse", live_->shading == Shading::matt ? 1 : 0);
-    program_.set("shares", 3);
-    program_.set("is_coated", live_->shading == Shading::coated_metal ? 1 : 0);
-    program_.set("glass_ior",
-                 material_.kind == MaterialKind::glass ? static_cast<float>(material_.ior) : 1.0f);
-    program_.set("coat_ior", static_cast<float>(material_.coat_ior));
-    program_.set("coat_absorbance",
-                 glm::vec3(glm::dvec3(material_.coat_absorbance[0], material_.coat_absorbance[1],
-                                      material_.coat_absorbance[2])));
-    // Bumps of the height asked for on a lattice of 1/25 of the figure's height.
-    const double bumps_per_unit = 12.5 / half_height;
-    program_.set("bump_scale", static_cast<float>(bumps_per_unit));
-    program_.set("bump_slope", static_cast<float>(material_.coat_bump * half_height * bumps_per_unit));
-    mirrored_->bind(0);
     sharp_.bind(1);
     soft_.bind(2);
-    if (shares_)
-        shares_->bind(3);
     // The projection turns the picture upside down, and with it the fronts. What a closed surface has behind
     // is never seen.
     if (mesh.is_closed()) {
@@ -98,7 +147,14 @@ LinearImage StimulusRenderer::draw(const MeshBuffers& mesh, const SceneView& sce
         gl.CullFace(GL_BACK);
         gl.FrontFace(GL_CW);
     }
-    mesh.draw();
+    for (std::size_t i = 0; i < prepared_.size(); ++i) {
+        const PaintedSurface::Piece* const piece = painted_ ? &painted_->pieces()[i] : nullptr;
+        use(prepared_[i], scene, piece && piece->picture ? &*piece->picture : nullptr);
+        if (piece)
+            painted_->draw(*piece);
+        else
+            mesh.draw();
+    }
     gl.Disable(GL_CULL_FACE);
 
     image_.bind();
