@@ -36,6 +36,7 @@ struct AnalyzeOptions {
     std::vector<std::string> same_observer; ///< LABEL=LABEL
     std::vector<std::string> models;        ///< FILE, or OBJECT=FILE
     std::filesystem::path areas;            ///< empty: none
+    std::string landmarks;                  ///< ids of lists with commas, or a table
     std::string by, surface_areas, sigma = "1deg", kernel = "geodesic", format = "csv", shard;
     bool overwrite = false;
     EventOptions events;
@@ -88,6 +89,27 @@ std::vector<ChosenScreenArea> screen_areas_in(const std::filesystem::path& file)
     if (diagnostics.has_errors())
         throw FindingsPrinted(fmt::format("{}: cannot be used", file.string()));
     return areas;
+}
+
+/// Which object is the template, and its landmarks. Says what is wrong with their file, if anything is.
+void read_template(const AnalyzeOptions& options, TemplateChoice& choice) {
+    if (options.landmarks.empty())
+        return;
+    if (choice.object.empty())
+        throw InputError(
+            fmt::format("--landmarks {}: says by what to bring gaze to a template, and --template "
+                        "OBJECT, which says to which, is missing",
+                        options.landmarks));
+    if (!options.landmarks.ends_with(".csv")) {
+        choice.lists = listed(options.landmarks);
+        return;
+    }
+    Diagnostics diagnostics;
+    choice.file = std::filesystem::path(options.landmarks).filename().string();
+    choice.landmarks = read_landmarks(options.landmarks, diagnostics);
+    print_findings(diagnostics);
+    if (diagnostics.has_errors())
+        throw FindingsPrinted(fmt::format("{}: cannot be used", options.landmarks));
 }
 
 void print_screen_areas(const StudyResults& results) {
@@ -222,6 +244,7 @@ int run_analyze(AnalyzeOptions options) {
     options.study.sigma = kernel_width(options.sigma);
     options.study.same_observer = same_observers(options.same_observer);
     options.study.models = model_files(options.models);
+    read_template(options, options.study.onto);
     for (std::size_t i = 0; i < names_of<MapKernel>.size(); ++i) {
         if (names_of<MapKernel>[i] == options.kernel)
             options.study.kernel = static_cast<MapKernel>(i);
@@ -315,6 +338,14 @@ void add_study_options(CLI::App& command, AnalyzeOptions& options) {
            "says that "
            "gaze goes, to be held against observers; OBJECT=FILE for one object; once for each",
            one_each_time);
+    option(command, "--template", study.onto.object, "OBJECT",
+           "Brings gaze on all objects to the surface of this one, so that maps are of all of them together "
+           "and objects can be compared")
+        ->default_str("each object is its own");
+    option(command, "--landmarks", options.landmarks, "LISTS",
+           "Of --template: by which places that correspond, lists of [[points]] of the protocol with commas, "
+           "or a table (.csv) with object, landmark, x_mm, y_mm, z_mm")
+        ->default_str("the middles of areas");
     option(command, "--time-step", study.time_step_s, "S", "Stretches of the time course", above_zero(),
            shown_default);
     option(command, "--confidence", study.confidence, "", "Level of intervals", CLI::Range(0.5, 0.999),
@@ -337,6 +368,7 @@ void add_analyze_command(CLI::App& app, ChosenCommand& chosen) {
         "overt analyze sessions/overt_2019/* --out analysis\n"
         "  overt analyze sessions/overt_2019/* --by task,handedness --sigma 30mm --out by_hand\n"
         "  overt analyze sessions/overt_2019/sub-07_ses-01 --most-lost 0.2 --json --out one_observer\n"
+        "  overt analyze sessions/heads/* --template average --landmarks face --compare object --by object\n"
         "  overt analyze sessions/overt_2019/* --shard 3/16     on the third of 16 machines, then\n"
         "  overt analyze shards/* --out analysis\n"
         "Exit codes: 0 done, 1 failed, 2 bad input.");

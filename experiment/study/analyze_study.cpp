@@ -40,6 +40,7 @@
 #include "experiment/study/study_maps.h"
 #include "experiment/study/study_pairs.h"
 #include "experiment/study/surface_transitions.h"
+#include "experiment/study/template/common_template.h"
 #include "experiment/study/time_clusters.h"
 
 namespace overt {
@@ -274,6 +275,7 @@ StudyResults analyze_study(ReadStudy study, const StudyOptions& options, const S
     StudyResults& results = study.results;
     if (options.is_by_asked)
         check_asked_factors(options.by, study.levels);
+    bring_to_template(study, options);
     results.parameters = parameters_of(options);
     results.by = options.by;
     results.confidence = options.confidence;

@@ -71,6 +71,27 @@ void add_counts(std::string& text, const StudyResults& results) {
                                        share_of(glance.only_by_reach, glance.counted, "counted fixation")));
 }
 
+/// How places on several objects became places on one.
+void add_template(std::string& text, const StudyResults& results, const StudyOptions& options) {
+    std::vector<std::string> thin_plates, similarities;
+    for (const TemplateFitRow& fit : results.template_fits) {
+        if (fit.landmarks == 0)
+            continue;
+        (fit.warp == "similarity" ? similarities : thin_plates)
+            .push_back(fmt::format("{} ({})", results.objects[static_cast<std::size_t>(fit.object)].id,
+                                   as_counted(fit.landmarks, "landmark")));
+    }
+    const auto say = [&](const std::vector<std::string>& objects, const char* how) {
+        if (!objects.empty())
+            add_sentence(text,
+                         fmt::format("places on {} were brought to the surface of {} by {}, and then to "
+                                     "the nearest place there that belongs to the same named areas",
+                                     joined_words(objects), options.onto.object, how));
+    };
+    say(thin_plates, "a thin-plate spline in space (Bookstein 1989)");
+    say(similarities, "a similarity of least squares (Umeyama 1991)");
+}
+
 } // namespace
 
 std::string places_text(const StudyResults& results, const StudyOptions& options) {
@@ -102,6 +123,7 @@ std::string places_text(const StudyResults& results, const StudyOptions& options
     add_sentence(text, fmt::format("{} and if {} % of its samples or more had a place", rule,
                                    as_set(100.0 * options.least_on_surface)));
     add_counts(text, results);
+    add_template(text, results, options);
     return text;
 }
 

@@ -163,6 +163,9 @@ StudyObject describe_object(const SessionHeader& header, const ViewedObject& vie
     object.unit = recorded.unit;
     object.origin = recorded.origin;
     object.screen = header.screen_of_view(viewed.view);
+    for (const RecordedPoint& point : header.points)
+        if (point.object == viewed.object)
+            object.points.push_back({point.name, point.position});
     return object;
 }
 

@@ -15,6 +15,14 @@ std::string models_of(const StudyOptions& options) {
     return files.empty() ? "none" : files;
 }
 
+std::string landmarks_of(const StudyOptions& options) {
+    if (options.onto.object.empty())
+        return "none";
+    if (!options.onto.file.empty())
+        return options.onto.file;
+    return options.onto.lists.empty() ? "areas" : fmt::format("{}", fmt::join(options.onto.lists, ","));
+}
+
 std::string same_observers(const StudyOptions& options) {
     std::string text;
     for (const auto& [label, other] : options.same_observer)
@@ -112,6 +120,12 @@ std::vector<StudyParameter> parameters_of(const StudyOptions& options) {
          "File with areas of the screen, besides those that imported recordings tell by messages."},
         {"model", models_of(options), "",
          "Files with maps of models, which are held against observers: numbers at the vertices of a mesh."},
+        {"template", options.onto.object.empty() ? "none" : options.onto.object, "",
+         "The object to whose surface gaze on all objects is brought."},
+        {"landmarks", landmarks_of(options), "",
+         "By which places that correspond: lists of [[points]] of the protocol, a file, or the middles of "
+         "the "
+         "areas that objects have in common."},
         {"time-step", fmt::format("{}", options.time_step_s), "s", "Stretches of the time course."},
         {"confidence", fmt::format("{}", options.confidence), "", "Level of all intervals."},
         {"smallest-effect", fmt::format("{}", options.smallest_effect), "",

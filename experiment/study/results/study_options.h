@@ -73,6 +73,7 @@ struct StudyOptions {
     std::string screen_areas_file;              ///< their file's name; empty: none
     /// Labels that stand for the same observer as another, and that one's.
     std::vector<std::pair<std::string, std::string>> same_observer;
+    TemplateChoice onto;           ///< the object to whose surface all gaze is brought
     double time_step_s = 1.0;      ///< of the time course
     std::vector<ModelFile> models; ///< whose predictions are compared with observers'
     double confidence = 0.95;

@@ -32,6 +32,7 @@
 #include "experiment/study/results/screen_area_rows.h"
 #include "experiment/study/results/session_setup.h"
 #include "experiment/study/results/study_key.h"
+#include "experiment/study/results/template_rows.h"
 
 namespace overt {
 
@@ -78,6 +79,12 @@ struct MethodsParagraph {
     std::string topic, text;
 };
 
+/// A place of an object that the protocol's [[points]] name.
+struct NamedPlace {
+    std::string name;         ///< "ID.1"
+    glm::dvec3 position{0.0}; ///< in the mesh's unit
+};
+
 /// An object with all sessions that showed the same mesh.
 struct StudyObject {
     std::string id, title;
@@ -97,6 +104,7 @@ struct StudyObject {
     /// By vertex: density that gaze would have that is spread evenly over the object's picture all the
     /// time, per mm^2; its integral over the surface is 1.
     std::vector<float> exposure_density;
+    std::vector<NamedPlace> points = {};
     std::string remark;
 };
 
@@ -544,6 +552,7 @@ struct StudyResults {
     std::vector<MapPredictionRow> predictions;
     std::vector<MapReliabilityRow> reliabilities;
     std::vector<ExposureRow> exposures;
+    std::vector<TemplateFitRow> template_fits; ///< by object; empty: each object is its own
     std::vector<FactorEffectRow> effects;
     std::vector<GazeMotionRow> motions;
     std::vector<LightAtGazeRow> lights;

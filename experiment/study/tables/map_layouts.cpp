@@ -99,6 +99,33 @@ RowLayout<MapReliabilityRow> map_reliability_layout(const StudyResults& results)
     return to;
 }
 
+RowLayout<TemplateFitRow> template_fit_layout(const StudyResults& results) {
+    using Row = TemplateFitRow;
+    StudyLayout<Row> to("template_fit",
+                        "How gaze on each object was brought to the template: lengths are the template's own "
+                        "millimetres.");
+    to.object(results, &Row::object, "The object");
+    to.text("warp",
+            "thin plate: landmarks come to lie exactly on the template's; similarity: turned, scaled and "
+            "shifted, where landmarks are three or lie in a plane; the same surface: nothing was moved",
+            &Row::warp);
+    to.count("landmarks", "Landmarks that both have", &Row::landmarks);
+    to.number("scale", "How much longer things become on the whole", "", &Row::scale);
+    to.number("left_out_mm",
+              "How far each landmark is brought from its own by a warp of the others: root mean square", "mm",
+              &Row::left_out_mm);
+    to.number("away_mm",
+              "How far the warped surface lies from the template before it is laid onto it: mean over its "
+              "area",
+              "mm", &Row::away_mm);
+    to.number("gaze_away_mm", "The same of where gaze was: mean over the counted fixations", "mm",
+              &Row::gaze_away_mm);
+    to.number("turned_share", "Share of its area that comes to lie on a surface that faces the other way", "",
+              &Row::turned_share);
+    to.count("fixations", "Counted fixations", &Row::fixations);
+    return to;
+}
+
 RowLayout<ExposureRow> exposure_layout(const StudyResults& results) {
     using Row = ExposureRow;
     StudyLayout<Row> to("exposure",

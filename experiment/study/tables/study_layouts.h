@@ -23,6 +23,7 @@ RowLayout<TimeCourseRow> time_course_layout(const StudyResults& results);
 RowLayout<MapPredictionRow> map_predictions_layout(const StudyResults& results);
 RowLayout<MapReliabilityRow> map_reliability_layout(const StudyResults& results);
 RowLayout<ExposureRow> exposure_layout(const StudyResults& results);
+RowLayout<TemplateFitRow> template_fit_layout(const StudyResults& results);
 RowLayout<ReportingItem> reporting_layout();
 RowLayout<FactorEffectRow> factor_effects_layout();
 RowLayout<GazeMotionRow> gaze_motion_layout(const StudyResults& results);

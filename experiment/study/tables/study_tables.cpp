@@ -65,6 +65,7 @@ template <class Visit> void for_each_table(const StudyResults& results, const Vi
     all(gaze_motion_layout(results), results.motions, false);
     all(light_at_gaze_layout(results), results.lights, false);
     all(exposure_layout(results), results.exposures, false);
+    all(template_fit_layout(results), results.template_fits, false);
     all(map_predictions_layout(results), results.predictions, false);
     all(map_reliability_layout(results), results.reliabilities, false);
     const auto clusters = [&](const auto& layout, const std::vector<DifferenceMap>& maps) {
