@@ -11,10 +11,11 @@
 #include "app/stimuli/stimulus_commands.h"
 #include "app/stimuli/surface_view.h"
 #include "experiment/base/error.h"
-#include "experiment/base/output_file.h"
+#include "experiment/base/whole_file.h"
 #include "experiment/scene/files/mesh_reader.h"
 #include "render/gl/headless_context.h"
 #include "render/window/window_inputs.h"
+#include "render/window/window_keys.h"
 #include "render/window/window_system.h"
 
 namespace overt {
@@ -39,23 +40,21 @@ class Painter {
 
     enum class Wish : std::uint8_t { nothing, save, end };
 
+    /// Keys and mouse in the order in which they came.
     Wish take(WindowContext& window) {
-        WindowKeyPress press{};
-        while (window.next_key_press(press)) {
-            has_changed_ = true;
-            if (press.key == WindowKey::enter)
-                return Wish::save;
-            if (press.key == WindowKey::escape) {
-                if (!std::exchange(is_asked_, is_painted_))
-                    return is_painted_ ? Wish::nothing : Wish::end;
-                return Wish::end;
-            }
-            is_asked_ = false;
-            take_key(press);
-        }
         WindowInput input;
-        while (window.next_input(input))
-            take_input(input);
+        while (window.next_input(input)) {
+            using Kind = ObserverInput::Kind;
+            if (input.kind == Kind::key_down) {
+                const Wish wish = take_key(window_key_of(input.glfw_key, 0));
+                if (wish != Wish::nothing)
+                    return wish;
+            } else if (input.kind == Kind::text) {
+                take_character(input.character);
+            } else {
+                take_mouse(input);
+            }
+        }
         return Wish::nothing;
     }
 
@@ -71,20 +70,32 @@ class Painter {
     }
 
   private:
-    void take_key(const WindowKeyPress& press) {
-        if (press.key == WindowKey::up || press.key == WindowKey::down) {
-            radius_ *= press.key == WindowKey::up ? brush_step : 1.0 / brush_step;
-        } else if (press.key == WindowKey::tab) {
-            paint_ = static_cast<AreaPainting::Paint>(paint_ % areas_.names.size() + 1);
-        } else if (press.key == WindowKey::backspace) {
-            areas_.painting.undo();
-        } else if (press.key == WindowKey::character) {
-            if (press.character >= U'0' && press.character <= U'9' &&
-                static_cast<std::size_t>(press.character - U'0') <= areas_.names.size())
-                paint_ = static_cast<AreaPainting::Paint>(press.character - U'0');
-            else if (paint_ > 0)
-                take_letter(press.character);
+    Wish take_key(WindowKey key) {
+        has_changed_ = true;
+        if (key == WindowKey::enter)
+            return Wish::save;
+        if (key == WindowKey::escape) {
+            if (is_asked_ || !is_painted_)
+                return Wish::end;
+            is_asked_ = true;
+            return Wish::nothing;
         }
+        is_asked_ = false;
+        if (key == WindowKey::up || key == WindowKey::down)
+            radius_ *= key == WindowKey::up ? brush_step : 1.0 / brush_step;
+        else if (key == WindowKey::tab)
+            paint_ = static_cast<AreaPainting::Paint>(paint_ % areas_.names.size() + 1);
+        else if (key == WindowKey::backspace)
+            areas_.painting.undo();
+        return Wish::nothing;
+    }
+    void take_character(char32_t character) {
+        has_changed_ = true;
+        if (character >= U'0' && character <= U'9' &&
+            static_cast<std::size_t>(character - U'0') <= areas_.names.size())
+            paint_ = static_cast<AreaPainting::Paint>(character - U'0');
+        else if (paint_ > 0)
+            take_letter(character);
     }
     void take_letter(char32_t letter) {
         if (letter != U'g' && letter != U's' && letter != U'm')
@@ -99,7 +110,7 @@ class Painter {
             areas_.painting.mirror(paint_, bounds_.centre().x, mirror_reach * bounds_.diagonal());
     }
 
-    void take_input(const WindowInput& input) {
+    void take_mouse(const WindowInput& input) {
         using Kind = ObserverInput::Kind;
         const glm::dvec2 at = input.from_middle_px + 0.5 * glm::dvec2(picture_px_);
         switch (input.kind) {
@@ -254,7 +265,7 @@ int run_paint_areas(const PaintAreasOptions& given) {
         write_srgb_png(options.picture, view.draw(orbit, tints_of(areas)));
         fmt::print(stderr, "{}\n", options.picture.string());
     }
-    write_text_file(options.out, labels_text(areas, object, settings));
+    write_whole_file(options.out, labels_text(areas, object, settings));
     fmt::print("# {}\nlabels = \"{}\"\n", areas.shares(), options.out.string());
     return 0;
 }

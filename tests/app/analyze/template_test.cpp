@@ -63,9 +63,9 @@ TEST_CASE("gaze on two objects is analysed on the surface of one, where both can
     const fs::path one = experiment.folder().path() / "one";
     const TsvFile fit(one / "template_fit.tsv");
     REQUIRE(fit.size() == 2);
-    CHECK(fit.text(0, "object") == "bust");
+    CHECK(fit.text(0, "on_object") == "bust");
     CHECK(fit.text(0, "warp") == "the same surface");
-    CHECK(fit.text(1, "object") == "tall");
+    CHECK(fit.text(1, "on_object") == "tall");
     CHECK(fit.text(1, "warp") == "thin plate");
     CHECK(fit.number(1, "landmarks") == 9.0);
     CHECK(fit.number(1, "scale") > 1.0); // the bust is wider by half, and a sixth lower

@@ -60,7 +60,7 @@ TEST_CASE("lists of one id are of different objects and correspond by their numb
     CHECK(findings("object = \"b\"\nvertices = [1, 2]") == PointLines{"17:6: the id \"p\" is there twice"});
     CHECK(findings("near_mm = [[1, 2, 3], [4, 5, 6]]") == PointLines{"17:6: the id \"p\" is there twice"});
     CHECK(findings("object = \"c\"\nvertices = [1]") ==
-          PointLines{"17:6: \"p\" has 2 places on \"b\" and 1 place on \"c\": places of one id correspond by "
+          PointLines{"17:6: \"p\" has 2 places on \"b\" and 1 on \"c\": places of one id correspond by "
                      "their numbers"});
     CHECK(findings("object = \"c\"\nevenly = 2") ==
           PointLines{

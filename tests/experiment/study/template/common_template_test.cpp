@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include "experiment/base/error.h"
+#include "experiment/scene/surface_sites.h"
 #include "tests/experiment/study/painted_study.h"
 
 using namespace overt;
@@ -185,7 +186,8 @@ TEST_CASE("what was visible is the mean over trials that count, each by its obje
 
 TEST_CASE("a place stays in its areas where the template has them, and evidence goes by their names",
           "[unit]") {
-    BallAndEgg of;
+    BallAndEgg of(
+        [](int, int level, RandomStream& random) { return near(level == 0 ? front : top, 0.8, random); });
     StudyResults& results = of.study.results;
     // The ball's head is smaller than the egg's, and the names come in another order.
     auto ball = std::make_shared<Mesh>(*results.objects[0].mesh);
