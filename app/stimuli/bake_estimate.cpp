@@ -198,7 +198,9 @@ std::string needs_of_person(const BakeEstimate& estimate, const Protocol& protoc
     }
     text += fmt::format("  Quality live: {}.\n  {}\n", what_live_lacks, live_differences_of(protocol));
     if (std::ranges::any_of(protocol.materials, &MaterialSettings::is_of_file))
-        text += "  It shows no pictures on surfaces: objects have the mean colour of their own.\n";
+        text += "  Of an object's own surface it shows colours and what is metal at their places, roughness "
+                "in the "
+                "mean of each of the file's materials, and no bumps.\n";
     return text +
            fmt::format(
                "  Times are estimated from small pictures that were traced just now, on {}, if nothing "

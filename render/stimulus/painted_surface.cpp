@@ -21,13 +21,13 @@ GLint edge_of(PictureEdge edge) {
 
 /// Nothing for a picture that is larger than the card takes: then the mean colour stands for it.
 std::optional<Texture2D> picture_of(const GlContext& context, const SurfaceAppearance& appearance,
-                                    const SurfacePlacement& placement) {
+                                    const SurfacePlacement& placement, PixelFormat format) {
     const SurfacePicture& picture = *appearance.pictures[static_cast<std::size_t>(placement.picture)];
     GLint most = 0;
     context.gl().GetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
     if (picture.size_px.x > most || picture.size_px.y > most)
         return std::nullopt;
-    Texture2D texture(context, picture.size_px, PixelFormat::srgba8);
+    Texture2D texture(context, picture.size_px, format);
     texture.upload(std::as_bytes(std::span(picture.texels)));
     texture.set_as_picture(edge_of(placement.across), edge_of(placement.down), placement.is_nearest);
     return texture;
@@ -37,7 +37,7 @@ std::optional<Texture2D> picture_of(const GlContext& context, const SurfaceAppea
 struct Corners {
     std::vector<glm::vec3> positions, normals, colours;
     std::vector<glm::vec4> openness;
-    std::vector<glm::vec2> places;
+    std::vector<glm::vec2> places, places_of_metal;
 };
 
 } // namespace
@@ -57,7 +57,11 @@ PaintedSurface::PaintedSurface(const GlContext& context, const Mesh& mesh, const
         const bool is_given = material.kind == MaterialKind::own && given[of] && material.reflectance;
         Piece piece{*means[of], static_cast<GLint>(corners.positions.size()), 0, std::nullopt};
         if (!is_given && own.colour_picture.picture >= 0)
-            piece.picture = picture_of(context, appearance, own.colour_picture);
+            piece.picture = picture_of(context, appearance, own.colour_picture, PixelFormat::srgba8);
+        const bool is_metal_given = material.kind != MaterialKind::own || (given[of] && material.metallic);
+        if (!is_metal_given && own.surface_picture.picture >= 0)
+            piece.metal = picture_of(context, appearance, own.surface_picture, PixelFormat::rgba8);
+        piece.metallic = own.metallic;
         const bool is_mean = is_given || (own.colour_picture.picture >= 0 && !piece.picture);
         for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
             if ((appearance.triangle_materials.empty() ? 0u : appearance.triangle_materials[t]) != of)
@@ -72,12 +76,13 @@ PaintedSurface::PaintedSurface(const GlContext& context, const Mesh& mesh, const
                 if (!is_mean && !appearance.colours.empty())
                     colour *= appearance.colours[t][c];
                 corners.colours.push_back(colour);
-                glm::vec2 place(0.0f);
-                if (piece.picture) {
-                    const auto set = static_cast<std::size_t>(own.colour_picture.uv_set);
-                    place = glm::vec2(own.colour_picture.place_of(glm::dvec2(appearance.uvs[set][t][c])));
-                }
-                corners.places.push_back(place);
+                const auto place_on = [&](const SurfacePlacement& picture) {
+                    const auto set = static_cast<std::size_t>(picture.uv_set);
+                    return glm::vec2(picture.place_of(glm::dvec2(appearance.uvs[set][t][c])));
+                };
+                corners.places.push_back(piece.picture ? place_on(own.colour_picture) : glm::vec2(0.0f));
+                corners.places_of_metal.push_back(piece.metal ? place_on(own.surface_picture)
+                                                              : glm::vec2(0.0f));
             }
         }
         piece.count = static_cast<GLsizei>(corners.positions.size()) - piece.first;
@@ -95,6 +100,7 @@ PaintedSurface::PaintedSurface(const GlContext& context, const Mesh& mesh, const
     attribute(2, 4, std::as_bytes(std::span(corners.openness)));
     attribute(3, 2, std::as_bytes(std::span(corners.places)));
     attribute(4, 3, std::as_bytes(std::span(corners.colours)));
+    attribute(5, 2, std::as_bytes(std::span(corners.places_of_metal)));
 }
 
 void PaintedSurface::draw(const Piece& piece) const {

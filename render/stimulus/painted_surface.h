@@ -1,5 +1,5 @@
 /// How an object's file says that its surface looks, on the graphics card: colours and pictures of colours at
-/// each place, metal and roughness in the mean over each of the file's materials.
+/// each place, what is metal too; roughness in the mean over each of the file's materials.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,8 @@
 
 namespace overt {
 
-/// Attributes 0 to 2 as of MeshBuffers, 3 the place on the picture, 4 the colour of the corner, linear. The
+/// Attributes 0 to 2 as of MeshBuffers, 3 the place on the picture, 4 the colour of the corner, linear, 5 the
+/// place on the picture of metal. The
 /// triangles lie in the order of the file's materials, so that gl_PrimitiveID tells nothing.
 class PaintedSurface {
   public:
@@ -25,6 +26,8 @@ class PaintedSurface {
         GLint first = 0;
         GLsizei count = 0;
         std::optional<Texture2D> picture; ///< nothing: its corners' colours are all
+        std::optional<Texture2D> metal;   ///< blue: what is metal; nothing: the material's mean
+        float metallic = 1.0f;            ///< factor on it
     };
     const std::vector<Piece>& pieces() const { return pieces_; }
     void draw(const Piece& piece) const;

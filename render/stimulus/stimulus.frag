@@ -6,6 +6,7 @@ in vec3 world_normal;
 in vec3 object_position;
 in vec4 world_openness;
 in vec2 place;
+in vec2 place_of_metal;
 in vec3 colour;
 
 layout(location = 0) out vec4 linear_light; // display RGB, alpha 1 on the object
@@ -23,8 +24,11 @@ uniform int is_coated;
 uniform int is_painted;          // the object's file says its colours
 uniform int has_picture;
 uniform sampler2D picture;       // of colours
+uniform int has_metal;           // a picture says what is metal, in its blue channel
+uniform sampler2D metal;
+uniform float metallic;          // factor on it
 // Of metals and plastics, by the root of the cosine: mirrored, with the clear coat's in alpha; even; where the file says colours, these are
-// of black, and two more rows of what each share of its colour adds.
+// of black, and two more rows of what each share of its colour adds; with a picture of metal, four rows of what is none and four of what is.
 uniform sampler2D shares;
 uniform float coat_ior;
 uniform float glass_ior;         // 1: no light goes through
@@ -82,10 +86,18 @@ vec4 share_in(int row, float cosine) {
     return mix(texelFetch(shares, ivec2(before, row), 0), texelFetch(shares, ivec2(before + 1, row), 0), at - float(before));
 }
 
-vec4 share_of(int kind, float cosine, vec3 own) {
+vec4 painted_share(int kind, float cosine, vec3 own) {
     vec4 share = share_in(kind, cosine);
-    if (is_painted == 1)
-        share.rgb = clamp(share.rgb + own * share_in(kind + 2, cosine).rgb, 0.0, 1.0);
+    share.rgb = clamp(share.rgb + own * share_in(kind + 2, cosine).rgb, 0.0, 1.0);
+    return share;
+}
+
+vec4 share_of(int kind, float cosine, vec3 own) {
+    if (is_painted == 0)
+        return share_in(kind, cosine);
+    vec4 share = painted_share(kind, cosine, own);
+    if (has_metal == 1)
+        share = mix(share, painted_share(kind + 4, cosine, own), clamp(metallic * texture(metal, place_of_metal).b, 0.0, 1.0));
     return share;
 }
 

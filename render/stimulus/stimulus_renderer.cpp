@@ -23,6 +23,25 @@ Texture2D texture_of(const GlContext& context, const LightProbe& probe) {
     return texture;
 }
 
+/// What is mirrored, and below it what is even.
+std::vector<glm::vec4> rows_of(LiveShares shares) {
+    shares.mirrored.insert(shares.mirrored.end(), shares.even.begin(), shares.even.end());
+    return std::move(shares.mirrored);
+}
+
+/// Shares rise with the colour nearly on a line, from black through the mean of the surface: those of black,
+/// and what a colour adds for each share of it.
+std::vector<glm::vec4> painted_rows(const MaterialSettings& material, const glm::dvec3& mean) {
+    MaterialSettings black = material;
+    black.reflectance = glm::dvec3(0.0);
+    std::vector<glm::vec4> rows = rows_of(live_shares(black)), own = rows_of(live_shares(material));
+    const glm::vec4 by(glm::max(glm::vec3(mean), glm::vec3(0.02f)), 1.0f);
+    for (std::size_t i = 0; i < own.size(); ++i)
+        own[i] = (own[i] - rows[i]) / by;
+    rows.insert(rows.end(), own.begin(), own.end());
+    return rows;
+}
+
 } // namespace
 
 StimulusRenderer::StimulusRenderer(const GlContext& context, const LightSettings& light, glm::ivec2 image_px)
@@ -34,7 +53,7 @@ StimulusRenderer::StimulusRenderer(const GlContext& context, const LightSettings
       image_(context, image_px, PixelFormat::rgba32f) {}
 
 StimulusRenderer::Prepared StimulusRenderer::prepared(const MaterialSettings& material,
-                                                      bool is_painted) const {
+                                                      const PaintedSurface::Piece* piece) const {
     Prepared made{material, &model_of(material.kind).live, nullptr, std::nullopt, glm::dvec3(0.0)};
     const bool coated = made.live->shading == LiveApproximation::Shading::coated_metal;
     made.reflectance = material.kind == MaterialKind::glass ? glm::dvec3(0.0)
@@ -51,22 +70,24 @@ StimulusRenderer::Prepared StimulusRenderer::prepared(const MaterialSettings& ma
     if (made.live->shading != LiveApproximation::Shading::metal &&
         made.live->shading != LiveApproximation::Shading::plastic)
         return made;
-    LiveShares shares = live_shares(material);
-    std::vector<glm::vec4> rows = shares.mirrored;
-    rows.insert(rows.end(), shares.even.begin(), shares.even.end());
-    if (is_painted) {
-        // Shares rise with the colour nearly on a line: from black through the mean of the surface.
-        MaterialSettings black = material;
-        black.reflectance = glm::dvec3(0.0);
-        const LiveShares of_black = live_shares(black);
-        std::vector<glm::vec4> painted = of_black.mirrored;
-        painted.insert(painted.end(), of_black.even.begin(), of_black.even.end());
-        const glm::vec4 mean(glm::max(glm::vec3(made.reflectance), glm::vec3(0.02f)), 1.0f);
-        for (std::size_t i = 0; i < rows.size(); ++i)
-            rows[i] = (rows[i] - painted[i]) / mean;
-        rows.insert(rows.begin(), painted.begin(), painted.end());
+    std::vector<glm::vec4> rows;
+    const auto add_painted = [&](std::optional<double> metallic) {
+        MaterialSettings of = material;
+        of.metallic = metallic ? metallic : of.metallic;
+        const std::vector<glm::vec4> painted = painted_rows(of, made.reflectance);
+        rows.insert(rows.end(), painted.begin(), painted.end());
+    };
+    if (!piece) {
+        rows = rows_of(live_shares(material));
+    } else if (!piece->metal) {
+        add_painted(std::nullopt);
+    } else {
+        add_painted(0.0);
+        add_painted(1.0);
     }
-    made.shares.emplace(*context_, glm::ivec2(LiveShares::rows, is_painted ? 4 : 2), PixelFormat::rgba32f);
+    made.shares.emplace(*context_,
+                        glm::ivec2(LiveShares::rows, static_cast<int>(rows.size()) / LiveShares::rows),
+                        PixelFormat::rgba32f);
     made.shares->upload(std::as_bytes(std::span(rows)));
     return made;
 }
@@ -74,7 +95,7 @@ StimulusRenderer::Prepared StimulusRenderer::prepared(const MaterialSettings& ma
 void StimulusRenderer::set_material(const MaterialSettings& material) {
     prepared_.clear();
     painted_ = nullptr;
-    prepared_.push_back(prepared(material, false));
+    prepared_.push_back(prepared(material, nullptr));
 }
 
 void StimulusRenderer::set_painted(const PaintedSurface& surface) {
@@ -87,11 +108,11 @@ void StimulusRenderer::set_painted(const PaintedSurface& surface) {
         if (material.roughness)
             material.roughness =
                 std::max(0.001, roughness_step * std::round(*material.roughness / roughness_step));
-        prepared_.push_back(prepared(material, true));
+        prepared_.push_back(prepared(material, &piece));
     }
 }
 
-void StimulusRenderer::use(const Prepared& of, const SceneView& scene, const Texture2D* picture) {
+void StimulusRenderer::use(const Prepared& of, const SceneView& scene, const PaintedSurface::Piece* piece) {
     using Shading = LiveApproximation::Shading;
     const MaterialSettings& material = of.material;
     const double half_height = 0.5 * scene.bounds.extent().z;
@@ -108,13 +129,17 @@ void StimulusRenderer::use(const Prepared& of, const SceneView& scene, const Tex
     const double bumps_per_unit = 12.5 / half_height;
     program_.set("bump_scale", static_cast<float>(bumps_per_unit));
     program_.set("bump_slope", static_cast<float>(material.coat_bump * half_height * bumps_per_unit));
-    program_.set("is_painted", painted_ ? 1 : 0);
-    program_.set("has_picture", picture ? 1 : 0);
+    program_.set("is_painted", piece ? 1 : 0);
+    program_.set("has_picture", piece && piece->picture ? 1 : 0);
+    program_.set("has_metal", piece && piece->metal ? 1 : 0);
+    program_.set("metallic", piece ? piece->metallic : 1.0f);
     of.mirrored->bind(0);
     if (of.shares)
         of.shares->bind(3);
-    if (picture)
-        picture->bind(4);
+    if (piece && piece->picture)
+        piece->picture->bind(4);
+    if (piece && piece->metal)
+        piece->metal->bind(5);
 }
 
 LinearImage StimulusRenderer::draw(const MeshBuffers& mesh, const SceneView& scene, const Pose& pose) {
@@ -136,6 +161,7 @@ LinearImage StimulusRenderer::draw(const MeshBuffers& mesh, const SceneView& sce
     program_.set("soft", 2);
     program_.set("shares", 3);
     program_.set("picture", 4);
+    program_.set("metal", 5);
     program_.set("exposure", static_cast<float>(light_.exposure));
     program_.set("light_turn", static_cast<float>(pose.light.value / 360.0));
     sharp_.bind(1);
@@ -149,7 +175,7 @@ LinearImage StimulusRenderer::draw(const MeshBuffers& mesh, const SceneView& sce
     }
     for (std::size_t i = 0; i < prepared_.size(); ++i) {
         const PaintedSurface::Piece* const piece = painted_ ? &painted_->pieces()[i] : nullptr;
-        use(prepared_[i], scene, piece && piece->picture ? &*piece->picture : nullptr);
+        use(prepared_[i], scene, piece);
         if (piece)
             painted_->draw(*piece);
         else

@@ -54,8 +54,8 @@ class StimulusRenderer {
         std::optional<Texture2D> shares;     ///< LiveShares: see stimulus.frag
         glm::dvec3 reflectance{0.0};         ///< of a metal at normal incidence, or albedo
     };
-    Prepared prepared(const MaterialSettings& material, bool is_painted) const;
-    void use(const Prepared& of, const SceneView& scene, const Texture2D* picture);
+    Prepared prepared(const MaterialSettings& material, const PaintedSurface::Piece* piece) const;
+    void use(const Prepared& of, const SceneView& scene, const PaintedSurface::Piece* piece);
 
     std::vector<Prepared> prepared_;
     const PaintedSurface* painted_ = nullptr; ///< of which prepared_ are the pieces

@@ -196,3 +196,40 @@ TEST_CASE("colours of materials, of corners and of pictures stand where the file
     // Codes are of sRGB: 231 is 0.799 of the light, 89 is 0.100.
     CHECK(plain.left().g / plain.left().r == Approx(0.125).margin(0.05));
 }
+
+TEST_CASE("what a picture says to be metal mirrors as metal does, and the rest as plastic does", "[gl]") {
+    const auto context = make_headless_context(ContextKind::osmesa);
+    const Mesh mesh = test::bust();
+    const auto texels = [](std::uint8_t left, std::uint8_t right) {
+        auto picture = std::make_shared<SurfacePicture>();
+        picture->size_px = {2, 1};
+        picture->texels = {{0, 255, left, 255}, {0, 255, right, 255}};
+        return picture;
+    };
+    SurfaceAppearance look;
+    FileMaterial paint;
+    paint.colour = {0.8f, 0.6f, 0.2f};
+    paint.metallic = 1.0f;
+    paint.roughness = 0.4f;
+    paint.surface_picture.picture = 0;
+    paint.surface_picture.is_nearest = true;
+    look.materials = {paint};
+    for (const glm::uvec3& of : mesh.triangles) {
+        CornerUvs& corners = look.uvs[0].emplace_back();
+        for (int corner = 0; corner < 3; ++corner)
+            corners[static_cast<std::size_t>(corner)] = {mesh.positions[of[corner]].x / 200.0f + 0.5f, 0.5f};
+    }
+    const auto draw = [&](std::uint8_t left, std::uint8_t right, float factor) {
+        look.pictures = {texels(left, right)};
+        look.materials[0].metallic = factor;
+        return painted(*context, mesh, look, gold_of(MaterialKind::own));
+    };
+    const PaintedPicture metal = draw(255, 255, 1.0f), plastic = draw(0, 0, 1.0f), both = draw(255, 0, 1.0f),
+                         dimmed = draw(255, 255, 0.0f);
+    for (int channel = 0; channel < 3; ++channel) {
+        CHECK(both.left()[channel] == Approx(metal.left()[channel]).margin(1e-4));
+        CHECK(both.right()[channel] == Approx(plastic.right()[channel]).margin(1e-4));
+        CHECK(dimmed.left()[channel] == Approx(plastic.left()[channel]).margin(1e-4));
+    }
+    CHECK(std::abs(metal.left().b - plastic.left().b) > 0.01f);
+}
