@@ -156,7 +156,7 @@ Corners lowest_first(const Corners& corners) {
         if (corners[begin] != lowest)
             continue;
         Corners turned = corners;
-        std::ranges::rotate(turned, turned.begin() + static_cast<std::ptrdiff_t>(begin));
+        std::rotate(turned.begin(), turned.begin() + static_cast<std::ptrdiff_t>(begin), turned.end());
         if (best.empty() || turned < best)
             best = std::move(turned);
     }
