@@ -39,7 +39,7 @@ std::vector<std::string> names_with(const Mesh& mesh, const std::vector<std::str
         add(name);
     }
     if (names.empty())
-        throw InputError("nothing says which areas are to be painted: name each by --area NAME");
+        throw InputError("nothing says which areas are to be painted: name them by --area NAMES");
     if (names.size() > most_areas)
         throw InputError(fmt::format("{} areas are more than {}", names.size(), most_areas));
     return names;

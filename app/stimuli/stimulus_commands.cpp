@@ -50,7 +50,7 @@ void add_paint_areas(CLI::App& app, ChosenCommand& chosen) {
     const auto [command, options] = add_command(
         app, chosen, run_paint_areas, "paint-areas",
         "Paints named areas on a mesh with a brush and writes the file `labels` of a protocol's object",
-        "overt paint-areas scan.ply --area eyes --area mouth\n"
+        "overt paint-areas scan.ply --area eyes,mouth\n"
         "  overt paint-areas scan.ply --labels scan_areas.txt --area nose      goes on\n"
         "  overt paint-areas scan.ply --area eye --dab eye -31 -70 240 12 --mirror eye --picture eyes.png\n"
         "In the window: left button paints, right button turns, wheel goes nearer, up and down make the "
@@ -59,7 +59,7 @@ void add_paint_areas(CLI::App& app, ChosenCommand& chosen) {
         "paints the "
         "other side alike, backspace takes back, enter saves, Escape ends.");
     command.add_option("MESH", options.mesh, "PLY, OBJ, STL or glTF")->required();
-    option(command, "--area", options.areas, "NAME", "An area to be painted; once for each", one_each_time);
+    option(command, "--area", options.areas, "NAMES", "Areas to be painted, with commas")->delimiter(',');
     option(command, "--labels", options.labels, "FILE",
            "Labels to go on with, as an object's `labels` has them (default: those of the mesh file)");
     option(command, "--out", options.out, "FILE",

@@ -108,9 +108,9 @@ TEST_CASE("a hand paints with the left button, takes back, and saves with enter"
     REQUIRE(display);
     int exit_code = -1;
     {
-        RunningProgram program({"paint-areas", (experiment.folder().path() / "meshes/tall.ply").string(),
-                                "--area", "face", "--area", "neck"},
-                               surroundings, said);
+        RunningProgram program(
+            {"paint-areas", (experiment.folder().path() / "meshes/tall.ply").string(), "--area", "face,neck"},
+            surroundings, said);
         const Window window = await_window(display);
         REQUIRE(window != 0);
         XWindowAttributes look{};
