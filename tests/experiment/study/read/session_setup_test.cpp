@@ -136,6 +136,8 @@ TEST_CASE("where gaze comes from follows from the tracker's name, or from the re
     const SessionSetup own =
         imported("eyelink", "** one\\n** overt recorded this with the tracker: simulated\\r\\n** two", 500.0);
     CHECK(own.imported_file == "a.asc");
+    CHECK(own.gaze.tracker == "simulated");
+    CHECK(own.gaze.was_simulated);
     CHECK(own.gaze.origin == GazeOrigin::imported);
     CHECK(own.gaze.rate_hz == 500.0);
     CHECK(imported("eyelink", "** one", 0.0).gaze.tracker == "eyelink");
