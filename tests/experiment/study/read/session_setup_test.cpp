@@ -134,7 +134,7 @@ TEST_CASE("where gaze comes from follows from the tracker's name, or from the re
                 "', 'area', " + std::to_string(rate_hz) + ", 'both', 1, 1, 0)");
     };
     const SessionSetup own =
-        imported("eyelink", "** one\\n** overt recorded this with the tracker: simulated\\r\\n** two", 500.0);
+        imported("eyelink", "** one\n** overt recorded this with the tracker: simulated\r\n** two", 500.0);
     CHECK(own.imported_file == "a.asc");
     CHECK(own.gaze.tracker == "simulated");
     CHECK(own.gaze.was_simulated);
