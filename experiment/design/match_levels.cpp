@@ -103,7 +103,7 @@ MatchLevels match_levels_of(const Protocol& protocol, const TaskAnswer& answer, 
     }
     for (MatchLevels::Axis& axis : levels.axes) {
         std::ranges::sort(axis.values);
-        axis.values.erase(std::ranges::unique(axis.values).begin(), axis.values.end());
+        axis.values.erase(std::unique(axis.values.begin(), axis.values.end()), axis.values.end());
         if (axis.values.size() < 2)
             return none(
                 fmt::format("there is one level of \"{}\" only, {:g}", axis.along, axis.values.front()),

@@ -57,7 +57,7 @@ void SurfaceSamples::find_neighbours() {
     neighbours_begin_.push_back(0);
     for (std::vector<std::uint32_t>& own : of_sample) {
         std::ranges::sort(own);
-        own.erase(std::ranges::unique(own).begin(), own.end());
+        own.erase(std::unique(own.begin(), own.end()), own.end());
         neighbours_.insert(neighbours_.end(), own.begin(), own.end());
         neighbours_begin_.push_back(static_cast<std::uint32_t>(neighbours_.size()));
     }

@@ -314,3 +314,99 @@ TEST_CASE("a template that cannot be is refused, and without one nothing happens
     CHECK(alone.study.results.template_fits.empty());
     CHECK(alone.study.results.trials.back().object == 1);
 }
+
+TEST_CASE("how far a surface lies from the template, and what of it faces the other way, is said by area",
+          "[unit]") {
+    // Landmarks that say that nothing moves, on a ball that is 10 mm larger.
+    BallAndEgg larger;
+    auto mesh = std::make_shared<Mesh>(*larger.study.results.objects[0].mesh);
+    for (glm::vec3& position : mesh->positions)
+        position *= 1.1f / static_cast<float>(BallAndEgg::to_mm);
+    larger.study.results.objects[1].mesh = mesh;
+    for (NamedPlace& point : larger.study.results.objects[1].points)
+        point.position =
+            std::ranges::find(larger.study.results.objects[0].points, point.name, &NamedPlace::name)
+                ->position /
+            BallAndEgg::to_mm;
+    larger.bring();
+    const TemplateFitRow& away = larger.study.results.template_fits[1];
+    CHECK(away.scale == Approx(1.0));
+    CHECK(away.away_mm == Approx(10.0).epsilon(0.02)); // triangles are flat
+    CHECK(away.gaze_away_mm.value() == Approx(10.0).epsilon(0.02));
+    CHECK(away.turned_share == 0.0);
+
+    // A quarter of the egg is inside out: above, on the right.
+    BallAndEgg turned;
+    auto flipped = std::make_shared<Mesh>(*turned.study.results.objects[1].mesh);
+    double area = 0.0, inside_out = 0.0;
+    for (std::size_t t = 0; t < flipped->triangles.size(); ++t) {
+        const Mesh& ball = *turned.study.results.objects[0].mesh;
+        const glm::uvec3& of = ball.triangles[t];
+        const glm::vec3 middle = (ball.positions[of.x] + ball.positions[of.y] + ball.positions[of.z]) / 3.0f;
+        const double own = glm::length(glm::cross(ball.positions[of.y] - ball.positions[of.x],
+                                                  ball.positions[of.z] - ball.positions[of.x]));
+        area += own;
+        if (middle.x > 0.0f && middle.z > 0.0f) {
+            std::swap(flipped->triangles[t].y, flipped->triangles[t].z);
+            inside_out += own;
+        }
+    }
+    turned.study.results.objects[1].mesh = flipped;
+    turned.bring();
+    CHECK(turned.study.results.template_fits[1].turned_share == Approx(inside_out / area).epsilon(1e-3));
+    const std::string said =
+        fmt::format("{:.0f} % of the surface of egg come to lie on a part of ball that faces "
+                    "the other way",
+                    100.0 * inside_out / area);
+    CHECK(std::ranges::any_of(turned.study.results.remarks,
+                              [&](const std::string& remark) { return remark.starts_with(said); }));
+}
+
+TEST_CASE("exposure is counted to the part that a vertex's first triangle has", "[unit]") {
+    BallAndEgg of;
+    const Mesh& ball = *of.study.results.objects[0].mesh;
+    std::vector<double> pixels(ball.positions.size(), 1.0), parts(2, 0.0);
+    std::vector<bool> is_counted(ball.positions.size());
+    for (std::size_t v = 0; v < pixels.size(); ++v)
+        pixels[v] = ball.positions[v].z > 70.0f ? 5.0 : 0.5;
+    for (std::size_t t = 0; t < ball.triangles.size(); ++t) {
+        for (int corner = 0; corner < 3; ++corner) {
+            const std::uint32_t v = ball.triangles[t][corner];
+            if (!is_counted[v])
+                parts[ball.triangle_parts[t]] += pixels[v];
+            is_counted[v] = true;
+        }
+    }
+    for (ObjectSurface& surface : of.study.surfaces)
+        surface.pixel_seconds = pixels;
+    of.bring();
+    for (const ExposureRow& row : of.study.results.exposures)
+        if (row.area == "head")
+            CHECK(row.share_of_exposure == Approx(parts[1] / (parts[0] + parts[1])).epsilon(0.02));
+}
+
+TEST_CASE("where the template has no place in all areas of a fixation, the nearest of all is taken",
+          "[unit]") {
+    BallAndEgg of;
+    StudyResults& results = of.study.results;
+    const auto rename = [&](std::size_t object, const std::vector<std::string>& names) {
+        auto mesh = std::make_shared<Mesh>(*results.objects[object].mesh);
+        mesh->part_names = names;
+        for (std::size_t t = 0; t < mesh->triangles.size(); ++t)
+            mesh->triangle_parts[t] = mesh->triangle_parts[t] == 1 && names.size() > 2 && t % 2 == 1
+                                          ? PartIndex{2}
+                                          : mesh->triangle_parts[t];
+        results.objects[object].mesh = mesh;
+        results.objects[object].part_names = names;
+        results.objects[object].areas = Areas(names);
+    };
+    rename(0, {"body", "head", "face"}); // beside each other
+    rename(1, {"body", "head/face"});
+    const std::vector<StudyFixation> before = results.fixations;
+    of.bring();
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        const glm::dvec3 wanted =
+            position_of(*results.objects[0].mesh, SurfaceSite{*before[i].triangle, before[i].barycentric});
+        CHECK(glm::distance(results.fixations[i].position, wanted) < 1e-4);
+    }
+}
