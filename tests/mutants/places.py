@@ -31,10 +31,21 @@ def clang():
         except ImportError:
             sys.exit("drawn changes are found with libclang, whose Python package is missing: apt install python3-clang")
     if not bindings.Config.loaded:
-        found = sorted(glob.glob("/usr/lib/llvm-*/lib/libclang-*.so.1") + glob.glob("/usr/lib/llvm-*/lib/libclang.so.1"))
-        if found:
-            bindings.Config.set_library_file(found[-1])
+        library = library_of_bindings()
+        if library:
+            bindings.Config.set_library_file(library)
     return bindings
+
+
+def library_of_bindings():
+    """libclang of the bindings' own version, since the numbers of its kinds change from one to the next. Empty where Debian's
+    package of the bindings is not there: others bring their library or find it."""
+    versions = [int(path.rsplit("-", 1)[1]) for path in glob.glob("/usr/share/doc/python3-clang-[0-9]*")]
+    for version in sorted(versions, reverse=True):
+        for library in sorted(glob.glob(f"/usr/lib/llvm-{version}/lib/libclang-*.so.1")
+                              + glob.glob(f"/usr/lib/llvm-{version}/lib/libclang.so.1")):
+            return library
+    return ""
 
 
 class Change:
