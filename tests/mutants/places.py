@@ -138,7 +138,10 @@ class Finder:
 
     def visit(self, cursor, parent, function, extra=()):
         k = self.kinds
-        kind = cursor.kind
+        try:
+            kind = cursor.kind
+        except ValueError:  # what the bindings have no name for, such as a concept in those of clang 16
+            return
         if kind in self.left_alone:
             return
         place = cursor.extent.start.file
