@@ -12,7 +12,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr SessionDuration iolab_patience = 500ms, iolab_exchange = 30ms;
-constexpr int iolab_exchanges = 3, most_stale = 1000;
+constexpr int iolab_exchanges = 3;
 
 } // namespace
 
@@ -100,8 +100,7 @@ ButtonBoxDescription IolabBox::description() const { return {"iolab", line_->nam
 void IolabBox::begin() {
     read_clocks();
     std::array<std::byte, 64> stale;
-    for (int i = 0; i < most_stale && line_->read(stale, clock_->now()) > 0; ++i) {
-    }
+    read_away(*line_, stale, *clock_);
     looked_ = clock_->now();
 }
 

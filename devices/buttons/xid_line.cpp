@@ -96,10 +96,6 @@ std::string XidLine::ask(std::string_view command, std::size_t bytes, SessionDur
     return answer;
 }
 
-void XidLine::flush() noexcept {
-    std::array<char, 256> stale;
-    for (int i = 0; i < 1000 && line_->read(stale, clock_->now()) > 0; ++i) {
-    }
-}
+void XidLine::flush() noexcept { read_away(*line_, clock_->now()); }
 
 } // namespace overt

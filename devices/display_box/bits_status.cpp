@@ -38,9 +38,9 @@ class FieldReader {
     }
 
     double number(double largest) {
-        const double value = decimal_number(next()).value_or(2.0 * largest);
-        good_ = good_ && std::abs(value) <= largest;
-        return good_ ? value : 0.0;
+        const std::optional<double> value = decimal_number(next());
+        good_ = good_ && value && std::abs(*value) <= largest;
+        return good_ ? *value : 0.0;
     }
 
     bool ended_well() const { return good_ && rest_.empty(); }

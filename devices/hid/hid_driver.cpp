@@ -16,9 +16,6 @@ using namespace std::chrono_literals;
 constexpr HidUsage eye_tracker_usage{0x12, 0x01};
 constexpr SessionDuration ready_patience = 5s, between_looks = 50ms, between_bounds = 500ms;
 
-/// Reports that have come before a recording; more than that comes faster than it is read.
-constexpr int most_stale_reports = 10'000;
-
 } // namespace
 
 std::optional<std::pair<std::uint16_t, std::uint16_t>> hid_numbers(std::string_view text) {
@@ -123,8 +120,7 @@ TrackerDescription HidDriver::connect(const TrackerWish& wish) {
 }
 
 void HidDriver::start() {
-    for (int i = 0; i < most_stale_reports && line_->read(report_, clock_->now()) > 0; ++i) {
-    }
+    read_away(*line_, report_, *clock_);
     if (line_->lost())
         throw DeviceError(fmt::format("{} was unplugged.", line_->name()));
     bound_due_ = clock_->now();

@@ -126,7 +126,7 @@ std::optional<HidGazeReport> HidGazeLayout::read(std::span<const std::byte> repo
         const auto part = hid_value(field, report);
         if (!part)
             has_time = false;
-        else if (shift < 64)
+        else
             ticks |= (static_cast<std::uint64_t>(*part) &
                       (field.bit_size < 64 ? (std::uint64_t{1} << field.bit_size) - 1 : ~std::uint64_t{0}))
                      << shift;

@@ -94,6 +94,13 @@ class HidapiLine final : public HidLine {
 
 } // namespace
 
+void read_away(HidLine& line, std::span<std::byte> report, const Clock& clock) noexcept {
+    constexpr int most_reports = 1000;
+    int reports = 0;
+    while (reports < most_reports && line.read(report, clock.now()) > 0)
+        ++reports;
+}
+
 std::string describe(const HidDeviceInfo& device) {
     const std::string& words = device.product.empty() ? device.manufacturer : device.product;
     return fmt::format("{} ({:04x}:{:04x}{}{})", device.path, device.vendor_id, device.product_id,

@@ -54,6 +54,9 @@ class HidLine {
     virtual bool lost() const noexcept = 0;
 };
 
+/// Forgets the reports that have come by now, a thousand at most, each into `report`.
+void read_away(HidLine& line, std::span<std::byte> report, const Clock& clock) noexcept;
+
 /// Opens a device by its path. Throws DeviceError: not there, no permission (which names the udev rule that
 /// gives it). `clock` must go by itself and outlive the line.
 std::unique_ptr<HidLine> open_hid(const std::string& path, const Clock& clock);

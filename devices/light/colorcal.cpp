@@ -96,9 +96,7 @@ ColorCal::ColorCal(std::unique_ptr<ByteTransport> transport, Clock& clock, Color
 
 void ColorCal::send(std::string_view command) {
     // What is still here belongs to the answer before: its prompt, or a late one.
-    std::array<char, 256> old{};
-    for (int i = 0; i < 64 && transport_->read(old, SessionTime()) > 0; ++i) {
-    }
+    read_away(*transport_, SessionTime());
     if (!transport_->write(fmt::format("{}\n", command), clock_.now() + timeouts_.reply))
         throw DeviceError(fmt::format("{}: the photometer did not take \"{}\" ({}); plug it out and in.",
                                       transport_->name(), command,

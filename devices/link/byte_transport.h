@@ -39,6 +39,9 @@ class ByteTransport {
 /// Opens the line to a port by its name. Throws DeviceError if it cannot be had.
 using TransportOpener = std::function<std::unique_ptr<ByteTransport>(const std::string& port)>;
 
+/// Forgets what has arrived by `now`; of a line that never rests a thousand readings.
+void read_away(ByteTransport& line, SessionTime now) noexcept;
+
 /// Bytes as they may stand in a message: control characters and bytes above 126 as \xNN, and when longer than
 /// `longest` bytes only their end, after "…".
 std::string printable(std::string_view bytes, std::size_t longest = 160);

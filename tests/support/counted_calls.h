@@ -15,9 +15,10 @@
 #include <cstdint>
 #include <cstdio>
 
-#include <dlfcn.h>
 #include <fcntl.h>
 #include <pthread.h>
+
+#include "tests/support/next_function.h"
 
 namespace overt::test {
 
@@ -34,11 +35,6 @@ inline constinit thread_local Calls calls;
 inline Calls operator-(const Calls& a, const Calls& b) {
     return {a.allocations - b.allocations, a.locks - b.locks, a.opened_files - b.opened_files,
             a.exceptions - b.exceptions};
-}
-
-/// The library's own function of this name.
-template <class Function> Function* next_function(const char* name) {
-    return reinterpret_cast<Function*>(dlsym(RTLD_NEXT, name));
 }
 
 } // namespace overt::test

@@ -2,7 +2,9 @@
 #include "devices/buttons/hid_knob.h"
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
+#include "devices/buttons/box_times.h"
 #include "experiment/base/error.h"
 #include "tests/devices/hid/hid_bytes.h"
 
@@ -232,4 +234,55 @@ TEST_CASE(
     axis.add(-0.3);
     axis.add(-0.4);
     CHECK(axis.take_steps() == -1); // whose sum misses a step by its rounding
+}
+
+TEST_CASE("what a knob did is timed by when it was looked at before and by when it was fetched", "[unit]") {
+    KnobInHand dial(dial_descriptor(), knob_settings(dial_kind));
+    dial.after(10ms);
+    const SessionTime looked = dial.clock.now();
+    for (const auto& [report, words] : {std::pair(bytes_of({1, 0, 3}), "3 0"), {bytes_of({1, 1, 0}), "+1"}}) {
+        const SessionTime before = dial.clock.now();
+        CHECK(dial.after(8ms, {report}) == words);
+        const SessionTime fetched = dial.clock.now();
+        const ButtonChange wanted = BoxTimes::arrival(0, false, before, fetched, usb_transport);
+        CHECK(dial.last.at == wanted.at);
+        CHECK(dial.last.uncertainty == wanted.uncertainty);
+        CHECK(dial.last.at < fetched);
+        CHECK(dial.last.uncertainty > 4ms);
+    }
+    CHECK(looked < dial.clock.now());
+    // More at once than are asked for come with the next calls, the first first.
+    for (int i = 1; i <= 40; ++i)
+        dial.far.arriving.push_back({dial.clock.now(), bytes_of({1, 1, i})});
+    std::array<ButtonChange, 3> some;
+    std::vector<int> turned;
+    while (const std::size_t count = dial.knob.poll(some))
+        for (std::size_t i = 0; i < count; ++i)
+            turned.push_back(some[i].turn_steps);
+    REQUIRE(turned.size() == 40);
+    CHECK(turned.front() == 1);
+    CHECK(turned.back() == 40);
+}
+
+TEST_CASE("of a knob's numbers those that it sends, that change, are one each and of its own page count",
+          "[unit]") {
+    const auto with = [](int usage, int flags, bool is_sent, int page = 0x01) {
+        DescriptorText text;
+        text.page(0x01).open(0x0E, 1).id(1).open(0x08, 0).page(page).usage(usage).logical(-127, 127).size(8,
+                                                                                                          1);
+        if (is_sent)
+            text.input(flags);
+        else
+            text.feature(flags);
+        return is_dial(parse_report_descriptor(text.close().close().bytes));
+    };
+    CHECK(with(0x37, 0x06, true));
+    CHECK(with(0x38, 0x06, true));
+    CHECK_FALSE(with(0x36, 0x06, true));
+    CHECK_FALSE(with(0x39, 0x06, true));
+    CHECK_FALSE(with(0x37, 0x06, false)); // a setting
+    CHECK_FALSE(with(0x37, 0x07, true));  // constant
+    CHECK_FALSE(with(0x37, 0x04, true));  // an array
+    CHECK_FALSE(with(0x37, 0x02, true));  // absolute
+    CHECK_FALSE(with(0x37, 0x06, true, 0x02));
 }

@@ -150,3 +150,24 @@ TEST_CASE("an ioLab box that is none, is mute or unplugged is told so", "[unit]"
         CHECK_THROWS_AS(box.begin(), DeviceError);
     }
 }
+
+TEST_CASE("answers of an ioLab box are found behind what else it says, and a lost one is not waited for",
+          "[unit]") {
+    IolabModel model;
+    const auto answer = model.far.on_write;
+    bool unplugs = false;
+    model.far.on_write = [&](std::span<const std::byte> report) {
+        model.reply(model.stamped('D', 2, model.clock.now()));
+        model.reply(bytes_of({'E', 0}));
+        answer(report);
+        model.far.unplugged = unplugs;
+    };
+    IolabBox box(model.line(), model.clock);
+    CHECK(box.description().has_clock);
+    CHECK_NOTHROW(box.begin());
+    // At the first question it is pulled out: time does not go on.
+    unplugs = true;
+    const SessionTime before = model.clock.now();
+    CHECK_THROWS_AS(IolabBox(model.line(), model.clock), DeviceError);
+    CHECK(model.clock.now() - before < 100ms);
+}

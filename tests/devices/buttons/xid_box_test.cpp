@@ -214,3 +214,37 @@ TEST_CASE("a box of the first firmware has its lines turned round, and takes byt
     CHECK(model.heard.ends_with(std::string("ah\xFE\0", 4)));
     CHECK(model.clock.now() - before >= 4ms);
 }
+
+TEST_CASE("only what is a whole packet is one: each bit and byte of its head counts", "[unit]") {
+    const auto keys_in = [](const std::string& bytes) {
+        XidParser parser;
+        parser.feed(bytes);
+        int keys = 0;
+        while (parser.next())
+            ++keys;
+        return keys;
+    };
+    for (int info = 0; info < 256; ++info)
+        CHECK(keys_in(packet('k', {info, 0, 0, 0, 0})) == ((info & 0x0C) == 0 ? 1 : 0));
+    for (int state = 0; state < 256; ++state) {
+        // Behind what is none, the next is found.
+        CHECK(keys_in(packet('o', {1, 2, state, 0, 0, 0, 0, 0})) ==
+              (state == '0' || state == '1' || state == 'k' ? 1 : 0));
+        CHECK(keys_in(std::string(1, static_cast<char>(state)) + packet('k', {0x30, 1, 2, 3, 4})) == 1);
+    }
+    // None is known before it is whole.
+    for (const std::string& whole :
+         {packet('k', {0x30, 1, 2, 3, 4}), packet('o', {1, 2, '1', 1, 2, 3, 4, 5})})
+        for (std::size_t size = 1; size <= whole.size(); ++size)
+            CHECK(keys_in(whole.substr(0, size)) == (size == whole.size() ? 1 : 0));
+    XidParser parser;
+    parser.feed(packet('o', {7, 2, '0', 1, 0, 0}));
+    CHECK_FALSE(parser.next());
+    parser.feed(std::string("\0\2", 2));
+    const auto key = parser.next();
+    REQUIRE(key);
+    CHECK(key->port == 7);
+    CHECK(key->key == 2);
+    CHECK_FALSE(key->is_down);
+    CHECK(key->ms == 1u);
+}

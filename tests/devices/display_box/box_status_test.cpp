@@ -226,3 +226,51 @@ TEST_CASE("a status line's numbers are taken up to what can be, and refused beyo
         CHECK(event.at == BoxTime(2s));
     }
 }
+
+TEST_CASE("a box's clock may have drifted by 200 ppm from the reset on, and no more", "[unit]") {
+    for (const double drift_ppm : {-185.0, 0.0, 185.0, -300.0, 300.0}) {
+        CAPTURE(drift_ppm);
+        Bench bench;
+        bench.box.drift_ppm = drift_ppm;
+        bench.box.far.delay = 100us;
+        auto display = bench.open();
+        int resets = 0;
+        const auto show_reset = [&] {
+            bench.box.clock_zero = bench.clock.now();
+            const ShownClockReset shown{bench.clock.now(), bench.clock.now()};
+            bench.clock.wait_until(bench.clock.now() + 100s);
+            ++resets;
+            return shown;
+        };
+        if (std::abs(drift_ppm) < 200.0) {
+            const auto pairs = display.relate_clocks(show_reset);
+            CHECK(pairs.size() == 6); // the reset and five readings
+            CHECK(pairs.front().other == BoxTime());
+            CHECK(pairs.front().before == bench.box.clock_zero);
+            CHECK(pairs.front().after == bench.box.clock_zero);
+        } else {
+            CHECK_THAT(message_of([&] { display.relate_clocks(show_reset); }), Contains("did not restart"));
+        }
+        CHECK(resets == 1); // after the first the time to settle is over
+    }
+}
+
+TEST_CASE("of what a box says instead of an answer the end is told, and the lines that came last", "[unit]") {
+    Bench bench;
+    auto display = bench.open();
+    const auto told_after = [&](const std::string& noise) {
+        bench.box.far.answer = [noise](std::string_view) { return noise; };
+        return message_of([&] { display.video_rate_hz(); });
+    };
+    CHECK_THAT(told_after("first\rsecond\r"), Contains("\"first\\x0asecond\""));
+    // Of a line that is longer than 256 bytes its end.
+    std::string digits;
+    for (int i = 0; i < 100; ++i)
+        digits += fmt::format("{:03};", i);
+    CHECK_THAT(told_after(digits + "\r"), Contains("098;099;\"") && Contains("but \"…"));
+    CHECK_THAT(told_after(digits + "\rlast\r"), Contains("098;099;\\x0alast\""));
+    // More than 512 bytes: what came before is forgotten.
+    CHECK_THAT(told_after(digits + "\r" + digits + "\rlast\r"),
+               Contains("but \"last\"") || Contains("099;\\x0alast\""));
+    CHECK_THAT(told_after("line\rbegun"), Contains("but \"line\\x0abegun\""));
+}

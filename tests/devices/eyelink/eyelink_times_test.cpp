@@ -2,6 +2,8 @@
 #include "devices/eyelink/eyelink_driver.h"
 
 #include <cmath>
+#include <span>
+#include <thread>
 
 #include <catch2/catch.hpp>
 
@@ -240,4 +242,72 @@ TEST_CASE("an EyeLink's refusals say the command, the number and what the host s
     bench.wish.eye = Eye::left;
     driver.connect(bench.wish);
     CHECK_NOTHROW(driver.start());
+}
+
+TEST_CASE("an EyeLink's library is called in its order, from the connection to its end", "[unit]") {
+    TimedBench bench;
+    bench.library.set("trace", 1);
+    bench.wish.rate_hz = 1000.0;
+    auto take = [&, from = std::size_t{0}]() mutable {
+        std::vector<std::string> said = bench.library.said();
+        std::string all;
+        for (const std::string& each : std::span(said).subspan(from))
+            if (!each.starts_with("read ") || each == "read read_mode_list")
+                all += (all.empty() ? "" : ", ") + each;
+        from = said.size();
+        return all;
+    };
+    {
+        EyelinkDriver driver(bench.settings, bench.clock);
+        take();
+        const TrackerDescription told = driver.connect(bench.wish);
+        const std::string file = told.model.substr(told.model.size() - 12);
+        const std::string said = take();
+        CHECK_THAT(said, Catch::StartsWith("address 100.1.1.1, connect 0, file " + file +
+                                           ", command add_file_preamble_text 'Recorded by overt', offline, "
+                                           "read read_mode_list, command ") &&
+                             Catch::EndsWith("message DISPLAY_COORDS 0 0 1919 1079"));
+        driver.start();
+        CHECK(take() == "offline, reset 1, start 1111, wait 100 1 0");
+        driver.stop();
+        CHECK(take() == "stop, offline");
+        CHECK_FALSE(driver.drift_check({10.0, 20.0})); // it says nothing of it
+        CHECK(take() == "offline, drift 10 20 0 0");
+        driver.start();
+        take();
+        // Connected anew while it records: what was open is closed, and another file is opened.
+        driver.connect(bench.wish);
+        CHECK_THAT(take(), Catch::StartsWith("closed, address 100.1.1.1, connect 0, file "));
+        driver.start();
+        take();
+    }
+    CHECK(take() == "stop, offline, closed"); // nobody has stopped it
+    { EyelinkDriver never(bench.settings, bench.clock); }
+    CHECK(take().empty());
+    // Without a tracker the library simulates one, of which nothing is asked back.
+    bench.settings.is_dummy = true;
+    {
+        EyelinkDriver dummy(bench.settings, bench.clock);
+        CHECK(dummy.connect(bench.wish).name == "eyelink without a tracker");
+        CHECK_THAT(take(), Catch::Contains("connect 1") && !Catch::Contains("closed"));
+        dummy.start();
+        dummy.stop();
+        CHECK(dummy.drift_check({1.0, 1.0})->kind == DriftOutcome::Kind::no_eye);
+        CHECK_FALSE(dummy.read_clocks());
+        CHECK(dummy.read(bench.kept, bench.clock.time + 7ms) == RecordingState::running);
+        CHECK(bench.clock.waits.back() == 7ms);
+        CHECK(dummy.finish("", {}).empty());
+        CHECK(take() == "closed");
+    }
+    CHECK(take().empty());
+}
+
+TEST_CASE("a host whose variables cannot be asked for is taken as it is, at once", "[unit]") {
+    TimedBench bench;
+    bench.library.set("unreadable", 1);
+    bench.library.tell("screen_pixel_coords", "0 0 1 1");
+    EyelinkDriver driver(bench.settings, bench.clock);
+    const SessionTime before = bench.clock.time;
+    CHECK_THAT(driver.connect(bench.wish).model, !Catch::Contains("its host has"));
+    CHECK(bench.clock.time - before == 50ms);
 }

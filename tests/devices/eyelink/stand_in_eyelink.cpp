@@ -41,6 +41,11 @@ double number(const char* name, double otherwise) {
     const char* const told = std::getenv((std::string("STAND_IN_EYELINK_") + name).c_str());
     return told ? std::atof(told) : otherwise;
 }
+/// What is called besides commands and messages, where a test wants to know all.
+void trace(const std::string& what) {
+    if (number("trace", 0) != 0)
+        said.push_back(what);
+}
 /// As the host was told, unless somebody has set another rate there.
 double sample_rate_hz() {
     const auto told = variables.find("sample_rate");
@@ -216,6 +221,7 @@ i16 set_eyelink_address(char* address) {
     return std::strchr(address, '.') ? i16{0} : i16{-1};
 }
 i16 open_eyelink_connection(i16 mode) {
+    trace("connect " + std::to_string(mode));
     const auto result = static_cast<i16>(number("connection", 0));
     link = result != 0 ? 0 : mode == 1 ? -1 : 1;
     return result;
@@ -251,6 +257,9 @@ i16 eyemsg_printf(const char* format, ...) {
     return 0;
 }
 i16 eyelink_read_request(char* variable) {
+    trace(std::string("read ") + variable);
+    if (number("unreadable", 0) != 0)
+        return -1;
     texts["asked"] = variable;
     times_asked = 0;
     return 0;
@@ -276,11 +285,13 @@ i16 close_data_file() {
     return 0;
 }
 void set_offline_mode() {
+    trace("offline");
     recording = false;
     ++times_offline;
 }
 int stand_in_offline() { return times_offline; }
 i16 do_tracker_setup() {
+    trace("set up");
     has_left_dialogue = false;
     if (uses_hooks2)
         hooks2.set_up(hooks2.user);
@@ -336,7 +347,10 @@ i16 do_drift_correct(i16 x, i16 y, i16 draw, i16 allow_setup) {
             return escaped();
     return static_cast<i16>(number("drift", 0));
 }
-void exit_calibration() { has_left_dialogue = true; }
+void exit_calibration() {
+    trace("exit calibration");
+    has_left_dialogue = true;
+}
 i16 eyelink_cal_result() { return static_cast<i16>(number("calibrated", no_reply)); }
 i16 eyelink_cal_message(char* text) {
     write_to(text, texts["calibration"]);
@@ -363,7 +377,10 @@ void stop_recording() {
     recording = false;
 }
 i16 check_record_exit() { return static_cast<i16>(number("exit", 0)); }
-i16 eyelink_wait_for_block_start(std::uint32_t, i16, i16) { return static_cast<i16>(number("block", 1)); }
+i16 eyelink_wait_for_block_start(std::uint32_t ms, i16 samples, i16 events) {
+    trace("wait " + std::to_string(ms) + " " + std::to_string(samples) + " " + std::to_string(events));
+    return static_cast<i16>(number("block", 1));
+}
 i16 eyelink_eye_available() { return recording ? static_cast<i16>(number("eyes", 1)) : i16{-1}; }
 i16 eyelink_get_next_data(void*) {
     if (!recording || number("stalled", 0) != 0)
@@ -388,7 +405,10 @@ i16 eyelink_get_float_data(void* into) {
     std::memcpy(into, item, static_cast<std::size_t>(item_bytes));
     return 200;
 }
-i16 eyelink_reset_data(i16) { return 0; }
+i16 eyelink_reset_data(i16 clears) {
+    trace("reset " + std::to_string(clears));
+    return 0;
+}
 std::uint32_t eyelink_request_time() {
     times_asked = 0;
     return 0;

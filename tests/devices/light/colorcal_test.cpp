@@ -188,3 +188,26 @@ TEST_CASE("an answer of a photometer is two letters and two digits, and its name
         CHECK_THROWS_WITH(colorcal.measure_xyz(), Contains("was not answered with three numbers"));
     }
 }
+
+TEST_CASE("what is left of earlier answers, however much, is no answer to the next command", "[unit]") {
+    Photometer photometer;
+    ColorCal colorcal = photometer.open();
+    for (const std::size_t bytes : {10u, 256u, 257u, 600u, 1024u}) {
+        CAPTURE(bytes);
+        std::string old;
+        while (old.size() < bytes)
+            old += "OK00,1,2,3\n\r>";
+        photometer.far.send(photometer.clock.now(), old);
+        CHECK(colorcal.measure_xyz().y == Approx(0.42 + 20.0 + 0.000075));
+    }
+    // What never ends is not read for ever.
+    int pieces = 0;
+    photometer.far.before_read = [&](SessionTime) {
+        if (++pieces < 3000)
+            photometer.far.send(photometer.clock.now(), std::string(256, 'x'));
+    };
+    CHECK_THROWS_WITH(colorcal.measure_xyz(), Contains("no answer to \"MES\" came"));
+    CHECK(pieces >= 1000);
+    CHECK(pieces < 1010);
+    CHECK(photometer.commands.back() == "MES");
+}

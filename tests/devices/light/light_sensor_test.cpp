@@ -1,8 +1,13 @@
 #include "devices/light/light_sensor.h"
 
+#include <atomic>
 #include <cmath>
+#include <thread>
 
 #include <catch2/catch.hpp>
+
+#include "devices/host/clocks.h"
+#include "experiment/base/error.h"
 
 using namespace overt;
 
@@ -101,4 +106,72 @@ TEST_CASE("delays, their mean and their spread are those of the edges, by hand",
     CHECK(found.matched == 0);
     CHECK(found.unasked == 4);
     CHECK(found.mean_ms == 0.0);
+}
+
+namespace {
+
+/// Gives what a test puts down, piece by piece, and is then silent or lost.
+class ScriptedLine final : public ByteTransport {
+  public:
+    explicit ScriptedLine(std::vector<std::string> script, bool ends_lost)
+        : pieces_(std::move(script)), ends_lost_(ends_lost) {}
+    const std::string& name() const noexcept override { return name_; }
+    bool write(std::string_view, SessionTime) noexcept override { return false; }
+    std::size_t read(std::span<char> into, SessionTime) noexcept override {
+        if (next_ >= pieces_.size()) {
+            is_lost_ = ends_lost_;
+            is_through = true;
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+            return 0;
+        }
+        return pieces_[next_++].copy(into.data(), into.size());
+    }
+    bool lost() const noexcept override { return is_lost_; }
+    std::string loss() const override { return is_lost_ ? "it was unplugged" : ""; }
+    std::atomic<bool> is_through{false};
+
+  private:
+    std::vector<std::string> pieces_;
+    std::string name_ = "/dev/ttyACM3";
+    std::size_t next_ = 0;
+    bool ends_lost_;
+    std::atomic<bool> is_lost_{false};
+};
+
+} // namespace
+
+TEST_CASE("a light sensor on a serial line tells each of its ones and zeros, until it is lost", "[unit]") {
+    for (const bool ends_lost : {false, true}) {
+        SteadyClock clock;
+        auto line = std::make_unique<ScriptedLine>(
+            std::vector<std::string>{"1", "0\r\n", "hello", "01x2/:1", std::string(64, '0')}, ends_lost);
+        const ScriptedLine& reader = *line;
+        const SessionTime began = clock.now();
+        SerialLightSensor sensor(std::move(line), clock);
+        for (int i = 0; i < 5000 && !reader.is_through; ++i)
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        REQUIRE(reader.is_through);
+        if (ends_lost) {
+            std::string why;
+            for (int i = 0; i < 5000 && why.empty(); ++i)
+                try {
+                    sensor.edges();
+                    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+                } catch (const DeviceError& error) {
+                    why = error.what();
+                }
+            CHECK(why == "the light sensor was lost: /dev/ttyACM3: it was unplugged");
+            continue;
+        }
+        const std::vector<LightEdge> edges = sensor.edges();
+        std::string told;
+        for (const LightEdge& edge : edges) {
+            told += edge.is_light ? '1' : '0';
+            CHECK(edge.at >= began);
+            CHECK(edge.at <= clock.now());
+        }
+        CHECK(told == "10"
+                      "011" +
+                          std::string(64, '0'));
+    }
 }

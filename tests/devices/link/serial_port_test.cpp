@@ -1,11 +1,17 @@
 #include "devices/link/serial_port.h"
 
+#include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cstdarg>
+#include <filesystem>
 #include <optional>
 
 #include <catch2/catch.hpp>
+#include <fcntl.h>
+#include <linux/ppdev.h>
 #include <linux/serial.h>
+#include <sys/file.h>
 #include <sys/ioctl.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
@@ -14,8 +20,10 @@
 #include "devices/display_box/display_plus_plus.h"
 #include "devices/host/clocks.h"
 #include "devices/link/serial_port_search.h"
+#include "devices/triggers/parallel_trigger.h"
 #include "experiment/base/error.h"
 #include "tests/devices/display_box/bits_box_model.h"
+#include "tests/devices/link/answered_ioctl.h"
 #include "tests/devices/link/terminal_device.h"
 #include "tests/support/temporary_folder.h"
 
@@ -37,6 +45,11 @@ extern "C" int ioctl(int descriptor, unsigned long request, ...) noexcept {
     va_start(rest, request);
     void* const argument = va_arg(rest, void*);
     va_end(rest);
+    if (answer_to_ioctl)
+        if (const std::optional<int> answer = answer_to_ioctl(request, argument)) {
+            errno = *answer < 0 ? -*answer : errno;
+            return *answer < 0 ? -1 : *answer;
+        }
     if (chip_flags && (request == TIOCGSERIAL || request == TIOCSSERIAL)) {
         auto& state = *static_cast<serial_struct*>(argument);
         if (request == TIOCGSERIAL) {
@@ -264,4 +277,191 @@ TEST_CASE("the search lists ttyACM ports by number with what USB says of them", 
                Contains("up to 16 ms") && Contains("/sys/bus/usb-serial/devices/ttyUSB0/latency_timer"));
     folder.file("sys/devices/usb1/1-7/1-7:1.0/ttyUSB0/latency_timer", "1\n");
     CHECK(latency_note(serial_ports(root / "dev", root / "sys", "ttyUSB").front()).empty());
+}
+
+TEST_CASE("a serial port is raw, at its speed, without handshakes, whatever a program before made of it",
+          "[unit]") {
+    const SteadyClock clock;
+    const Terminal terminal;
+    const std::pair<int, speed_t> speeds[] = {{1200, B1200},     {2400, B2400},     {4800, B4800},
+                                              {9600, B9600},     {19200, B19200},   {38400, B38400},
+                                              {57600, B57600},   {115200, B115200}, {230400, B230400},
+                                              {460800, B460800}, {921600, B921600}};
+    for (const auto& [baud, speed] : speeds) {
+        termios before{};
+        REQUIRE(tcgetattr(terminal.master(), &before) == 0);
+        before.c_iflag |= static_cast<tcflag_t>(ICRNL | IXON | ISTRIP);
+        before.c_oflag |= static_cast<tcflag_t>(OPOST | ONLCR);
+        before.c_lflag |= static_cast<tcflag_t>(ECHO | ICANON | ISIG);
+        before.c_cflag |= static_cast<tcflag_t>(HUPCL | CSTOPB | CRTSCTS);
+        before.c_cflag &= ~static_cast<tcflag_t>(CLOCAL);
+        before.c_cc[VMIN] = 7;
+        before.c_cc[VTIME] = 9;
+        cfsetspeed(&before, baud == 9600 ? B1200 : B9600);
+        REQUIRE(tcsetattr(terminal.master(), TCSANOW, &before) == 0);
+        // What has come before it was opened belongs to nobody.
+        REQUIRE(write(terminal.master(), "old", 3) == 3);
+        std::vector<unsigned long> asked;
+        answer_to_ioctl = [&](unsigned long request, void*) {
+            asked.push_back(request);
+            return std::optional<int>();
+        };
+        {
+            SerialPort port(terminal.path(), clock, baud);
+            termios now{};
+            REQUIRE(tcgetattr(terminal.master(), &now) == 0);
+            CAPTURE(baud);
+            CHECK(cfgetospeed(&now) == speed);
+            CHECK(cfgetispeed(&now) == speed);
+            CHECK((now.c_iflag & static_cast<tcflag_t>(ICRNL | IXON | ISTRIP)) == 0);
+            CHECK((now.c_oflag & static_cast<tcflag_t>(OPOST)) == 0);
+            CHECK((now.c_lflag & static_cast<tcflag_t>(ECHO | ICANON | ISIG)) == 0);
+            CHECK((now.c_cflag & static_cast<tcflag_t>(HUPCL | CSTOPB | CRTSCTS | PARENB)) == 0);
+            CHECK((now.c_cflag & static_cast<tcflag_t>(CLOCAL | CREAD)) ==
+                  static_cast<tcflag_t>(CLOCAL | CREAD));
+            CHECK((now.c_cflag & CSIZE) == CS8);
+            CHECK(now.c_cc[VMIN] == 0);
+            CHECK(now.c_cc[VTIME] == 0);
+            std::array<char, 8> bytes{};
+            CHECK(port.read(bytes, SessionTime()) == 0);
+            CHECK(std::ranges::count(asked, TIOCEXCL) == 1);
+            CHECK(std::ranges::count(asked, TIOCNXCL) == 0);
+        }
+        CHECK(std::ranges::count(asked, TIOCNXCL) == 1);
+        answer_to_ioctl = nullptr;
+    }
+    for (const int baud : {0, 1199, 1201, 9601, 921601})
+        CHECK_THROWS_WITH(SerialPort(terminal.path(), clock, baud),
+                          Contains(fmt::format("cannot be set to {} baud; name a usual speed", baud)));
+    CHECK_NOTHROW(SerialPort(terminal.path(), clock, 921600)); // nothing of the refused ones holds it
+}
+
+TEST_CASE(
+    "a parallel port is claimed for this program alone, pointed outward, and each refusal has its remedy",
+    "[unit]") {
+    const TemporaryFolder folder;
+    const std::string path = folder.file("parport0", "").string();
+    std::vector<std::string> asked;
+    unsigned long refused = 0;
+    int error = 0;
+    answer_to_ioctl = [&](unsigned long request, void* argument) -> std::optional<int> {
+        switch (request) {
+        case PPEXCL:
+            asked.emplace_back("exclusive");
+            break;
+        case PPCLAIM:
+            asked.emplace_back("claim");
+            break;
+        case PPRELEASE:
+            asked.emplace_back("release");
+            break;
+        case PPDATADIR:
+            asked.push_back(fmt::format("direction {}", *static_cast<int*>(argument)));
+            break;
+        case PPWDATA:
+            asked.push_back(fmt::format("write {}", *static_cast<unsigned char*>(argument)));
+            break;
+        default:
+            return std::nullopt;
+        }
+        return request == refused ? -error : 0;
+    };
+    using Words = std::vector<std::string>;
+    {
+        ParallelTrigger trigger(path);
+        CHECK(trigger.name() == "parallel port " + path);
+        CHECK(trigger.needs_code());
+        CHECK(trigger.fault().empty());
+        CHECK(asked == Words{"exclusive", "claim", "direction 0", "write 0"});
+        asked.clear();
+        CHECK(trigger.send({SessionTime(), 0xA5, "onset"}));
+        trigger.rest();
+        CHECK(asked == Words{"write 165", "write 0"});
+        refused = PPWDATA;
+        error = ENXIO;
+        CHECK_FALSE(trigger.send({SessionTime(), 1, ""}));
+        CHECK(trigger.fault() == "No such device or address");
+        refused = 0;
+        asked.clear();
+    }
+    CHECK(asked == Words{"write 0", "release"});
+    const auto refusal = [&](unsigned long request, int why) {
+        refused = request;
+        error = why;
+        asked.clear();
+        std::string said;
+        try {
+            ParallelTrigger trigger(path);
+        } catch (const DeviceError& failure) {
+            said = failure.what();
+        }
+        return said;
+    };
+    CHECK_THAT(refusal(PPEXCL, EBUSY),
+               Contains("cannot be had: Device or resource busy; another program or the"));
+    CHECK(asked == Words{"exclusive"});
+    CHECK_THAT(refusal(PPCLAIM, EAGAIN), Contains("cannot be had") && Contains("sudo rmmod lp"));
+    CHECK(asked == Words{"exclusive", "claim"});
+    CHECK_THAT(refusal(PPDATADIR, EINVAL),
+               Contains("cannot be written to: Invalid argument; name another port"));
+    CHECK(asked == Words{"exclusive", "claim", "direction 0", "release"});
+    CHECK_THAT(refusal(PPWDATA, EPERM), Contains("cannot be written to") && Contains("adduser $USER lp"));
+    CHECK(asked == Words{"exclusive", "claim", "direction 0", "write 0", "release"});
+    for (const int none : {ENOENT, ENODEV, ENXIO})
+        CHECK_THAT(refusal(PPCLAIM, none), Contains("sudo modprobe ppdev"));
+    CHECK_THAT(refusal(PPCLAIM, EACCES), Contains("adduser $USER lp"));
+    answer_to_ioctl = nullptr;
+    CHECK_THROWS_WITH(ParallelTrigger((folder.path() / "parport7").string()),
+                      Contains("parport7 cannot be opened: No such file") && Contains("modprobe"));
+}
+
+TEST_CASE("the driver of a serial chip that refuses low latency, or has it, is asked no more", "[unit]") {
+    const SteadyClock clock;
+    const Terminal terminal;
+    for (const bool has_it : {true, false}) {
+        int asked = 0, set = 0;
+        answer_to_ioctl = [&](unsigned long request, void* argument) -> std::optional<int> {
+            if (request == TIOCGSERIAL) {
+                ++asked;
+                static_cast<serial_struct*>(argument)->flags =
+                    has_it ? static_cast<int>(ASYNC_LOW_LATENCY) : 0;
+                return has_it ? 0 : -ENOTTY;
+            }
+            if (request == TIOCSSERIAL) {
+                ++set;
+                return 0;
+            }
+            return std::nullopt;
+        };
+        const SerialPort port(terminal.path(), clock);
+        CHECK(asked == 1);
+        CHECK(set == 0);
+    }
+    answer_to_ioctl = nullptr;
+}
+
+TEST_CASE("why a port cannot be opened is said with what helps", "[unit]") {
+    const SteadyClock clock;
+    const TemporaryFolder folder;
+    CHECK_THROWS_WITH(SerialPort((folder.path() / "none").string(), clock),
+                      Contains("No such file") && Contains("its USB cable plugged in"));
+    CHECK_THROWS_WITH(SerialPort(folder.path().string(), clock),
+                      Contains("cannot be opened: Is a directory; plug the device out and in"));
+    // Another lock than ours on it.
+    const Terminal terminal;
+    const int other = open(terminal.path().c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC);
+    REQUIRE(flock(other, LOCK_EX | LOCK_NB) == 0);
+    CHECK_THROWS_WITH(SerialPort(terminal.path(), clock),
+                      Contains("is in use: another program has the port open"));
+    close(other);
+    CHECK_NOTHROW(SerialPort(terminal.path(), clock));
+    // Nothing that was opened stays so.
+    const auto open_descriptors = [] {
+        return std::distance(std::filesystem::directory_iterator("/proc/self/fd"),
+                             std::filesystem::directory_iterator());
+    };
+    const auto before = open_descriptors();
+    { const SerialPort port(terminal.path(), clock); }
+    CHECK_THROWS_AS(SerialPort(terminal.path(), clock, 7), DeviceError);
+    CHECK(open_descriptors() == before);
 }

@@ -1,12 +1,22 @@
 #include "devices/link/tcp_line.h"
 
+#include <algorithm>
 #include <array>
+#include <optional>
 
 #include <catch2/catch.hpp>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <ifaddrs.h>
+#include <net/if.h>
+#include <netinet/tcp.h>
+#include <sys/stat.h>
 
 #include "devices/host/clocks.h"
+#include "devices/link/network_cards.h"
 #include "experiment/base/error.h"
 #include "tests/devices/link/tcp_peer.h"
+#include "tests/support/next_function.h"
 
 using namespace overt;
 using namespace overt::test;
@@ -140,4 +150,161 @@ TEST_CASE("an address is a host with or without a port, and what is left out is 
     for (const char* wrong : {"host:", "host:0", "host:70000", "host:4242x", "[::1]:x"})
         CHECK_THROWS_WITH(parse_network_address(wrong, usual),
                           Contains("is no port") && Contains("127.0.0.1:4242"));
+}
+
+namespace {
+
+/// The sockets that this program has open.
+std::vector<int> open_sockets() {
+    std::vector<int> all;
+    for (int descriptor = 0; descriptor < 1024; ++descriptor) {
+        struct stat kind {};
+        if (fstat(descriptor, &kind) == 0 && S_ISSOCK(kind.st_mode))
+            all.push_back(descriptor);
+    }
+    return all;
+}
+
+int option_of(int descriptor, int level, int option) {
+    int value = -1;
+    socklen_t size = sizeof value;
+    getsockopt(descriptor, level, option, &value, &size);
+    return value;
+}
+
+/// Network cards of the test's own, in place of the system's; nothing: those of the system.
+std::optional<std::vector<ifaddrs>> cards_of_test;
+bool cards_fail = false;
+int cards_freed = 0;
+
+} // namespace
+
+// They take the place of the C library's for this program.
+extern "C" {
+int getifaddrs(ifaddrs** first) noexcept {
+    if (!cards_of_test)
+        return next_function<decltype(getifaddrs)>("getifaddrs")(first);
+    for (std::size_t i = 0; i < cards_of_test->size(); ++i)
+        (*cards_of_test)[i].ifa_next = i + 1 < cards_of_test->size() ? &(*cards_of_test)[i + 1] : nullptr;
+    *first = cards_of_test->empty() ? nullptr : cards_of_test->data();
+    return cards_fail ? -1 : 0;
+}
+void freeifaddrs(ifaddrs* first) noexcept {
+    if (!cards_of_test)
+        return next_function<decltype(freeifaddrs)>("freeifaddrs")(first);
+    ++cards_freed;
+}
+}
+
+TEST_CASE("a TCP line sends at once, and finds a dead peer within ten seconds", "[unit]") {
+    const SteadyClock clock;
+    const TcpPeer peer(echo);
+    const std::vector<int> before = open_sockets();
+    {
+        TcpLine line(peer.address(), "test server", clock, clock.now() + 20s);
+        CHECK(line.write("x", clock.now() + 20s));
+        CHECK(read_all(line, clock, 1) == "x"); // the peer has taken it by now
+        int own = -1;
+        for (const int descriptor : open_sockets())
+            if (std::ranges::find(before, descriptor) == before.end() &&
+                option_of(descriptor, IPPROTO_TCP, TCP_NODELAY) == 1)
+                own = descriptor;
+        REQUIRE(own >= 0);
+        CHECK(option_of(own, SOL_SOCKET, SO_KEEPALIVE) == 1);
+        CHECK(option_of(own, IPPROTO_TCP, TCP_KEEPIDLE) == 4);
+        CHECK(option_of(own, IPPROTO_TCP, TCP_KEEPINTVL) == 2);
+        CHECK(option_of(own, IPPROTO_TCP, TCP_KEEPCNT) == 3);
+        CHECK(option_of(own, IPPROTO_TCP, TCP_USER_TIMEOUT) == 10'000);
+        CHECK((fcntl(own, F_GETFL) & O_NONBLOCK) != 0);
+        CHECK((fcntl(own, F_GETFD) & FD_CLOEXEC) != 0);
+    }
+    CHECK_THROWS_AS(TcpLine(nobody(), "test server", clock, clock.now() + 20s), DeviceError);
+    CHECK_THROWS_AS(TcpLine({"no such host", 4242}, "test server", clock, clock.now() + 20s), DeviceError);
+    std::vector<int> left = open_sockets();
+    std::erase_if(left,
+                  [&](int descriptor) { return std::ranges::find(before, descriptor) != before.end(); });
+    CHECK(left.size() <= 1); // the peer's own end
+}
+
+TEST_CASE("whether a program answers where it usually does is said", "[unit]") {
+    const TcpPeer peer(echo);
+    CHECK(served_here(peer.address(), "Gazepoint Control") ==
+          "Gazepoint Control answers at " + describe(peer.address()));
+    const NetworkAddress empty = nobody();
+    CHECK(served_here(empty, "Pupil Capture") ==
+          "Pupil Capture does not answer at " + describe(empty) +
+              "; on another computer it is found by [tracker] address");
+    const NetworkAddress usual{"127.0.0.1", 4242};
+    const auto read = [&](std::string_view text) { return describe(parse_network_address(text, usual)); };
+    CHECK(read("[::1") == "[[::1]:4242"); // no bracket ends it
+    CHECK(read("[fe80::1]:65535") == "[fe80::1]:65535");
+    CHECK(read("host:1") == "host:1");
+    CHECK(read("[]:7") == "127.0.0.1:7");
+}
+
+TEST_CASE(
+    "network cards are listed by their addresses of IPv4, and those without once, the loopback left out",
+    "[unit]") {
+    std::array<sockaddr_in, 3> addresses{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        addresses[i].sin_family = AF_INET;
+        addresses[i].sin_addr.s_addr = htonl(0x0A000001u + static_cast<std::uint32_t>(i));
+    }
+    sockaddr_in6 six{};
+    six.sin6_family = AF_INET6;
+    sockaddr packet{};
+    packet.sa_family = AF_PACKET;
+    const auto card = [](const char* name, unsigned flags, void* address) {
+        ifaddrs entry{};
+        entry.ifa_name = const_cast<char*>(name);
+        entry.ifa_flags = flags;
+        entry.ifa_addr = static_cast<sockaddr*>(address);
+        return entry;
+    };
+    cards_of_test = {card("lo", IFF_LOOPBACK | IFF_UP | IFF_RUNNING, &addresses[0]),
+                     card("lo", IFF_LOOPBACK | IFF_UP, &packet),
+                     card("eth0", IFF_UP | IFF_RUNNING, &packet),
+                     card("eth1", IFF_UP, &packet),
+                     card("eth2", 0, nullptr),
+                     card("eth2", 0, &six),
+                     card("eth0", IFF_UP | IFF_RUNNING, &addresses[1]),
+                     card("eth0", IFF_UP, &addresses[2]),
+                     card("eth1", IFF_UP, &six),
+                     card("eth3", IFF_RUNNING, &addresses[0])};
+    std::string all;
+    for (const NetworkCard& one : network_cards())
+        all += fmt::format("{} {}{}{}; ", one.name, one.address.empty() ? "-" : one.address,
+                           one.is_up ? " up" : "", one.has_link ? " linked" : "");
+    CHECK(all == "eth0 10.0.0.2 up linked; eth0 10.0.0.3 up; eth3 10.0.0.1 linked; eth1 - up; eth2 -; ");
+    CHECK(cards_freed == 1);
+    cards_fail = true;
+    CHECK(network_cards().empty());
+    CHECK(cards_freed == 1);
+    cards_fail = false;
+    cards_of_test->clear();
+    CHECK(network_cards().empty());
+    cards_of_test.reset();
+}
+
+TEST_CASE("what has come is forgotten in a thousand readings at most", "[unit]") {
+    struct Endless final : ByteTransport {
+        const std::string& name() const noexcept override { return name_; }
+        bool write(std::string_view, SessionTime) noexcept override { return true; }
+        std::size_t read(std::span<char> into, SessionTime deadline) noexcept override {
+            CHECK(into.size() == 256);
+            CHECK(deadline == SessionTime(5s));
+            ++readings;
+            return readings <= most ? 1 : 0;
+        }
+        bool lost() const noexcept override { return false; }
+        std::string loss() const override { return {}; }
+        std::string name_;
+        int readings = 0, most = 0;
+    };
+    for (const int most : {0, 1, 2, 999, 1000, 5000}) {
+        Endless line;
+        line.most = most;
+        read_away(line, SessionTime(5s));
+        CHECK(line.readings == std::min(most + 1, 1000));
+    }
 }

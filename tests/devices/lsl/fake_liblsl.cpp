@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <cstdio>
 
 using overt::test::FakeLsl;
 using overt::test::FakeStream;
@@ -13,6 +14,20 @@ using Info = std::shared_ptr<FakeStream>;
 
 /// By this search; counts it.
 bool is_heard(FakeStream& stream) { return stream.unheard == 0 || stream.unheard-- <= 0; }
+
+std::string words_of(const std::string& word) { return word; }
+std::string words_of(const char* word) { return word; }
+std::string words_of(double number) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.6g", number);
+    return text;
+}
+/// Under the lock.
+template <class... Word> void note(FakeLsl& fake, const Word&... words) {
+    std::string all;
+    ((all += (all.empty() ? "" : " ") + words_of(words)), ...);
+    fake.asked.push_back(all);
+}
 
 FakeXml& nowhere() {
     static FakeXml empty;
@@ -37,8 +52,9 @@ LSL_CALL std::int32_t lsl_library_version() { return 116; }
 #ifndef FAKE_LSL_BROKEN
 /// As the real one: what has answered once there are `minimum`, in the order of the answers, and no more.
 LSL_CALL std::int32_t lsl_resolve_byprop(Info** buffer, std::uint32_t size, const char* property,
-                                         const char* value, std::int32_t minimum, double) {
+                                         const char* value, std::int32_t minimum, double timeout_s) {
     const std::scoped_lock lock(fake_lsl()->mutex);
+    note(*fake_lsl(), "resolve", property, value, minimum, timeout_s, size);
     const auto property_of = [name = std::string(property)](const FakeStream& stream) {
         return name == "name"        ? stream.name
                : name == "type"      ? stream.type
@@ -56,8 +72,9 @@ LSL_CALL std::int32_t lsl_resolve_byprop(Info** buffer, std::uint32_t size, cons
     return static_cast<std::int32_t>(count);
 }
 #endif
-LSL_CALL std::int32_t lsl_resolve_all(Info** buffer, std::uint32_t size, double) {
+LSL_CALL std::int32_t lsl_resolve_all(Info** buffer, std::uint32_t size, double timeout_s) {
     const std::scoped_lock lock(fake_lsl()->mutex);
+    note(*fake_lsl(), "resolve all", timeout_s, size);
     std::uint32_t count = 0;
     for (const Info& stream : fake_lsl()->network)
         if (is_heard(*stream) && count < size) {
@@ -76,6 +93,9 @@ LSL_CALL Info* lsl_create_streaminfo(const char* name, const char* type, std::in
     stream->format = format;
     stream->source = source;
     const std::scoped_lock lock(fake_lsl()->mutex);
+    note(*fake_lsl(), "info", name, type, channels, rate_hz, format, source);
+    if (fake_lsl()->refused == "info")
+        return nullptr;
     ++fake_lsl()->infos;
     return new Info(std::move(stream));
 }
@@ -118,8 +138,12 @@ LSL_CALL FakeXml* lsl_append_child_value(FakeXml* xml, const char* name, const c
     return &xml->add(name, value);
 }
 
-LSL_CALL Info* lsl_create_inlet(Info* info, std::int32_t, std::int32_t, std::int32_t) {
+LSL_CALL Info* lsl_create_inlet(Info* info, std::int32_t buffered_s, std::int32_t chunk,
+                                std::int32_t recover) {
     const std::scoped_lock lock(fake_lsl()->mutex);
+    note(*fake_lsl(), "inlet", buffered_s, chunk, recover);
+    if (fake_lsl()->refused == "inlet")
+        return nullptr;
     ++fake_lsl()->inlets;
     return new Info(*info);
 }
@@ -128,22 +152,25 @@ LSL_CALL void lsl_destroy_inlet(Info* inlet) {
     --fake_lsl()->inlets;
     delete inlet;
 }
-LSL_CALL Info* lsl_get_fullinfo(Info* inlet, double, std::int32_t* error) {
+LSL_CALL Info* lsl_get_fullinfo(Info* inlet, double timeout_s, std::int32_t* error) {
     const std::scoped_lock lock(fake_lsl()->mutex);
+    note(*fake_lsl(), "full info", timeout_s);
     *error = (*inlet)->answers ? 0 : -1;
     if (!(*inlet)->answers)
         return nullptr;
     ++fake_lsl()->infos;
     return new Info(*inlet);
 }
-LSL_CALL void lsl_open_stream(Info* inlet, double, std::int32_t* error) {
+LSL_CALL void lsl_open_stream(Info* inlet, double timeout_s, std::int32_t* error) {
     const std::scoped_lock lock(fake_lsl()->mutex);
-    *error = (*inlet)->is_lost ? -2 : 0;
+    note(*fake_lsl(), "open", timeout_s);
+    *error = (*inlet)->is_lost ? -2 : (*inlet)->open_error.load();
     (*inlet)->is_open = true;
 }
 LSL_CALL double lsl_pull_sample_d(Info* inlet, double* values, std::int32_t count, double timeout_s,
                                   std::int32_t* error) {
     std::unique_lock lock(fake_lsl()->mutex);
+    note(*fake_lsl(), "pull", count, timeout_s);
     FakeStream& stream = **inlet;
     const auto until = std::chrono::steady_clock::now() + std::chrono::duration<double>(timeout_s);
     while (stream.waiting.empty() && !stream.is_lost && std::chrono::steady_clock::now() < until)
@@ -157,9 +184,10 @@ LSL_CALL double lsl_pull_sample_d(Info* inlet, double* values, std::int32_t coun
         values[i] = sample.values.at(static_cast<std::size_t>(i));
     return sample.time_s;
 }
-LSL_CALL double lsl_time_correction(Info* inlet, double, std::int32_t* error) {
+LSL_CALL double lsl_time_correction(Info* inlet, double timeout_s, std::int32_t* error) {
     const std::scoped_lock lock(fake_lsl()->mutex);
-    *error = (*inlet)->is_lost ? -2 : 0;
+    note(*fake_lsl(), "correction", timeout_s);
+    *error = (*inlet)->is_lost ? -2 : (*inlet)->correction_error.load();
     return (*inlet)->correction_s;
 }
 #ifndef FAKE_LSL_OLD
@@ -174,8 +202,11 @@ LSL_CALL double lsl_time_correction_ex(Info* inlet, double* remote_s, double* un
 }
 #endif
 
-LSL_CALL Info* lsl_create_outlet(Info* info, std::int32_t, std::int32_t) {
+LSL_CALL Info* lsl_create_outlet(Info* info, std::int32_t chunk, std::int32_t buffered_s) {
     const std::scoped_lock lock(fake_lsl()->mutex);
+    note(*fake_lsl(), "outlet", chunk, buffered_s);
+    if (fake_lsl()->refused == "outlet")
+        return nullptr;
     ++fake_lsl()->outlets;
     fake_lsl()->sent.push_back(*info);
     return new Info(*info);
@@ -185,13 +216,17 @@ LSL_CALL void lsl_destroy_outlet(Info* outlet) {
     --fake_lsl()->outlets;
     delete outlet;
 }
-LSL_CALL std::int32_t lsl_push_sample_strtp(Info* outlet, const char** values, double time_s, std::int32_t) {
+LSL_CALL std::int32_t lsl_push_sample_strtp(Info* outlet, const char** values, double time_s,
+                                            std::int32_t through) {
     const std::scoped_lock lock(fake_lsl()->mutex);
+    note(*fake_lsl(), "push", through);
     (*outlet)->pushed.push_back({time_s, values[0], {}});
-    return 0;
+    return fake_lsl()->refused == "push" ? -4 : 0;
 }
-LSL_CALL std::int32_t lsl_push_sample_dtp(Info* outlet, const double* values, double time_s, std::int32_t) {
+LSL_CALL std::int32_t lsl_push_sample_dtp(Info* outlet, const double* values, double time_s,
+                                          std::int32_t through) {
     const std::scoped_lock lock(fake_lsl()->mutex);
+    note(*fake_lsl(), "push", through);
     (*outlet)->pushed.push_back({time_s, {}, std::vector<double>(values, values + (*outlet)->channels)});
     return 0;
 }

@@ -39,6 +39,7 @@ struct FakeStream {
 
     // Of one that is received.
     std::atomic<bool> is_lost{false}, answers{true};
+    std::atomic<int> open_error{0}, correction_error{0};
     int unheard = 0; ///< so many searches do not find it, as if their packets were lost
     bool is_open = false;
     double correction_s = 0.0, uncertainty_s = 0.0002; ///< of its clock to this machine's
@@ -77,6 +78,8 @@ struct FakeLsl {
     std::list<std::shared_ptr<FakeStream>> network; ///< what can be found
     std::list<std::shared_ptr<FakeStream>> sent;    ///< outlets, also those that are gone
     int inlets = 0, outlets = 0, infos = 0;         ///< that are not destroyed
+    std::vector<std::string> asked;                 ///< what was called with which numbers and texts
+    std::string refused;                            ///< what gives nothing: "inlet", "info", "outlet", "push"
 
     void feed(FakeStream& stream, double time_s, std::vector<double> values) {
         const std::scoped_lock lock(mutex);

@@ -21,6 +21,8 @@ class LslBench {
         const std::scoped_lock lock(fake_->mutex);
         fake_->network.clear();
         fake_->sent.clear();
+        fake_->asked.clear();
+        fake_->refused.clear();
     }
 
     SteadyClock clock;

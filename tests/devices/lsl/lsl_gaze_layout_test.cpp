@@ -239,3 +239,33 @@ TEST_CASE("each eye has its own channels, and what belongs to neither is both's"
     CHECK(samples[0].eye == Eye::right);
     CHECK(samples[0].gaze == ScreenPoint{3.0, 4.0});
 }
+
+TEST_CASE("gaze is taken from the wished eye's channels before those of no eye, with their unit", "[unit]") {
+    const std::vector<LslChannel> channels{{"x", "both", "ScreenX", "pixels", "screen"},
+                                           {"y", "both", "ScreenY", "pixels", "screen"},
+                                           {"lx", "left", "ScreenX", "percent", "screen"},
+                                           {"ly", "left", "ScreenY", "normalized", "screen"}};
+    TrackerWish wish;
+    wish.eye = Eye::left;
+    const std::vector<double> values{100.0, 200.0, 50.0, 0.25};
+    CHECK(samples_of(LslGazeLayout(channels, {}, wish, "s"), values).at(0).gaze == ScreenPoint{960.0, 270.0});
+    wish.eye = Eye::right;
+    CHECK(samples_of(LslGazeLayout(channels, {}, wish, "s"), values).at(0).gaze == ScreenPoint{100.0, 200.0});
+    // Without one of its coordinates an eye has no gaze of its own.
+    wish.eye = Eye::left;
+    auto without_y = channels;
+    without_y[3].type = "Other";
+    CHECK(samples_of(LslGazeLayout(without_y, {}, wish, "s"), values).at(0).gaze ==
+          ScreenPoint{100.0, 200.0});
+    auto of_world = channels;
+    of_world[2].coordinate_system = "World camera";
+    CHECK_THROWS_WITH(LslGazeLayout(of_world, {}, wish, "s"),
+                      Contains("moves with the head (\"World camera\")"));
+    wish.eye = Eye::right;
+    CHECK_NOTHROW(LslGazeLayout(of_world, {}, wish, "s"));
+    for (const std::size_t channel : {0u, 1u}) {
+        auto unknown = channels;
+        unknown[channel].unit = "furlongs";
+        CHECK_THROWS_WITH(LslGazeLayout(unknown, {}, wish, "s"), Contains("neither pixels nor"));
+    }
+}

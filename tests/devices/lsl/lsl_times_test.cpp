@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "devices/lsl/lsl_inlet.h"
+#include "devices/lsl/lsl_outlet.h"
 #include "devices/lsl/lsl_stream_search.h"
 #include "experiment/base/error.h"
 #include "tests/devices/lsl/lsl_bench.h"
@@ -111,4 +112,195 @@ TEST_CASE("a reading of a stream's clock is as wide as its uncertainty to both s
     timed.stream->uncertainty_s = 0.001;
     timed.stream->correction_s = std::nan("");
     CHECK_FALSE(timed.inlet->read_clocks());
+}
+
+TEST_CASE("what is asked of liblsl to receive a stream, with how long it may take", "[unit]") {
+    TimedStream timed;
+    timed.stream->uid = "u7";
+    const TrackerDescription told = timed.connect(250.0);
+    CHECK(told.model == "\"tracker\" on tracker-pc, source serial 7, liblsl 116");
+    std::vector<std::string> calls, pulls;
+    for (const std::string& each : timed.bench.fake().asked)
+        (each.starts_with("pull") ? pulls : calls).push_back(each);
+    CHECK(calls == std::vector<std::string>{"resolve uid u7 1 0.1 256", "inlet 60 0 0", "full info 0.1",
+                                            "open 0.1", "correction 0.1"});
+    REQUIRE(pulls.size() > 10);
+    // The first may take all the patience, and later ones what is left of it; what waits is not waited for.
+    CHECK(pulls[0] == "pull 7 0.098");
+    CHECK(pulls[1] == "pull 7 0.095");
+    CHECK(pulls.back() == "pull 7 0");
+    timed.bench.fake().asked.clear();
+    timed.inlet->read(timed.kept, timed.clock.time + 30ms);
+    timed.inlet->read(timed.kept, timed.clock.time - 30ms);
+    CHECK(timed.bench.fake().asked == std::vector<std::string>{"pull 7 0.03", "pull 7 0"});
+    timed.bench.fake().asked.clear();
+    timed.feed(5000.0);
+    timed.inlet->read(timed.kept, timed.clock.time + 30ms);
+    CHECK(timed.bench.fake().asked == std::vector<std::string>{"pull 7 0.03", "pull 7 0"});
+    timed.bench.fake().asked.clear();
+    CHECK(timed.inlet->read_clocks());
+    CHECK(timed.bench.fake().asked == std::vector<std::string>{"correction 0.5"});
+    timed.stream->correction_error = -1;
+    CHECK_FALSE(timed.inlet->read_clocks());
+}
+
+TEST_CASE("of a stream 4096 samples are taken at a time, and none that has no time", "[unit]") {
+    TimedStream timed;
+    timed.connect(250.0);
+    for (int i = 0; i < 5000; ++i)
+        timed.feed(2000.0 + 0.004 * i);
+    timed.inlet->read(timed.kept, timed.clock.time);
+    CHECK(timed.kept.all<GazeSample>().size() == 4096);
+    timed.inlet->read(timed.kept, timed.clock.time);
+    CHECK(timed.kept.all<GazeSample>().size() == 5000);
+    for (const double none_s : {std::nan(""), 0.0}) {
+        timed.feed(none_s);
+        timed.feed(3000.0);
+        timed.inlet->read(timed.kept, timed.clock.time);
+        timed.inlet->read(timed.kept, timed.clock.time);
+    }
+    CHECK(timed.kept.all<GazeSample>().size() == 5002);
+    // What came between recordings belongs to none, and its silence neither.
+    for (int i = 0; i < 10; ++i)
+        timed.feed(4000.0 + 0.004 * i);
+    timed.clock.time += 100s;
+    timed.inlet->start();
+    CHECK(timed.inlet->read(timed.kept, timed.clock.time) == RecordingState::running);
+    CHECK(timed.kept.all<GazeSample>().size() == 5002);
+    timed.kept.items.clear();
+    timed.clock.time += 2s;
+    CHECK(timed.inlet->read(timed.kept, timed.clock.time) == RecordingState::lost);
+    CHECK(timed.kept.all<TrackerGap>().at(0).after == TrackerTime());
+}
+
+TEST_CASE("streams that cannot be received are refused, and why", "[unit]") {
+    const auto refused = [](auto change) {
+        TimedStream timed;
+        change(timed);
+        std::string why;
+        try {
+            timed.connect(250.0);
+        } catch (const DeviceError& error) {
+            why = error.what();
+        }
+        timed.inlet.reset();
+        CHECK(timed.bench.fake().infos == 0);
+        CHECK(timed.bench.fake().inlets == 0);
+        return why;
+    };
+    using Catch::Matchers::Contains;
+    CHECK(refused([](TimedStream&) {}).empty());
+    CHECK(refused([](TimedStream& timed) { timed.stream->format = 3; }) ==
+          "The stream \"tracker\" carries no numbers that could be gaze (7 channels, format 3); name another "
+          "stream.");
+    CHECK_THAT(refused([](TimedStream& timed) { timed.stream->channels = 0; }), Contains("(0 channels"));
+    CHECK_THAT(refused([](TimedStream& timed) { timed.stream->channels = 1025; }),
+               Contains("(1025 channels"));
+    CHECK_THAT(refused([](TimedStream& timed) {
+                   timed.stream->channels = 1024;
+                   timed.stream->answers = false;
+               }),
+               Contains("does not tell what is in it"));
+    CHECK_THAT(refused([](TimedStream& timed) { timed.bench.fake().refused = "inlet"; }),
+               Contains("cannot be connected to"));
+    CHECK_THAT(refused([](TimedStream& timed) { timed.stream->answers = false; }),
+               Contains("does not tell what is in it (error -1)"));
+    CHECK_THAT(refused([](TimedStream& timed) { timed.stream->open_error = -1; }),
+               Contains("no answer in time"));
+    CHECK_THAT(refused([](TimedStream& timed) { timed.stream->open_error = -2; }), Contains("it is gone"));
+    // More channels are described than there are, and fewer.
+    CHECK_THAT(refused([](TimedStream& timed) { timed.stream->channels = 1; }),
+               Contains("it has the channels 1 \"left_x\" (ScreenX). Name"));
+    CHECK_THAT(refused([](TimedStream& timed) {
+                   timed.stream->desc.children.front().children.resize(1);
+                   timed.stream->channels = 2;
+               }),
+               Contains("it has the channels 1 \"left_x\" (ScreenX), 2 \"\" (no type)"));
+}
+
+TEST_CASE("a stream is looked for two seconds at a time, and again once one is found", "[unit]") {
+    const LslBench bench;
+    const auto library = load_lsl(LslBench::library());
+    const auto looked = [&](const char* choice, SessionDuration patience) {
+        bench.fake().asked.clear();
+        std::string why;
+        try {
+            find_lsl_stream(*library, parse_lsl_choice(choice), patience);
+        } catch (const DeviceError& error) {
+            why = error.what();
+        }
+        std::string asked;
+        for (const std::string& each : bench.fake().asked)
+            asked += each + "; ";
+        return asked + why.substr(0, why.find(';'));
+    };
+    const std::string none = " is on the network";
+    CHECK(looked("", 5s) ==
+          "resolve all 2 256; resolve all 2 256; resolve all 1 256; No stream of type Gaze (or "
+          "EyeTracking, Eyetracker, ET)" +
+              none);
+    CHECK(looked("name=a", 500ms) == "resolve name a 2 0.5 256; No stream of name \"a\"" + none);
+    CHECK(looked("host=h, type=t", 2s) ==
+          "resolve hostname h 256 2 256; No stream of host \"h\" and type \"t\"" + none);
+    CHECK(looked("type=t,source_id=s,uid=u,name=n", 1s) ==
+          "resolve uid u 1 1 256; No stream of uid \"u\" and source_id \"s\" and name \"n\" and type \"t\"" +
+              none);
+    const auto stream = bench.add_gaze("a");
+    stream->uid = "u";
+    CHECK(looked("a", 5s) == "resolve name a 2 2 256; resolve name a 2 2 256; ");
+    CHECK(looked("uid=u", 5s) == "resolve uid u 1 2 256; ");
+    CHECK(looked("", 5s) == "resolve all 2 256; resolve all 2 256; ");
+    stream->unheard = 1;
+    CHECK(looked("a", 5s) == "resolve name a 2 2 256; resolve name a 2 2 256; resolve name a 2 2 256; ");
+    // One that comes twice, by two addresses, is one.
+    bench.fake().network.push_back(stream);
+    CHECK(looked("a", 5s) == "resolve name a 2 2 256; resolve name a 2 2 256; ");
+    bench.fake().network.pop_back();
+    const auto other = bench.add_gaze("a");
+    other->uid = "v";
+    other->source = "";
+    CHECK(
+        looked("a", 5s) ==
+        "resolve name a 2 2 256; 2 streams could be meant:\n  \"a\" of type Gaze on tracker-pc, "
+        "source_id=serial "
+        "7, uid=u\n  \"a\" of type Gaze on tracker-pc, source_id=(none), uid=v\nSay which with what tells it "
+        "apart, such as address = \"source_id=…\" or \"uid=…\".");
+    CHECK(bench.fake().infos == 0);
+}
+
+TEST_CASE("what is asked of liblsl to send a stream, and what becomes of a refusal", "[unit]") {
+    LslBench bench;
+    CountedClock clock;
+    const auto library = load_lsl(LslBench::library());
+    using Catch::Matchers::Contains;
+    {
+        LslMarkerOutlet outlet(library, "s 1", clock);
+        CHECK(bench.fake().asked ==
+              std::vector<std::string>{"info overt Markers 1 0 3 overt s 1", "outlet 0 360"});
+        bench.fake().asked.clear();
+        Marker marker;
+        marker.at = clock.time - 1000s;
+        marker.code = 255;
+        const double before_s = library->local_clock();
+        CHECK(outlet.send(marker));
+        const double after_s = library->local_clock();
+        CHECK(bench.fake().asked == std::vector<std::string>{"push 1"});
+        const FakeStream::Pushed& pushed = bench.fake().sent.back()->pushed.back();
+        CHECK(pushed.text == "255");
+        CHECK(pushed.time_s >= before_s - 1000.0);
+        CHECK(pushed.time_s <= after_s - 1000.0);
+        const std::string long_text(longest_marker + 20, 'm');
+        marker.text = long_text;
+        bench.fake().refused = "push";
+        CHECK_FALSE(outlet.send(marker));
+        CHECK(bench.fake().sent.back()->pushed.back().text == std::string(longest_marker, 'm'));
+    }
+    for (const auto& [refused, why] :
+         {std::pair("info", "\"overt\" of the Lab Streaming Layer cannot be made"),
+          {"outlet", "\"overt\" of the Lab Streaming Layer cannot be opened"}}) {
+        bench.fake().refused = refused;
+        CHECK_THROWS_WITH(LslMarkerOutlet(library, "s", clock), Contains(why));
+    }
+    CHECK(bench.fake().infos == 0);
+    CHECK(bench.fake().outlets == 0);
 }

@@ -184,3 +184,60 @@ TEST_CASE("what a calibration says while answers are waited for is kept, four hu
     link.forget();
     CHECK_FALSE(link.next_calibration_message(clock.now()));
 }
+
+TEST_CASE("an Open Gaze calibration has ten seconds, and for each of up to 25 targets its time and two more",
+          "[unit]") {
+    const auto waited_s = [](auto change) {
+        OpenGazeBench bench;
+        bench.model.calibration_hangs = true;
+        bench.settings.target_delay = 500ms;
+        bench.settings.target_time = 1500ms;
+        bench.settings.timeouts.reply = 100ms;
+        change(bench);
+        bench.connect();
+        ScriptedSetupScreen setup_screen(bench.clock);
+        const SessionTime begun = bench.clock.now();
+        CHECK(bench.tracker->set_up(setup_screen).message ==
+              "the tracker did not end its calibration in time");
+        CHECK_THAT(bench.model.told("CALIBRATE_START"), Contains("STATE=\"0\""));
+        return to_seconds(bench.clock.now() - begun);
+    };
+    const auto for_points = [](int points) { return Approx(10.0 + 4.0 * points).margin(0.6); };
+    CHECK(waited_s([](OpenGazeBench&) {}) == for_points(5));
+    CHECK(waited_s([](OpenGazeBench& bench) { bench.model.told_points = "7"; }) == for_points(7));
+    CHECK(waited_s([](OpenGazeBench& bench) { bench.model.told_points = "0"; }) == for_points(1));
+    CHECK(waited_s([](OpenGazeBench& bench) { bench.model.told_points = "25"; }) == for_points(25));
+    CHECK(waited_s([](OpenGazeBench& bench) { bench.model.told_points = "26"; }) == for_points(25));
+    CHECK(waited_s([](OpenGazeBench& bench) { bench.model.told_points = "many"; }) == for_points(9));
+    CHECK(waited_s([](OpenGazeBench& bench) { bench.model.silent_on = {"CALIBRATE_ADDPOINT"}; }) ==
+          for_points(9));
+    CHECK(waited_s([](OpenGazeBench& bench) {
+              bench.settings.calibration_points.assign(3, {0.5, 0.5});
+          }) == for_points(3));
+}
+
+TEST_CASE("points of our own that an Open Gaze server does not take are refused with which was", "[unit]") {
+    for (const char* const id : {"CALIBRATE_CLEAR", "CALIBRATE_ADDPOINT"})
+        for (const bool is_silent : {true, false}) {
+            OpenGazeBench bench;
+            bench.settings.calibration_points = {{0.25, 0.75}};
+            bench.settings.timeouts.reply = 100ms;
+            bench.connect();
+            (is_silent ? bench.model.silent_on : bench.model.refused_on) = {id};
+            ScriptedSetupScreen setup_screen(bench.clock);
+            CHECK_THROWS_WITH(bench.tracker->set_up(setup_screen),
+                              Contains(std::string("(") + id + "); leave calibration_points out"));
+        }
+    OpenGazeBench bench;
+    bench.settings.calibration_points = {{0.25, 0.75}};
+    bench.settings.target_delay = 250ms;
+    bench.connect();
+    ScriptedSetupScreen setup_screen(bench.clock);
+    bench.tracker->set_up(setup_screen);
+    CHECK_THAT(bench.model.told("CALIBRATE_ADDPOINT"), Contains("X=\"0.25000\" Y=\"0.75000\""));
+    CHECK_THAT(bench.model.told("CALIBRATE_DELAY"), Contains("VALUE=\"0.250\""));
+    // It does not answer to what sums it up, or refuses it.
+    bench.settings.timeouts.reply = 100ms;
+    bench.model.refused_on = {"CALIBRATE_RESULT_SUMMARY"};
+    CHECK_THAT(bench.tracker->set_up(setup_screen).message, !Contains("mean error"));
+}

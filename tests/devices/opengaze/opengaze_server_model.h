@@ -28,6 +28,8 @@ class OpenGazeServerModel {
     int silent_times = 1000;                     ///< how often each of silent_on is
     bool tells_user_data = true;                 ///< its records say what they bear
     bool has_camera = true;                      ///< else no record is sent
+    bool calibration_hangs = false;              ///< says nothing of it any more
+    std::string told_points;                     ///< instead of how many there are
     std::function<glm::dvec2(double time_s)> gaze = [](double) { return glm::dvec2(0.25, 0.75); };
     std::function<bool(double time_s)> left_is_valid = [](double) { return true; };
     std::function<std::string(std::string record, int counter)> mutate; ///< what becomes of a record
@@ -144,7 +146,8 @@ class OpenGazeServerModel {
         } else if (id == "CALIBRATE_ADDPOINT") {
             if (is_set)
                 points.emplace_back(*message.number("X"), *message.number("Y"));
-            return fmt::format(" PTS=\"{}\"", points.size());
+            return fmt::format(" PTS=\"{}\"",
+                               told_points.empty() ? std::to_string(points.size()) : told_points);
         } else if (id == "CALIBRATE_START") {
             calibration_begun_s_ = state == "1" ? now_s : -1.0;
             calibration_step_ = 0;
@@ -157,7 +160,7 @@ class OpenGazeServerModel {
     /// Targets of 0.2 s, the first half of it before measuring.
     std::string calibration_due(double now_s) {
         std::string said;
-        while (calibration_begun_s_ >= 0.0 &&
+        while (!calibration_hangs && calibration_begun_s_ >= 0.0 &&
                now_s >= calibration_begun_s_ + 0.1 * static_cast<double>(calibration_step_)) {
             const std::size_t point = calibration_step_ / 2;
             if (point == points.size()) {

@@ -1,4 +1,5 @@
 /// How much of each the operator's socket takes and gives, one more than that, and in which words it says so.
+#include <filesystem>
 #include <thread>
 
 #include <catch2/catch.hpp>
@@ -257,4 +258,58 @@ TEST_CASE("a camera's image is sent whole up to its largest size, and beyond wit
     for (int tries = 0; tries < 50 && camera.width_px != 1; ++tries)
         camera = seen(1, 1);
     CHECK((camera.width_px == 1 && camera.height_px == 1));
+}
+
+TEST_CASE("what a server opens for its views, those that it turns away and those that fail, it closes",
+          "[unit]") {
+    const auto open_descriptors = [] {
+        return std::distance(std::filesystem::directory_iterator("/proc/self/fd"),
+                             std::filesystem::directory_iterator());
+    };
+    const auto before = open_descriptors();
+    {
+        Served served;
+        std::vector<std::unique_ptr<OperatorClient>> views;
+        for (int i = 0; i < 4; ++i)
+            views.push_back(std::make_unique<OperatorClient>(served.folder.path() / "s"));
+        {
+            Raw fifth(served);
+            CHECK_FALSE(fifth.read(5s));
+        }
+        views.pop_back();
+        {
+            Raw cut(served);
+            cut.send("no greeting\n");
+            CHECK_FALSE(cut.read(5s));
+        }
+        {
+            Raw silent(served);
+            silent.read(50ms);
+            const OperatorClient instead(served.folder.path() / "s");
+            CHECK_FALSE(silent.read(5s));
+        }
+        CHECK(is_served(served.folder.path() / "s"));
+        // A second server at the same place, which closes what it had opened.
+        OperatorServer::Options options;
+        options.socket = served.folder.path() / "s";
+        CHECK_THROWS_AS(OperatorServer(std::move(options)), InputError);
+        served.server.reset(); // while three views are open
+        for (const auto& view : views)
+            for (int i = 0; i < 100 && view->read(20ms); ++i) {
+            }
+        CHECK_THROWS_AS(OperatorClient(served.folder.path() / "s"), InputError);
+        CHECK_FALSE(is_served(served.folder.path() / "s"));
+        CHECK(std::filesystem::is_empty(served.folder.path()));
+    }
+    CHECK(open_descriptors() == before);
+    const TemporaryFolder folder;
+    for (const std::filesystem::path& place :
+         {folder.path() / "none" / "s", folder.path() / "", folder.path() / std::string(200, 'x')}) {
+        CHECK_THROWS_AS(check_socket_place(place), Error);
+        CHECK_THROWS_AS(OperatorClient(place), Error);
+    }
+    OperatorServer::Options options;
+    options.socket = folder.path() / "none" / "s";
+    CHECK_THROWS_AS(OperatorServer(std::move(options)), Error);
+    CHECK(open_descriptors() == before);
 }

@@ -265,3 +265,27 @@ TEST_CASE("messages that Pupil Capture would never send are gaps and nothing wor
     REQUIRE(bench.items.all<TrackerGap>().size() == 2);
     CHECK(bench.items.all<TrackerGap>().front().reason == TrackerGap::Reason::unreadable);
 }
+
+TEST_CASE("what waited when a recording of Pupil Capture began is no part of it, however much", "[unit]") {
+    PupilBench bench;
+    bench.connect();
+    bench.tracker->start();
+    bench.read_samples(10);
+    // Messages that cannot be read, of which each is a gap.
+    for (int i = 0; i < 400; ++i)
+        bench.peer.publish_raw("surfaces.screen", "x");
+    const SessionTime give_up = bench.clock.now() + 20s;
+    while (bench.items.all<TrackerGap>().empty() && bench.clock.now() < give_up)
+        bench.tracker->read(bench.items, bench.clock.now() + 2ms);
+    REQUIRE_FALSE(bench.items.all<TrackerGap>().empty());
+    for (int i = 0; i < 2000; ++i)
+        bench.peer.publish_raw("surfaces.screen", "x");
+    const int before = bench.peer.gazes();
+    while (bench.peer.gazes() < before + 20)
+        bench.clock.wait_until(bench.clock.now() + 5ms);
+    bench.tracker->stop();
+    bench.items.items.clear();
+    bench.tracker->start();
+    bench.read_samples(10);
+    CHECK(bench.items.all<TrackerGap>().empty());
+}

@@ -462,3 +462,38 @@ TEST_CASE("a number without a lower end is set in steps from zero, and one with 
     offer.high.reset();
     CHECK(answers.answer(offer, trial_of(0, 1, 2)).number == 3.9);
 }
+
+TEST_CASE("what an observer is inclined to is the same in all its trials, and added to what it sets or says",
+          "[unit]") {
+    Protocol protocol = sided();
+    protocol.tasks[0].answers.resize(1);
+    TaskAnswer& answer = protocol.tasks[0].answers[0];
+    answer = TaskAnswer();
+    answer.id = "set";
+    answer.truth.noise = 0.0;
+    answer.truth.offset = 5.0;
+    answer.truth.observer_sd = 0.7;
+    double sum = 0.0, squares = 0.0;
+    constexpr int observers = 400;
+    for (int seed = 0; seed < observers; ++seed) {
+        const SimulatedAnswers answers(protocol, static_cast<std::uint64_t>(seed));
+        AnswerOffer number;
+        number.id = "set";
+        number.kind = "number";
+        const double said = answers.answer(number, trial_of(0, 1, 2)).number.value();
+        CHECK(answers.answer(number, trial_of(3, 2, 1)).number.value() == said);
+        AnswerOffer match;
+        match.id = "set";
+        match.kind = "match";
+        OfferedAxis axis;
+        for (int k = 0; k <= 10000; ++k)
+            axis.values.push_back(0.001 * k);
+        match.axes = {axis};
+        const std::vector<int> at = answers.answer(match, trial_of(0, 1, 2)).at;
+        CHECK(0.001 * at.at(0) == Approx(said).margin(0.0006));
+        sum += (said - 5.0) / observers;
+        squares += (said - 5.0) * (said - 5.0) / observers;
+    }
+    CHECK(sum == Approx(0.0).margin(0.15));
+    CHECK(std::sqrt(squares) == Approx(0.7).epsilon(0.15));
+}

@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "devices/simulated/gaze_targets.h"
 #include "devices/simulated/observed_scene.h"
 #include "devices/simulated/simulated_eye_tracker.h"
 #include "tests/support/figures.h"
@@ -115,4 +116,63 @@ TEST_CASE("slots of another size see the views of their size, and steps that sho
     CHECK(px_per_deg_at_centre(scene.screen).x ==
           Approx(std::tan(std::numbers::pi / 180.0) * scene.screen.viewing_distance_mm *
                  scene.screen.screen_px.x / scene.screen.screen_mm.x));
+}
+
+TEST_CASE("an effect on a task or an area that there is not is on none of them, and on the first", "[unit]") {
+    Protocol protocol;
+    protocol.tasks = {{"free", "Look."}, {"age", "How old?"}};
+    protocol.simulated_effects.resize(4);
+    protocol.simulated_effects[0].task = "age";
+    protocol.simulated_effects[1].task = "free";
+    protocol.simulated_effects[2].task = "unknown";
+    protocol.simulated_effects[3].area = "unknown";
+    protocol.simulated_effects[3].area_odds = 5.0;
+    protocol.simulated_effects[3].head_odds = 7.0;
+    const ObservedScene scene = make_observed_scene(protocol, {}, ScreenGeometry{});
+    CHECK(scene.effects[0].task == 1);
+    CHECK(scene.effects[1].task == 0);
+    CHECK(scene.effects[2].task == -1);
+    CHECK(scene.effects[3].task == -1);
+    CHECK(scene.effects[3].area == 0);
+    CHECK(scene.effects[3].odds == 5.0);
+    protocol.tasks.emplace_back(); // one without an id is nobody's task
+    CHECK(make_observed_scene(protocol, {}, ScreenGeometry{}).effects[3].task == -1);
+}
+
+TEST_CASE("the surface at a place of the image lies where its depth and its incidence say", "[unit]") {
+    const Mesh mesh = test::bust();
+    const View view{fit_camera(mesh, {11.9}, {256, 256}, {25.0}, 0.06), {256, 256}};
+    ObservedScene scene;
+    scene.objects = {{&mesh, SceneView{view, mesh.bounds()}}};
+    const GazeTargets targets(scene.objects[0], scene);
+    int seen = 0;
+    for (const double degrees : {0.0, 20.0})
+        for (int y = 40; y < 256; y += 24)
+            for (int x = 40; x < 256; x += 24) {
+                const ObjectPose pose = scene.animations[0].object_in({degrees == 0.0 ? 0 : 20});
+                const glm::dvec2 place(x + 0.5, y + 0.25);
+                const auto point = targets.surface_at(place, pose);
+                if (!point)
+                    continue;
+                ++seen;
+                const glm::dmat4 to_world = targets.world_from_object(pose);
+                const glm::dvec3 at(to_world * glm::dvec4(point->position, 1.0));
+                CHECK(point->depth == Approx(view.depth_of(at)));
+                const glm::dvec2 back = targets.project(point->position, to_world);
+                CHECK(back.x == Approx(place.x).margin(1e-6));
+                CHECK(back.y == Approx(place.y).margin(1e-6));
+                CHECK(point->barycentric.x + point->barycentric.y + point->barycentric.z == Approx(1.0));
+                CHECK(point->part == mesh.triangle_parts[point->triangle]);
+                // Between the ray and the normal of the triangle.
+                const glm::uvec3 corners = mesh.triangles[point->triangle];
+                const glm::dvec3 a(mesh.positions[corners.x]), b(mesh.positions[corners.y]),
+                    c(mesh.positions[corners.z]);
+                const glm::dvec3 normal(to_world * glm::dvec4(glm::cross(b - a, c - a), 0.0));
+                const glm::dvec3 ray = at - view.camera.position;
+                const double cosine =
+                    std::abs(glm::dot(normal, ray)) / (glm::length(normal) * glm::length(ray));
+                CHECK(std::cos(to_radians(point->incidence).value) == Approx(cosine).margin(1e-9));
+            }
+    CHECK(seen > 30);
+    CHECK_FALSE(targets.surface_at({1.0, 1.0}, scene.animations[0].object_in({0})));
 }

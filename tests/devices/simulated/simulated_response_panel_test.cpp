@@ -1,8 +1,10 @@
 #include <catch2/catch.hpp>
 
+#include <cmath>
 #include <set>
 
 #include "devices/simulated/simulated_response_panel.h"
+#include "experiment/ports/session_log.h"
 #include "tests/devices/simulated/sitting.h"
 
 using namespace overt;
@@ -157,4 +159,119 @@ TEST_CASE("who presses too early does so 20 ms after the question, before it can
     CHECK(input->at == asked + 20ms);
     CHECK(input->key.view() == "f");
     CHECK(input->kind == ObserverInput::Kind::key_down);
+}
+
+namespace {
+
+/// Keeps the key presses, and nothing else.
+class PressedKeys final : public SessionLog {
+  public:
+    std::vector<RecordedKeyPress> presses;
+    int calls = 0;
+    void key_presses(const std::vector<RecordedKeyPress>& more) override {
+        ++calls;
+        presses.insert(presses.end(), more.begin(), more.end());
+    }
+    void flip(const FlipRecord&) noexcept override {}
+    void missed(const MissedRefresh&) noexcept override {}
+    void sample(int, const GazeSample&) noexcept override {}
+    void clock_pair(const ClockPair&) noexcept override {}
+    void event(const SessionEvent&) override {}
+    void trial_started(const Trial&, SessionTime) override {}
+    void trial_finished(const Trial&, const TrialOutcome&) override {}
+};
+
+} // namespace
+
+TEST_CASE("each key of a simulated observer is written down once, with its time, trial and screen",
+          "[unit]") {
+    SimulatedSitting sitting(26);
+    SimulatedResponsePanel panel(sitting.clock, sitting.observer);
+    PressedKeys log;
+    panel.write_down(log);
+    CHECK(log.calls == 0);
+    const Trial trial{3, 1, {}};
+    panel.entered(SessionPhase::trial, 3);
+    panel.entered(SessionPhase::response_screen, 3);
+    panel.await(Awaited::response, sitting.clock.now(), &trial);
+    std::vector<SessionTime> pressed;
+    const auto press_until = [&](std::size_t count) {
+        while (pressed.size() < count) {
+            sitting.clock.wait_until(sitting.clock.now() + 100ms);
+            if (const auto press = panel.poll())
+                pressed.push_back(press->pressed_at);
+        }
+    };
+    press_until(3);
+    panel.write_down(log);
+    CHECK(log.calls == 1);
+    REQUIRE(log.presses.size() == 3);
+    for (std::size_t i = 0; i < 3; ++i) {
+        CHECK(log.presses[i].at == pressed[i]);
+        CHECK(log.presses[i].trial == 3);
+        CHECK(log.presses[i].device == simulated_observer_device);
+        CHECK(log.presses[i].name == "space");
+        CHECK(log.presses[i].screen == SessionPhase::response_screen);
+        CHECK(log.presses[i].meaning == "next");
+    }
+    panel.write_down(log);
+    CHECK(log.calls == 1);
+    // There is room for sixty-four until they are written down.
+    press_until(3 + 70);
+    panel.write_down(log);
+    CHECK(log.presses.size() == 3 + 64);
+    CHECK(log.presses.back().at == pressed[3 + 63]);
+    // Before a stimulus nothing is pressed that goes on, and what is decided is the operator's.
+    panel.entered(SessionPhase::stimulus, 3);
+    panel.await(Awaited::key, sitting.clock.now(), nullptr);
+    press_until(75);
+    panel.entered(SessionPhase::task_screen, 3);
+    panel.await(Awaited::decision, sitting.clock.now(), nullptr);
+    press_until(76);
+    panel.write_down(log);
+    CHECK(log.presses.size() == 3 + 64);
+}
+
+TEST_CASE("spoken answers begin in the first half of an answer's time, end before its key, and have their "
+          "tasks' texts",
+          "[unit]") {
+    SimulatedSitting sitting(27); // of the tasks "free" and "clothes"
+    std::set<std::string> free, clothes;
+    int at_half = 0;
+    double log_sum = 0.0, voice_log_sum = 0.0, shortest_answer_s = 99.0;
+    constexpr int trials = 3000;
+    for (int trial = 0; trial < trials; ++trial) {
+        const SimulatedAnswer answer = sitting.observer.answer_to({trial, trial % 2, {}});
+        const double after_s = to_seconds(answer.after), voice_s = to_seconds(answer.voice_after),
+                     end_s = to_seconds(answer.voice_until);
+        REQUIRE(after_s >= 0.8);
+        REQUIRE(after_s <= 45.0);
+        REQUIRE(voice_s <= 0.5 * after_s + 1e-9);
+        REQUIRE(voice_s >= std::min(0.25, 0.5 * after_s) - 1e-9);
+        REQUIRE(voice_s <= 3.0);
+        REQUIRE(end_s == Approx(std::max(voice_s + 0.2, after_s - 0.3)));
+        shortest_answer_s = std::min(shortest_answer_s, after_s);
+        at_half += std::abs(voice_s - 0.5 * after_s) < 1e-9;
+        (trial % 2 == 0 ? free : clothes).insert(answer.text);
+        if (trial % 2 == 0)
+            log_sum += std::log(after_s) / (0.5 * trials);
+        voice_log_sum += std::log(voice_s) / trials;
+    }
+    CHECK(at_half > 0);
+    CHECK(shortest_answer_s < 1.6);
+    CHECK(std::exp(log_sum) == Approx(4.0).epsilon(0.03)); // the median of "free"
+    CHECK(std::exp(voice_log_sum) == Approx(0.7).epsilon(0.03));
+    CHECK(free == std::set<std::string>{"I have finished.", "I looked all around it.", "Done.",
+                                        "A figure, turning slowly."});
+    CHECK(clothes == std::set<std::string>{"A long loose robe.", "A cloak over one shoulder.",
+                                           "Hardly any, a cloth around the hips.", "A tunic with a belt."});
+    // As short as it gets, where the median leaves it no room above.
+    double shortest_s = 99.0;
+    for (int count = 0; count < 5000; ++count) {
+        const double reading_s = to_seconds(sitting.observer.reading_time(count));
+        REQUIRE(reading_s >= 0.8);
+        REQUIRE(reading_s <= 15.0);
+        shortest_s = std::min(shortest_s, reading_s);
+    }
+    CHECK(shortest_s < 1.2);
 }

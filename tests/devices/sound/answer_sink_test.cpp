@@ -1,7 +1,9 @@
 /// A spoken answer on its way into a file: its names, levels, gaps and times in numbers.
 #include "devices/sound/answer_sink.h"
 
+#include <algorithm>
 #include <cmath>
+#include <thread>
 
 #include <catch2/catch.hpp>
 
@@ -136,4 +138,161 @@ TEST_CASE("an answer's end is exactly where it was ended, also at the end of a b
         if (end_ms > 0)
             CHECK(recording->level().peak == 0.25f);
     }
+}
+
+TEST_CASE("sound beyond full scale is kept at full scale, of either depth, and does not turn over",
+          "[unit]") {
+    for (const int bits : {16, 24}) {
+        const TemporaryFolder folder;
+        {
+            WavFile file(folder.path() / "loud.wav", 1000, bits);
+            file.write(std::vector<float>{0.0f, 1.5f, -1.5f, 40.0f, -40.0f, 0.5f, 1.0f, -1.0f});
+            file.close();
+        }
+        const std::string bytes = read_whole_file(folder.path() / "loud.wav");
+        const std::size_t width = static_cast<std::size_t>(bits) / 8;
+        REQUIRE(bytes.size() == 44 + 8 * width);
+        std::vector<int> tops; // the highest byte of each sample
+        for (std::size_t i = 0; i < 8; ++i)
+            tops.push_back(static_cast<signed char>(bytes[44 + i * width + width - 1]));
+        CHECK(tops == std::vector<int>{0, 127, -128, 127, -128, 64, 127, -128});
+        CHECK_THROWS_WITH(WavFile(folder.path() / "loud.wav", 1000, bits),
+                          Catch::Contains("there is such a file already"));
+        CHECK_THROWS_WITH(WavFile(folder.path() / "none" / "a.wav", 1000, bits),
+                          Catch::Contains("a.wav: cannot be written: "));
+    }
+}
+
+namespace {
+
+/// An engine in a time that a test sets, and blocks of 256 samples at 16 kHz, which take 16 ms each.
+struct EngineInTime {
+    EngineInTime() { engine.keep_in(folder.path()); }
+    void push(std::int64_t first_sample, SessionTime at, bool is_after_overflow = false,
+              float value = 0.25f) {
+        SoundBlock block;
+        block.first_sample = first_sample;
+        block.at = at;
+        block.count = 256;
+        block.is_after_overflow = is_after_overflow;
+        std::fill_n(block.samples.begin(), 256, value);
+        REQUIRE(ring.try_push(block));
+    }
+    /// Until the engine has taken all that was pushed, and what it does of it.
+    void settle() {
+        for (int tries = 0; tries < 2000 && ring.size() > 0; ++tries)
+            std::this_thread::sleep_for(1ms);
+        std::this_thread::sleep_for(20ms);
+    }
+    static RecordedAnswer await(AnswerRecording& recording) {
+        std::optional<RecordedAnswer> answer;
+        for (int tries = 0; tries < 2000 && !(answer = recording.result()); ++tries)
+            std::this_thread::sleep_for(1ms);
+        REQUIRE(answer);
+        return *answer;
+    }
+
+    TemporaryFolder folder;
+    VirtualClock clock{SessionTime(100s)};
+    SoundRing ring{sound_ring_blocks};
+    AnswerEngine engine{clock, ring, {"microphone", 16000, 16, 3ms}};
+};
+
+} // namespace
+
+TEST_CASE(
+    "an answer has what was taken since it was begun, of the last 96 blocks before the engine knew of it",
+    "[unit]") {
+    EngineInTime bench;
+    const SessionTime begun = bench.clock.now();
+    for (int i = 0; i < 120; ++i)
+        bench.push(256 * i, begun + (i - 60) * 16ms); // sixty of them before it was begun
+    bench.settle();
+    const auto recording = bench.engine.begin({2, 0, {}});
+    recording->response_screen_lit(begun);
+    recording->end(begun + 60 * 16ms);
+    bench.push(256 * 120, begun + 60 * 16ms);
+    const RecordedAnswer answer = EngineInTime::await(*recording);
+    CHECK(answer.samples == 60 * 256);
+    CHECK(answer.trial == 2);
+    CHECK(answer.device == "microphone");
+    CHECK(answer.onset_sample == Approx(0.0).margin(1e-3));
+    CHECK(answer.fault.empty());
+    CHECK(answer.overruns == 0);
+    // More than 96 are not kept.
+    EngineInTime other;
+    for (int i = 0; i < 120; ++i)
+        other.push(256 * i, other.clock.now() + i * 16ms);
+    other.settle();
+    const auto late = other.engine.begin({2, 0, {}});
+    late->end(other.clock.now() + 120 * 16ms);
+    other.push(256 * 120, other.clock.now() + 120 * 16ms);
+    CHECK(EngineInTime::await(*late).samples == 96 * 256);
+}
+
+TEST_CASE("what is lost within an answer is a gap or an overrun, and what was lost before it is none",
+          "[unit]") {
+    EngineInTime bench;
+    const auto recording = bench.engine.begin({0, 0, {}});
+    const SessionTime begun = bench.clock.now();
+    recording->response_screen_lit(begun);
+    bench.settle();
+    bench.push(1000, begun, true);                       // before it
+    bench.push(1256, begun + 16ms);                      // follows
+    bench.push(1512, begun + 32ms, true, 0.75f);         // the system lost something, how much is not known
+    bench.push(1512 + 256 + 100, begun + 54250us, true); // a hundred samples, which the system tells too
+    bench.push(1512 + 512 + 100, begun + 70250us);
+    bench.settle();
+    CHECK(recording->level().peak == 0.25f);
+    CHECK(recording->level().rms == Approx(0.25f));
+    CHECK_FALSE(recording->result());
+    recording->end(begun + 86250us);
+    bench.push(1512 + 768 + 100, begun + 86250us);
+    const RecordedAnswer answer = EngineInTime::await(*recording);
+    CHECK(answer.samples == 5 * 256 + 100);
+    CHECK(answer.overruns == 2);
+    CHECK(answer.lost_samples == 100);
+    CHECK(answer.input_latency == 3ms);
+    CHECK(answer.peak_dbfs == Approx(20.0 * std::log10(0.75)).margin(0.01));
+}
+
+TEST_CASE("an answer that another follows, that a session ends or a device leaves alone, says so", "[unit]") {
+    std::unique_ptr<AnswerRecording> last;
+    {
+        EngineInTime bench;
+        const auto first = bench.engine.begin({0, 0, {}});
+        bench.settle();
+        auto second = bench.engine.begin({1, 0, {}});
+        CHECK(EngineInTime::await(*first).fault == "the next one began");
+        // A second without sound is not too long, more is.
+        bench.clock.wait_until(bench.clock.now() + 1s);
+        bench.settle();
+        CHECK_FALSE(second->result());
+        bench.push(0, bench.clock.now());
+        bench.settle();
+        bench.clock.wait_until(bench.clock.now() + 1s);
+        bench.settle();
+        CHECK_FALSE(second->result());
+        bench.clock.wait_until(bench.clock.now() + 1ns);
+        const RecordedAnswer stopped = EngineInTime::await(*second);
+        CHECK(stopped.fault == "the sound device gave nothing for a second");
+        CHECK(stopped.samples == 256);
+        CHECK(stopped.trial == 1);
+        last = bench.engine.begin({2, 0, {}});
+        bench.settle();
+        CHECK_FALSE(last->result());
+    }
+    const auto ended = last->result();
+    REQUIRE(ended);
+    CHECK(ended->fault == "the session ended");
+    EngineInTime blocked;
+    blocked.folder.file("file", "no folder");
+    blocked.engine.keep_in(blocked.folder.path() / "file");
+    const auto refused = blocked.engine.begin({3, 0, {}});
+    const RecordedAnswer none = EngineInTime::await(*refused);
+    CHECK_THAT(none.fault, Catch::Contains("cannot be made"));
+    CHECK(none.device == "microphone");
+    CHECK(none.trial == 3);
+    blocked.push(0, blocked.clock.now()); // of which nothing is written
+    blocked.settle();
 }

@@ -270,7 +270,7 @@ FUNCTION(int, tobii_research_get_sdk_version)(int* version) {
 }
 FUNCTION(int, tobii_research_get_system_time_stamp)(std::int64_t* us) {
     *us = system_us();
-    return 0;
+    return status("clock_status");
 }
 #ifndef STAND_IN_LACKING
 FUNCTION(int, tobii_research_find_all_eyetrackers)(Trackers** found) {
@@ -318,7 +318,10 @@ FUNCTION(int, tobii_research_get_display_area)(void*, Area* area) {
     return status("area_status");
 }
 FUNCTION(int, tobii_research_get_all_gaze_output_frequencies)(void*, Frequencies** offered) {
-    *offered = new Frequencies{const_cast<float*>(offered_hz), std::size(offered_hz)};
+    const double count = number("frequencies", std::size(offered_hz));
+    if (count < 0)
+        return 0; // without any
+    *offered = new Frequencies{const_cast<float*>(offered_hz), static_cast<std::size_t>(count)};
     ++held;
     return status("frequencies_status");
 }
@@ -328,7 +331,7 @@ FUNCTION(void, tobii_research_free_gaze_output_frequencies)(Frequencies* offered
 }
 FUNCTION(int, tobii_research_get_gaze_output_frequency)(void*, float* hz) {
     *hz = static_cast<float>(number("hz", 600));
-    return 0;
+    return status("told_rate_status");
 }
 FUNCTION(int, tobii_research_set_gaze_output_frequency)(void*, float hz) {
     say("rate " + std::to_string(static_cast<int>(hz)));
@@ -354,7 +357,9 @@ FUNCTION(int, tobii_research_subscribe_to_time_synchronization_data)
     const int done = subscribe(syncs, "time", callback, user);
     for (int i = 0; done == 0 && i < static_cast<int>(number("syncs", 2)); ++i) {
         const std::int64_t now = system_us();
-        syncs.tell({now - 300, now - 200 + device_ahead_us, now});
+        syncs.tell({now - static_cast<std::int64_t>(number("asked_before_us", 300)),
+                    now - 200 + device_ahead_us,
+                    now - static_cast<std::int64_t>(number("answered_before_us", 0))});
     }
     return done;
 }

@@ -208,3 +208,15 @@ TEST_CASE("a Tobii's target is large at first, shrinks to its size, and what com
     CHECK(beeps() == appears + appears + appears + bad);
     CHECK(bench.setup_screen.cleared >= 3); // nothing is left on it
 }
+
+TEST_CASE("a Tobii is asked to measure, or to measure anew, where the target stands", "[unit]") {
+    Calibrating bench;
+    bench.settings.calibration_points = {{1440.0, 270.0}};
+    bench.connect();
+    bench.library.tell("cannot_measure_once_at", "750 250");
+    CHECK(bench.calibrate().kind == SetupOutcome::Kind::done);
+    std::vector<std::string> said = bench.said();
+    std::erase_if(said, [](const std::string& each) { return each.starts_with("unsubscribe"); });
+    CHECK(said == std::vector<std::string>{"enter", "collect 750 250", "discard 750 250", "collect 750 250",
+                                           "compute", "leave"});
+}

@@ -2,12 +2,16 @@
 /// says of the recording comes through.
 #include <catch2/catch.hpp>
 
+#include <array>
+#include <atomic>
+#include <mutex>
 #include <thread>
 
 #include "devices/host/clocks.h"
 #include "devices/tracker/threaded_tracker.h"
 #include "experiment/base/error.h"
 #include "tests/devices/tracker/scripted_driver.h"
+#include "tests/support/counted_clock.h"
 
 using namespace overt;
 using namespace overt::test;
@@ -179,4 +183,85 @@ TEST_CASE("who listens is told of each sample that poll() gives, at once and in 
     std::this_thread::sleep_for(20ms);
     bench.tracker.stop_recording();
     CHECK(listener.heard.size() == samples.size());
+}
+
+namespace {
+
+/// Notes when it is read and until when it may wait, in a time of its own, which each of the first twelve
+/// readings takes 300 ms of.
+struct NotedReadings {
+    std::mutex mutex;
+    std::vector<SessionDuration> waits;
+    std::atomic<int> readings{0};
+};
+
+class TimedDriver final : public TrackerDriver {
+  public:
+    TimedDriver(CountedClock& clock, NotedReadings& noted) : clock_(clock), noted_(noted) {}
+    TrackerDescription connect(const TrackerWish& wish) override { return {"timed", 10.0, wish.eye}; }
+    void start() override {}
+    void stop() noexcept override {}
+    RecordingState read(TrackerItemSink& sink, SessionTime deadline) noexcept override {
+        const int reading = ++noted_.readings;
+        {
+            const std::lock_guard lock(noted_.mutex);
+            noted_.waits.push_back(deadline - clock_.time);
+        }
+        if (reading <= 12) {
+            GazeSample sample;
+            sample.sampled_at = tracker_time(reading);
+            sink.put(sample);
+            clock_.time += 300ms;
+        }
+        return RecordingState::running;
+    }
+    std::optional<ClockPair> read_clocks() noexcept override {
+        return ClockPair{clock_.time, tracker_time(7), clock_.time};
+    }
+    std::vector<std::string> finish(const std::string&, const EyeTracker::FileProgress&) override {
+        return {"its own word"};
+    }
+
+  private:
+    CountedClock& clock_;
+    NotedReadings& noted_;
+};
+
+} // namespace
+
+TEST_CASE("a driver is read for 2 ms at a time and thrice at the end, and its clock once a second",
+          "[unit]") {
+    CountedClock clock;
+    NotedReadings noted;
+    ThreadedTracker tracker(std::make_unique<TimedDriver>(clock, noted), clock, {});
+    const auto before = tracker.read_clocks();
+    REQUIRE(before);
+    tracker.start_recording();
+    REQUIRE(comes_true([&] { return noted.readings > 14; }));
+    CHECK_FALSE(tracker.read_clocks()); // the thread reads it
+    tracker.stop_recording();
+    CHECK(tracker.read_clocks());
+    const std::size_t count = noted.waits.size();
+    REQUIRE(count > 16);
+    for (std::size_t i = 0; i < count; ++i) {
+        CAPTURE(i, count);
+        CHECK(noted.waits[i] == (i + 3 < count ? 2ms : 0ms));
+    }
+    std::string order;
+    std::array<TrackerItem, 4> some;
+    while (const std::size_t taken = tracker.poll(some))
+        for (std::size_t i = 0; i < taken; ++i)
+            order += std::holds_alternative<GazeSample>(some[i]) ? 's' : 'c';
+    // Readings begin at 0, 0.3, 0.6 s and so on; the clock is read after the one that begins at 1.2 s.
+    CHECK(order == "ssssscsssscsssc");
+    // What was not taken before the next recording is none of it.
+    noted.readings = 0;
+    tracker.start_recording();
+    REQUIRE(comes_true([&] { return noted.readings > 3; }));
+    tracker.stop_recording();
+    noted.readings = 100;
+    tracker.start_recording();
+    tracker.stop_recording();
+    CHECK(tracker.poll(some) == 0);
+    CHECK(tracker.finish("", {}) == std::vector<std::string>{"its own word"});
 }

@@ -1,6 +1,7 @@
 #include "devices/triggers/threaded_marker_sink.h"
 
 #include <mutex>
+#include <thread>
 
 #include <catch2/catch.hpp>
 
@@ -150,4 +151,76 @@ TEST_CASE("more markers than are held are counted, and none waits", "[unit]") {
     const auto said = sink->finish();
     REQUIRE_FALSE(said.empty());
     CHECK_THAT(said.front(), Contains("went lost: too many at once"));
+}
+
+namespace {
+
+/// Until so many deeds were done.
+std::vector<Deeds::Deed> deeds_of(Deeds& deeds, std::size_t count) {
+    for (int tries = 0; tries < 5000 && deeds.so_far().size() < count; ++tries)
+        std::this_thread::sleep_for(1ms);
+    return deeds.so_far();
+}
+
+} // namespace
+
+TEST_CASE("a pulse lasts exactly its length, and the next one begins its rest later", "[unit]") {
+    for (const bool works : {true, false}) {
+        VirtualClock clock(SessionTime(10s));
+        Deeds deeds;
+        deeds.works = works;
+        ThreadedMarkerSink sink(std::make_unique<NotedOutput>(deeds, clock, true), clock, {5ms, 2ms});
+        for (int i = 1; i <= 3; ++i)
+            sink.mark({SessionTime(9s), static_cast<std::uint8_t>(i), "m", 70 + i});
+        const auto said = sink.finish();
+        const auto all = deeds.so_far();
+        const auto fates = fates_of(sink);
+        REQUIRE(fates.size() == 3);
+        CHECK(said.size() == (works ? 0u : 1u));
+        // What could not be sent is not taken back, and takes no time.
+        REQUIRE(all.size() == (works ? 6u : 3u));
+        for (std::size_t i = 0; i < 3; ++i) {
+            const SessionTime at = SessionTime(10s) + (works ? static_cast<int>(i) * 7ms : 0ms);
+            const auto& deed = all[works ? 2 * i : i];
+            CHECK(deed.at == at);
+            CHECK(deed.code == static_cast<int>(i) + 1);
+            CHECK(deed.text == "m");
+            CHECK(fates[i].at == SessionTime(9s));
+            CHECK(fates[i].not_before == at);
+            CHECK(fates[i].not_after == at);
+            CHECK(fates[i].number == 71 + static_cast<int>(i));
+            CHECK(fates[i].is_sent == works);
+            if (works)
+                CHECK(all[2 * i + 1].at == at + 5ms);
+        }
+        CHECK(sink.finish().empty()); // it has ended
+    }
+}
+
+TEST_CASE("what became of markers that nobody asked for is counted, and each sentence says of how many",
+          "[unit]") {
+    VirtualClock clock(SessionTime(10s));
+    Deeds deeds;
+    ThreadedMarkerSink sink(std::make_unique<NotedOutput>(deeds, clock, true), clock, {0ms, 0ms}, 4);
+    for (std::size_t i = 1; i <= 6; ++i) {
+        if (i == 6) {
+            const std::scoped_lock lock(deeds.mutex);
+            deeds.works = false;
+        }
+        sink.mark({clock.now(), 1, ""});
+        CHECK(deeds_of(deeds, i).size() == i);
+    }
+    CHECK(sink.finish() ==
+          std::vector<std::string>{"noted output: 1 marker could not be sent: unplugged",
+                                   "noted output: when 2 markers went out is not known: nobody asked"});
+    CHECK(fates_of(sink).size() == 4);
+    // One that has not ended ends with its object, and sends what waits.
+    Deeds others;
+    {
+        ThreadedMarkerSink other(std::make_unique<NotedOutput>(others, clock, true), clock, {1ms, 1ms});
+        other.mark({clock.now(), 9, ""});
+    }
+    REQUIRE(others.so_far().size() == 2);
+    CHECK(others.so_far()[0].code == 9);
+    CHECK(others.so_far()[1].text == "rest");
 }
