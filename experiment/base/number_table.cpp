@@ -25,11 +25,21 @@ std::vector<TableCell> cells_of(std::string_view line, int number) {
     constexpr std::string_view blanks = " \t\r";
     std::vector<TableCell> cells;
     for (std::size_t begin = 0; begin <= line.size();) {
-        const std::size_t end = std::min(line.find(',', begin), line.size());
-        std::size_t first = begin, last = end;
-        while (first < last && blanks.find(line[first]) != std::string_view::npos)
+        std::size_t first = std::min(line.find_first_not_of(blanks, begin), line.size());
+        std::size_t end = std::min(line.find(',', first), line.size());
+        // What is quoted may hold commas; a quote that nothing closes is one of the text.
+        const std::size_t closing =
+            line.substr(first).starts_with('"') ? line.find('"', first + 1) : line.npos;
+        const std::size_t after =
+            closing == line.npos ? line.npos : line.find_first_not_of(blanks, closing + 1);
+        const bool is_quoted = closing != line.npos && (after == line.npos || line[after] == ',');
+        std::size_t last = end;
+        if (is_quoted) {
+            end = std::min(after, line.size());
             ++first;
-        while (last > first && blanks.find(line[last - 1]) != std::string_view::npos)
+            last = closing;
+        }
+        while (!is_quoted && last > first && blanks.find(line[last - 1]) != std::string_view::npos)
             --last;
         cells.push_back(
             {line.substr(first, last - first), {number, characters_in(line.substr(0, first)) + 1}});

@@ -12,7 +12,8 @@
 
 namespace overt {
 
-/// The text between two commas, without blanks at its ends, and where it begins.
+/// The text between two commas, without blanks or quotes at its ends, and where it begins. Commas between
+/// quotes are part of the text; a quote within quotes is not.
 struct TableCell {
     std::string_view text;
     Place place;

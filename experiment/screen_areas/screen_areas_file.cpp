@@ -19,11 +19,6 @@ constexpr std::array<std::string_view, 4> edge_columns{"left_px", "top_px", "rig
 constexpr std::string_view header_hint = "write area,shape,left_px,top_px,right_px,bottom_px; shape is "
                                          "rectangle, ellipse or polygon, which has corners_px";
 
-std::string_view without_quotes(std::string_view text) {
-    return text.size() >= 2 && text.front() == '"' && text.back() == '"' ? text.substr(1, text.size() - 2)
-                                                                         : text;
-}
-
 class AreaTable {
   public:
     AreaTable(std::string file, std::string_view text, Diagnostics& diagnostics)
@@ -50,7 +45,7 @@ class AreaTable {
 
     bool read_names() {
         for (const TableCell& cell : lines_.cells()) {
-            const std::string name(without_quotes(cell.text));
+            const std::string name(cell.text);
             if (name.empty())
                 error(cell.place, "a column has no name", header_hint);
             else if (std::ranges::find(names_, name) != names_.end())
@@ -71,13 +66,12 @@ class AreaTable {
     }
     std::string_view text_of(std::string_view column) const {
         const TableCell* const own = cell(column);
-        return own ? without_quotes(own->text) : std::string_view();
+        return own ? own->text : std::string_view();
     }
 
     std::optional<double> number(std::string_view column, std::string_view what) {
         const TableCell* const own = cell(column);
-        const std::optional<double> value =
-            own ? TableCell{without_quotes(own->text), own->place}.number() : std::nullopt;
+        const std::optional<double> value = own ? own->number() : std::nullopt;
         if (!value && own)
             error(own->place, fmt::format("\"{}\" is no {}", own->text, what));
         else if (!value)
@@ -162,7 +156,7 @@ class AreaTable {
             return false;
         }
         std::vector<double> numbers;
-        std::string_view text = without_quotes(own->text);
+        std::string_view text = own->text;
         while (!text.empty()) {
             const std::size_t length = std::min(text.find(' '), text.size());
             if (length > 0) {

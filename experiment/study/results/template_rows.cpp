@@ -15,11 +15,6 @@ namespace {
 constexpr std::array<std::string_view, 5> landmark_columns{"object", "landmark", "x_mm", "y_mm", "z_mm"};
 constexpr const char* landmark_header = "write object,landmark,x_mm,y_mm,z_mm";
 
-std::string_view unquoted(std::string_view text) {
-    return text.size() >= 2 && text.front() == '"' && text.back() == '"' ? text.substr(1, text.size() - 2)
-                                                                         : text;
-}
-
 } // namespace
 
 std::vector<Landmark> read_landmarks(const std::filesystem::path& file, Diagnostics& diagnostics) {
@@ -37,7 +32,7 @@ std::vector<Landmark> read_landmarks(const std::filesystem::path& file, Diagnost
     std::array<std::size_t, landmark_columns.size()> at{};
     for (std::size_t i = 0; i < landmark_columns.size(); ++i) {
         const auto found = std::ranges::find_if(
-            lines.cells(), [&](const TableCell& cell) { return unquoted(cell.text) == landmark_columns[i]; });
+            lines.cells(), [&](const TableCell& cell) { return cell.text == landmark_columns[i]; });
         at[i] = static_cast<std::size_t>(found - lines.cells().begin());
         if (found == lines.cells().end())
             diagnostics.error(named, {lines.number(), 1},
@@ -51,14 +46,13 @@ std::vector<Landmark> read_landmarks(const std::filesystem::path& file, Diagnost
                               fmt::format("{} cells in a row under {} names", cells.size(), columns));
             break;
         }
-        Landmark one{std::string(unquoted(cells[at[0]].text)), std::string(unquoted(cells[at[1]].text)),
-                     glm::dvec3(0.0)};
+        Landmark one{std::string(cells[at[0]].text), std::string(cells[at[1]].text), glm::dvec3(0.0)};
         if (one.object.empty() || one.name.empty())
             diagnostics.error(named, cells[at[one.object.empty() ? 0 : 1]].place,
                               "a landmark needs an object and a name");
         for (int axis = 0; axis < 3; ++axis) {
             const TableCell& cell = cells[at[static_cast<std::size_t>(2 + axis)]];
-            const std::optional<double> value = TableCell{unquoted(cell.text), cell.place}.number();
+            const std::optional<double> value = cell.number();
             if (!value)
                 diagnostics.error(named, cell.place, fmt::format("\"{}\" is no number", cell.text));
             one.place_mm[axis] = value.value_or(0.0);

@@ -13,49 +13,13 @@
 #include "experiment/base/error.h"
 #include "experiment/base/parallel.h"
 #include "experiment/study/read/exposure.h"
+#include "experiment/study/template/object_landmarks.h"
 #include "experiment/study/template/surface_bridge.h"
+#include "experiment/study/template/visibility_on_template.h"
 
 namespace overt {
 
 namespace {
-
-using LandmarksByName = std::map<std::string, glm::dvec3>;
-
-/// The middle of each named area, in mm: of its triangles by their areas.
-LandmarksByName area_middles(const StudyObject& object) {
-    LandmarksByName middles;
-    const Mesh& mesh = *object.mesh;
-    for (std::size_t area = 0; area < object.areas.size(); ++area) {
-        glm::dvec3 sum(0.0);
-        double all = 0.0;
-        for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-            if (!object.areas.holds(area, mesh.triangle_parts[t]))
-                continue;
-            const glm::uvec3& of = mesh.triangles[t];
-            const glm::dvec3 a(mesh.positions[of.x]), b(mesh.positions[of.y]), c(mesh.positions[of.z]);
-            const double size = 0.5 * glm::length(glm::cross(b - a, c - a));
-            sum += size * (a + b + c) / 3.0;
-            all += size;
-        }
-        if (all > 0.0 && object.areas.names()[area] != rest_part)
-            middles[object.areas.names()[area]] = sum / all * *object.mm_per_unit;
-    }
-    return middles;
-}
-
-LandmarksByName landmarks_of(const StudyObject& object, const TemplateChoice& choice) {
-    if (choice.lists.empty() && choice.landmarks.empty())
-        return area_middles(object);
-    LandmarksByName found;
-    for (const std::string& list : choice.lists)
-        for (const NamedPlace& point : object.points)
-            if (point.name.starts_with(list + "."))
-                found[point.name] = point.position * *object.mm_per_unit;
-    for (const Landmark& landmark : choice.landmarks)
-        if (landmark.object == object.id)
-            found[landmark.name] = landmark.place_mm;
-    return found;
-}
 
 bool is_same_surface(const StudyObject& a, const StudyObject& b) {
     return a.mesh == b.mesh ||
@@ -162,75 +126,22 @@ class TemplateMaker {
 
     const SurfaceBridge* bridge(int object) const { return bridges_.at(object).get(); }
 
-    /// A corner of the surface for each vertex that has one.
-    static std::vector<std::optional<SurfaceSite>> vertex_sites(const Mesh& mesh) {
-        std::vector<std::optional<SurfaceSite>> sites(mesh.positions.size());
-        for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-            for (int corner = 0; corner < 3; ++corner) {
-                std::optional<SurfaceSite>& site = sites[mesh.triangles[t][corner]];
-                if (site)
-                    continue;
-                site = SurfaceSite{t, glm::dvec3(0.0)};
-                site->barycentric[corner] = 1.0;
-            }
-        }
-        return sites;
-    }
-
     /// Seconds and pixels of the template as the trials' objects had them.
     void lay_visibility() {
         const Mesh& mesh = *onto().mesh;
         double trials_of_all = 0.0;
         for (const auto& [object, trials] : shown_)
             trials_of_all += trials;
-        Exposure laid{std::vector<float>(mesh.positions.size(), 0.0f),
-                      std::vector<double>(mesh.positions.size(), 0.0),
-                      std::vector<double>(mesh.part_names.size(), 0.0)};
-        const auto template_sites = vertex_sites(mesh);
-        for (const auto& [index, trials] : shown_) {
-            const StudyObject& object = object_at(index);
-            const double share =
-                trials_of_all > 0.0 ? trials / trials_of_all : 1.0 / static_cast<double>(shown_.size());
-            const auto seconds_at = [&](const SurfaceSite& site) {
-                double seconds = 0.0;
-                for (int corner = 0; corner < 3; ++corner)
-                    seconds += site.barycentric[corner] *
-                               static_cast<double>(
-                                   object.seconds_visible[object.mesh->triangles[site.triangle][corner]]);
-                return seconds;
-            };
-            const SurfaceBridge* const across = bridge(index);
-            parallel_for(static_cast<int>(template_sites.size()), [&](int v) {
-                const auto vertex = static_cast<std::size_t>(v);
-                if (template_sites[vertex])
-                    laid.seconds_visible[vertex] += static_cast<float>(
-                        share * seconds_at(across ? across->from_template(*template_sites[vertex])
-                                                  : *template_sites[vertex]));
-            });
-            const std::vector<double>& pixels = surface_at(index).pixel_seconds;
-            const auto own_sites = vertex_sites(*object.mesh);
-            std::vector<SurfaceSite> sites(own_sites.size());
-            parallel_for(static_cast<int>(own_sites.size()), [&](int v) {
-                const auto vertex = static_cast<std::size_t>(v);
-                if (own_sites[vertex] && pixels[vertex] > 0.0)
-                    sites[vertex] =
-                        across ? across->onto_template(*own_sites[vertex]).site : *own_sites[vertex];
-            });
-            for (std::size_t v = 0; v < own_sites.size(); ++v) {
-                if (!own_sites[v] || !(pixels[v] > 0.0))
-                    continue;
-                const SurfaceSite& site = sites[v];
-                laid.part_pixel_seconds[mesh.triangle_parts[site.triangle]] += share * pixels[v];
-                for (int corner = 0; corner < 3; ++corner)
-                    laid.pixel_seconds[mesh.triangles[site.triangle][corner]] +=
-                        share * site.barycentric[corner] * pixels[v];
-            }
-        }
-        results_.exposures = exposure_rows({laid, mesh, *onto().mm_per_unit, 1.0}, onto_, onto().areas);
+        VisibilityOnTemplate laid(mesh);
+        for (const auto& [index, trials] : shown_)
+            laid.add(object_at(index), surface_at(index).pixel_seconds, bridge(index),
+                     trials_of_all > 0.0 ? trials / trials_of_all : 1.0 / static_cast<double>(shown_.size()));
+        results_.exposures =
+            exposure_rows({laid.exposure(), mesh, *onto().mm_per_unit, 1.0}, onto_, onto().areas);
         for (ExposureRow& row : results_.exposures)
             row.foreshortening.reset(); // of pixels of several objects' pictures
-        object_at(onto_).seconds_visible = std::move(laid.seconds_visible);
-        surface_at(onto_).pixel_seconds = std::move(laid.pixel_seconds);
+        object_at(onto_).seconds_visible = laid.exposure().seconds_visible;
+        surface_at(onto_).pixel_seconds = laid.exposure().pixel_seconds;
     }
 
     void add_fit(int index) {

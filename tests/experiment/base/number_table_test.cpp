@@ -20,6 +20,23 @@ TEST_CASE("a table's lines and cells know their places", "[unit]") {
     CHECK_FALSE(lines.next());
 }
 
+TEST_CASE("quotes around a cell, as R and spreadsheets write them, are not of its text", "[unit]") {
+    TableLines lines("\"name\", \"left, right\" ,\"\",\"a\" b,\"c\n\"1.5\",\"\"2\"\",\"3\n");
+    REQUIRE(lines.next());
+    REQUIRE(lines.cells().size() == 5);
+    CHECK(lines.cells()[0].text == "name");
+    CHECK(lines.cells()[0].place == Place{1, 2});
+    CHECK(lines.cells()[1].text == "left, right");
+    CHECK(lines.cells()[1].place == Place{1, 10});
+    CHECK(lines.cells()[2].text.empty());
+    CHECK(lines.cells()[3].text == "\"a\" b"); // not a quoted cell
+    CHECK(lines.cells()[4].text == "\"c");     // never closed
+    REQUIRE(lines.next());
+    CHECK(lines.cells()[0].number() == 1.5);
+    CHECK_FALSE(lines.cells()[1].number());
+    CHECK_FALSE(lines.cells()[2].number());
+}
+
 TEST_CASE("what is no finite number as a whole is none", "[unit]") {
     for (const std::string_view text : {"", "1x", "1 2", "inf", "nan", "1e999", "+1"}) {
         CAPTURE(text);
