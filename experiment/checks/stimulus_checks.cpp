@@ -389,6 +389,14 @@ void check_materials(ProtocolExamination& examination) {
                 {entry_path("material", i, "anisotropy"), entry_path("material", i, "multiple_scattering")},
                 "a brushed metal is followed by one reflection at each meeting",
                 "take one of the two lines out");
+        if (materials[i].anisotropy > 0.0 && materials[i].clear_coat > 0.0)
+            examination.error(
+                {entry_path("material", i, "anisotropy"), entry_path("material", i, "clear_coat")},
+                "a brushed metal has no clear coat", "take one of the two lines out");
+        if (!(materials[i].clear_coat > 0.0) &&
+            examination.is_written(entry_path("material", i, "clear_coat_roughness")))
+            examination.warning({entry_path("material", i, "clear_coat_roughness")},
+                                "\"clear_coat_roughness\" has no effect without \"clear_coat\"");
         if (!materials[i].film_nm && examination.is_written(entry_path("material", i, "film_ior")))
             examination.warning({entry_path("material", i, "film_ior")},
                                 "\"film_ior\" has no effect without \"film_nm\"");

@@ -1,6 +1,7 @@
 /// A surface that mirrors in a lobe of micro-mirrors, and gives back evenly what they leave it: a plastic, a
-/// rough metal with all light between its mirrors, both under a clear coat. Reciprocal, and where its colours
-/// are white it gives back all light.
+/// rough metal with all light between its mirrors or without, each under a clear coat or without. Reciprocal;
+/// where its colours are white it gives back all light, but under a coat, or of a metal without the light
+/// between its mirrors.
 ///
 /// f(v, l) = F(v.h) D G1(v) G1(l) / (4 cos_v cos_l) + C (1 - E(v)) (1 - E(l)) / (pi (1 - mean E)),
 ///
@@ -86,12 +87,13 @@ double outer_reflectance(double ior);
 // What the kinds are made of. `reflectance`: the bins of MaterialSettings::reflectance.
 LayeredSurface plastic_surface(const MaterialSettings& material, const Bins& reflectance);
 LayeredSurface metallic_roughness_surface(const MaterialSettings& material, const Bins& reflectance);
-/// The clear coat of a metallic-roughness; nothing without one.
+/// The clear coat of any of them; nothing without one.
 std::optional<LayeredSurface::Mirrors> clear_coat_of(const MaterialSettings& material);
 
 /// The nearest alpha that a lobe can have.
 float usable_alpha(double alpha);
 
+/// With the light between its mirrors where `material` has multiple_scattering.
 LayeredSurface rough_metal_surface(const MaterialSettings& material, const ConductorTable& metal);
 
 } // namespace overt

@@ -17,7 +17,7 @@ const MaterialModel& model_of(MaterialKind kind) {
 }
 
 // material_rough_conductor.cpp
-const MaterialModel& rough_metal_with_all_light();
+const MaterialModel& layered_metal();
 const MaterialModel& brushed_metal();
 
 const MaterialModel& model_of(const MaterialSettings& material) {
@@ -25,8 +25,9 @@ const MaterialModel& model_of(const MaterialSettings& material) {
         return material_model<MaterialKind::own>();
     if (material.kind == MaterialKind::rough_conductor && material.anisotropy > 0.0)
         return brushed_metal();
-    return material.kind == MaterialKind::rough_conductor && material.multiple_scattering
-               ? rough_metal_with_all_light()
+    return material.kind == MaterialKind::rough_conductor &&
+                   (material.multiple_scattering || material.clear_coat > 0.0)
+               ? layered_metal()
                : model_of(material.kind);
 }
 

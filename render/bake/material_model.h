@@ -58,9 +58,9 @@ template <MaterialKind kind> const MaterialModel& material_model();
 
 const MaterialModel& model_of(MaterialKind kind);
 
-/// The same, but of a rough metal that is brushed, or has all light between its mirrors, the one that has
-/// that, and of a material
-/// with base = own that of `own`, whose surface then is as the kind has it (OwnSurface).
+/// The same, but of a rough metal that is brushed, or has all light between its mirrors or a clear coat, the
+/// one that has that, and of a material with base = own that of `own`, whose surface then is as the kind has
+/// it (OwnSurface).
 const MaterialModel& model_of(const MaterialSettings& material);
 
 /// What a layered kind's model consists of, but for its cost and its live approximation.

@@ -127,7 +127,7 @@ const MaterialModel& brushed_metal() {
     return model;
 }
 
-const MaterialModel& rough_metal_with_all_light() {
+const MaterialModel& layered_metal() {
     static const MaterialModel model = [] {
         MaterialModel layered = layered_model();
         layered.layers = [](const MaterialSettings& material, const Bins&, const ConductorTable& metal) {

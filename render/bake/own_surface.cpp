@@ -116,8 +116,7 @@ OwnSurface::OwnSurface(std::shared_ptr<const SurfaceAppearance> appearance, cons
             });
         }
     });
-    if (material.kind == MaterialKind::metallic_roughness || material.kind == MaterialKind::own)
-        coat_ = clear_coat_of(material);
+    coat_ = clear_coat_of(material);
 }
 
 OwnPoint OwnSurface::point(std::uint32_t triangle, glm::vec2 place) const {

@@ -262,6 +262,17 @@ std::vector<SurfaceLaw> surface_laws() {
                         albedo_by_steps(grey_surface(material, colour), 0.5), known, 1e-3});
     }
 
+    // A coat of index 1.5 above what gives nothing back is the gloss of a black plastic, whatever is below.
+    for (const MaterialKind kind :
+         {MaterialKind::plastic, MaterialKind::rough_conductor, MaterialKind::metallic_roughness}) {
+        MaterialSettings coated = rough(kind, 0.3);
+        coated.ior = 1.0;
+        coated.clear_coat = 1.0;
+        coated.clear_coat_roughness = std::sqrt(0.3);
+        laws.push_back({fmt::format("coat of alpha 0.3 over black {}: gloss of that pair", name_of(kind)),
+                        first_bin(grey_surface(coated, 0.0).value(seen_at(view), light)), 0.021670, 3e-6});
+    }
+
     // White surfaces give back all light, whichever way it is reckoned; all are the same there and back; and
     // directions come as often as density() says.
     struct Law {
@@ -273,6 +284,14 @@ std::vector<SurfaceLaw> surface_laws() {
         all.push_back({fmt::format("plastic, alpha {}", alpha), rough(MaterialKind::plastic, alpha)});
         all.push_back(
             {fmt::format("rough metal, alpha {}", alpha), rough(MaterialKind::rough_conductor, alpha)});
+        all.back().material.multiple_scattering = true;
+    }
+    for (const MaterialKind kind : {MaterialKind::plastic, MaterialKind::rough_conductor}) {
+        MaterialSettings material = rough(kind, 0.3);
+        material.multiple_scattering = true;
+        material.clear_coat = 1.0;
+        material.clear_coat_roughness = 0.2;
+        all.push_back({fmt::format("{}, alpha 0.3, under a coat", name_of(kind)), material});
     }
     for (const double metallic : {0.0, 0.5, 1.0}) {
         MaterialSettings material = rough(MaterialKind::metallic_roughness, 0.6);

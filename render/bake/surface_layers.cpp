@@ -85,6 +85,7 @@ LayeredSurface plastic_surface(const MaterialSettings& material, const Bins& ref
             value *= (1.0f - inner) / (1.0f - value * inner);
     }
     surface.evens.push_back({colour, surface.mirrors.albedo});
+    surface.coat = clear_coat_of(material);
     return surface;
 }
 
@@ -92,7 +93,9 @@ LayeredSurface rough_metal_surface(const MaterialSettings& material, const Condu
     LayeredSurface surface;
     const double alpha = usable(material.alpha());
     surface.mirrors = mirrors_of(alpha, metal);
-    surface.evens.push_back(between_mirrors(alpha, metal, 1.0f));
+    if (material.multiple_scattering)
+        surface.evens.push_back(between_mirrors(alpha, metal, 1.0f));
+    surface.coat = clear_coat_of(material);
     return surface;
 }
 

@@ -29,7 +29,9 @@ std::string text_of(const Key& key, const MaterialSettings& material) {
     if (key.rule.name == "bumps") // frames without describe themselves as they did before the key
         return material.has_own_bumps() ? "own" : "";
     if ((key.rule.name == "film_ior" && !material.film_nm) ||
-        ((key.rule.name == "anisotropy" || key.rule.name == "brushed") && !(material.anisotropy > 0.0)))
+        ((key.rule.name == "anisotropy" || key.rule.name == "brushed") && !(material.anisotropy > 0.0)) ||
+        (key.rule.name.starts_with("clear_coat") && !(material.clear_coat > 0.0) &&
+         (material.kind == MaterialKind::plastic || material.kind == MaterialKind::rough_conductor)))
         return ""; // likewise
     if (key.rule.name == "of")
         return fmt::format("{}", fmt::join(material.of, " "));

@@ -71,6 +71,11 @@ void add_to(ContentHasher& hasher, const MaterialSettings& material) {
     }
     if (row_of(m.kind).has_key("film_nm") && m.film_nm)
         hasher.add(std::string_view("film")).add(thin_film_version).add(*m.film_nm).add(m.film_ior);
+    if (m.kind == MaterialKind::rough_conductor && m.clear_coat > 0.0)
+        hasher.add(std::string_view("clear coat"))
+            .add(layered_surface_version)
+            .add(m.clear_coat)
+            .add(m.clear_coat_roughness);
     if (m.kind == MaterialKind::rough_conductor && m.anisotropy > 0.0)
         hasher.add(std::string_view("brushed")).add(m.anisotropy).add(static_cast<int>(m.brushed));
     if (m.kind == MaterialKind::glass) {

@@ -95,4 +95,12 @@ TEST_CASE("what is given in place of the file's word, films and brushed metals s
     CHECK(
         findings_of_material("kind = \"rough-conductor\"\nanisotropy = 0.5\nmultiple_scattering = true\n") ==
         LightLines{"15:14: a brushed metal is followed by one reflection at each meeting"});
+    CHECK(findings_of_material("kind = \"rough-conductor\"\nclear_coat = 1\nclear_coat_roughness = 0.1\n")
+              .empty());
+    CHECK(findings_of_material("kind = \"rough-conductor\"\nanisotropy = 0.5\nclear_coat = 1\n") ==
+          LightLines{"15:14: a brushed metal has no clear coat"});
+    CHECK(findings_of_material("kind = \"plastic\"\nclear_coat_roughness = 0.1\n") ==
+          LightLines{"15:24: \"clear_coat_roughness\" has no effect without \"clear_coat\""});
+    CHECK(findings_of_material("kind = \"diffuse\"\nclear_coat = 1\n") ==
+          LightLines{"15:14: \"clear_coat\" has no effect on a material of kind \"diffuse\""});
 }

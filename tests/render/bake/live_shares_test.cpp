@@ -78,6 +78,14 @@ TEST_CASE("live frames share light as paths do: white keeps all of it, rough met
     const LiveShares whole = live_shares(gold);
     CHECK(whole.mirrored.back().r == Approx(rough.mirrored.back().r).margin(1e-3));
     CHECK(whole.even.back().r > 0.05f);
+    // A coat takes its share on the way in and on the way out.
+    gold.clear_coat = 1.0;
+    const LiveShares lacquered = live_shares(gold);
+    const float taken = lacquered.mirrored.back().a;
+    CHECK(taken == Approx(0.04).margin(0.002));
+    CHECK(lacquered.mirrored.back().r == Approx((1.0f - taken) * (1.0f - taken) * whole.mirrored.back().r));
+    CHECK(lacquered.even.back().r < whole.even.back().r);
+    gold.clear_coat = 0.0;
     gold.multiple_scattering = false;
     gold.anisotropy = 0.5;
     CHECK(live_shares(gold).mirrored.back().r < rough.mirrored.back().r);

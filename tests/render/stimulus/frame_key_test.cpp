@@ -120,6 +120,23 @@ TEST_CASE("whatever makes a traced frame changes its key, and nothing else does"
              i.material.bumps = MaterialBumps::none;
          }},
         {"the file's bumps", [](Inputs& i) { i.material.bumps = MaterialBumps::own; }},
+        {"plastic under a coat",
+         [](Inputs& i) {
+             i.material.kind = MaterialKind::plastic;
+             i.material.clear_coat = 0.5;
+         }},
+        {"rough metal", [](Inputs& i) { i.material.kind = MaterialKind::rough_conductor; }},
+        {"rough metal under a coat",
+         [](Inputs& i) {
+             i.material.kind = MaterialKind::rough_conductor;
+             i.material.clear_coat = 0.5;
+         }},
+        {"rough metal under a rough coat",
+         [](Inputs& i) {
+             i.material.kind = MaterialKind::rough_conductor;
+             i.material.clear_coat = 0.5;
+             i.material.clear_coat_roughness = 0.1;
+         }},
         {"glass", [](Inputs& i) { i.material.kind = MaterialKind::glass; }},
         {"rough glass",
          [](Inputs& i) {
