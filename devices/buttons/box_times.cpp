@@ -8,10 +8,8 @@ using namespace std::chrono_literals;
 /// More are not needed for the drift; the oldest make room.
 constexpr std::size_t most_pairs = 1000;
 
-/// The middle of a millisecond that a box tells.
-BoxTime middle_of(std::uint32_t ms) {
-    return BoxTime(std::chrono::microseconds(std::int64_t{ms} * 1000 + 500));
-}
+/// Which instant of the millisecond it is makes no difference: readings and changes have the same.
+BoxTime time_of(std::uint32_t ms) { return BoxTime(std::chrono::milliseconds(ms)); }
 
 } // namespace
 
@@ -19,7 +17,7 @@ void BoxTimes::add_exchange(SessionTime before, std::uint32_t ms, SessionTime af
     if (pairs_.size() >= most_pairs)
         pairs_.erase(pairs_.begin() + 1); // the first keeps the line long
     // Half a millisecond for where in the millisecond it was.
-    pairs_.push_back({before - 500us, middle_of(ms), after + 500us});
+    pairs_.push_back({before - 500us, time_of(ms), after + 500us});
     map_.emplace(pairs_);
 }
 
@@ -42,10 +40,10 @@ ButtonChange BoxTimes::arrival(int button, bool is_down, SessionTime looked_befo
 ButtonChange BoxTimes::of(int button, bool is_down, std::uint32_t ms, SessionTime looked_before,
                           SessionTime fetched) const noexcept {
     ButtonChange change = arrival(button, is_down, looked_before, fetched, usb_transport);
-    change.device_time = BoxTime(std::chrono::milliseconds(ms));
+    change.device_time = time_of(ms);
     if (!map_)
         return change;
-    const MappedTime mapped = map_->to_session(middle_of(ms));
+    const MappedTime mapped = map_->to_session(time_of(ms));
     change.at = mapped.time;
     change.uncertainty = mapped.uncertainty + SessionDuration(500us);
     return change;

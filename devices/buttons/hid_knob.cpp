@@ -138,8 +138,7 @@ void HidKnob::take(std::span<const std::byte> report, SessionTime now) noexcept 
             }
             const auto full = static_cast<double>(std::max(
                 {std::abs(field.logical_minimum), std::abs(field.logical_maximum), std::int64_t{1}}));
-            axis.hold(std::clamp(static_cast<double>(*value) / full, -1.0, 1.0), full_steps_s,
-                      settings_.dead_zone, now);
+            axis.hold(static_cast<double>(*value) / full, full_steps_s, settings_.dead_zone, now);
         }
     };
     take_axis(turns_, turn_, settings_.full_turn_steps_s);

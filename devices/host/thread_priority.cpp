@@ -85,11 +85,11 @@ bool ask_realtime_kit() {
     posix_spawn_file_actions_init(&silent);
     posix_spawn_file_actions_addopen(&silent, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
     posix_spawn_file_actions_addopen(&silent, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-    pid_t child = 0;
+    pid_t child{};
     const int refused =
         posix_spawnp(&child, "busctl", &silent, nullptr, const_cast<char**>(arguments), environ);
     posix_spawn_file_actions_destroy(&silent);
-    int status = 1;
+    int status{};
     return refused == 0 && waitpid(child, &status, 0) == child && status == 0 && is_realtime();
 }
 

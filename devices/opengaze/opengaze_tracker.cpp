@@ -240,17 +240,20 @@ std::vector<std::string> OpenGazeTracker::finish(const std::string&, const EyeTr
     return said;
 }
 
+OpenGazeSettings opengaze_settings_of(const Protocol& protocol) {
+    OpenGazeSettings settings;
+    settings.server = parse_network_address(protocol.tracker.address, settings.server);
+    settings.point = protocol.tracker.point;
+    for (const ScreenPoint target : calibration_targets(
+             protocol.calibration.points, protocol.calibration.area, screen_geometry_of(protocol)))
+        settings.calibration_points.emplace_back(target.x_px / protocol.display.width_px,
+                                                 target.y_px / protocol.display.height_px);
+    return settings;
+}
+
 template <> TrackerDevice tracker_device_of<kind_called<TrackerKind>("opengaze")>() {
     return {.make_driver = [](const TrackerParts& parts) -> std::unique_ptr<TrackerDriver> {
-                OpenGazeSettings settings;
-                settings.server = parse_network_address(parts.protocol.tracker.address, settings.server);
-                settings.point = parts.protocol.tracker.point;
-                for (const ScreenPoint target :
-                     calibration_targets(parts.protocol.calibration.points, parts.protocol.calibration.area,
-                                         screen_geometry_of(parts.protocol)))
-                    settings.calibration_points.emplace_back(target.x_px / parts.protocol.display.width_px,
-                                                             target.y_px / parts.protocol.display.height_px);
-                return std::make_unique<OpenGazeTracker>(settings, parts.clock);
+                return std::make_unique<OpenGazeTracker>(opengaze_settings_of(parts.protocol), parts.clock);
             },
             .can_do = "60 or 150 Hz of both eyes, calibrates itself; its clock is known to 50 ms",
             .look_for = [] { return served_here(OpenGazeSettings{}.server, "Gazepoint Control"); }};

@@ -17,6 +17,8 @@
 
 namespace overt {
 
+struct Protocol;
+
 struct OpenGazeSettings {
     /// Where Gazepoint Control listens.
     NetworkAddress server{"127.0.0.1", 4242};
@@ -77,5 +79,8 @@ class OpenGazeTracker final : public TrackerDriver {
     OpenGazeMarks marks_;
     SessionTime started_;
 };
+
+/// How a protocol wants Gazepoint's tracker.
+OpenGazeSettings opengaze_settings_of(const Protocol& protocol);
 
 } // namespace overt

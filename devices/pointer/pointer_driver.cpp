@@ -53,9 +53,9 @@ RecordingState PointerDriver::read(TrackerItemSink& sink, SessionTime deadline) 
         return RecordingState::running;
     }
     clock_.wait_until(due);
-    Window root = 0, child = 0;
-    int x = 0, y = 0, x_in = 0, y_in = 0;
-    unsigned state = 0;
+    Window root{}, child{};
+    int x{}, y{}, x_in{}, y_in{};
+    unsigned state{};
     XQueryPointer(x_->display, XDefaultRootWindow(x_->display), &root, &child, &x, &y, &x_in, &y_in, &state);
     const SessionTime now = clock_.now();
     const TrackerTime at = tracker_time(now.time_since_epoch().count() / 1000);

@@ -378,3 +378,26 @@ TEST_CASE(
     devices.panel.write_down(devices.log);
     CHECK(devices.log.all.empty()); // of what it moved the record tells
 }
+
+TEST_CASE("changes that a box had no room for are told of, with their number and the box's name", "[unit]") {
+    AnsweringDevices devices(std::vector<const char*>{});
+    constexpr int many = 20'000;
+    {
+        const std::scoped_lock lock(devices.observers.mutex);
+        for (int i = 0; i < many; ++i)
+            devices.observers.waiting.push_back(
+                {.button = 1, .is_down = i % 2 == 0, .device_time = {}, .at = devices.clock.now()});
+    }
+    for (int tries = 0; tries < 5000; ++tries) {
+        std::this_thread::sleep_for(1ms);
+        const std::scoped_lock lock(devices.observers.mutex);
+        if (devices.observers.waiting.empty())
+            break;
+    }
+    std::this_thread::sleep_for(5ms);
+    devices.panel.write_down(devices.log);
+    const auto said = devices.panel.closing_warnings();
+    REQUIRE_FALSE(said.empty());
+    CHECK_THAT(said.front(), Catch::StartsWith("response box \"pad\": ") &&
+                                 Catch::EndsWith(" changes went lost: too many at once"));
+}

@@ -286,3 +286,29 @@ TEST_CASE("of a knob's numbers those that it sends, that change, are one each an
     CHECK_FALSE(with(0x37, 0x02, true));  // absolute
     CHECK_FALSE(with(0x37, 0x06, true, 0x02));
 }
+
+TEST_CASE(
+    "what a 3D mouse was held at is forgotten when a trial begins, and nothing is written beyond the room",
+    "[unit]") {
+    ButtonBoxSettings settings = knob_settings(spacemouse_kind);
+    settings.full_turn_steps_s = settings.full_tilt_steps_s = 100.0;
+    settings.dead_zone = 0.0;
+    KnobInHand mouse(spacemouse_descriptor(false), settings);
+    for (const auto& report : {axes_report(350, 0), axes_report(0, 350), axes_report(350, 350)}) {
+        CHECK(mouse.after(1ms, {report}).empty());
+        mouse.knob.begin();
+        CHECK(mouse.after(50ms).empty());
+    }
+    KnobInHand dial(dial_descriptor(), knob_settings(dial_kind));
+    for (const std::size_t room : {0u, 1u, 2u, 3u}) {
+        dial.knob.begin();
+        for (int i = 0; i < 5; ++i)
+            dial.far.arriving.push_back({dial.clock.now(), bytes_of({1, i % 2 == 0 ? 1 : 0, 3})});
+        std::array<ButtonChange, 5> changes;
+        for (ButtonChange& change : changes)
+            change.button = 777;
+        CHECK(dial.knob.poll(std::span(changes).first(room)) == room);
+        for (std::size_t i = 0; i < changes.size(); ++i)
+            CHECK((changes[i].button == 777) == (i >= room));
+    }
+}

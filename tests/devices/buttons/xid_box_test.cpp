@@ -248,3 +248,17 @@ TEST_CASE("only what is a whole packet is one: each bit and byte of its head cou
     CHECK_FALSE(key->is_down);
     CHECK(key->ms == 1u);
 }
+
+TEST_CASE("of an answer only so many bytes are taken as it has", "[unit]") {
+    XidModel model;
+    XidLine line(model.far.port, model.opener(), model.clock);
+    model.far.answer = nullptr;
+    const SessionTime now = model.clock.now();
+    for (int i = 0; i < 3; ++i)
+        model.far.send(now + (i + 1) * 1ms, std::string(3, static_cast<char>('a' + i)));
+    CHECK(line.ask("?", 5, 100ms) == "aaabb");
+    std::array<char, 16> rest{};
+    CHECK(line.read(rest, model.clock.now() + 10ms) == 1);
+    CHECK(rest[0] == 'b');
+    CHECK(line.ask("?", 5, 100ms) == "ccc"); // and no more came in time
+}

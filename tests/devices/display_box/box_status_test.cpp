@@ -274,3 +274,20 @@ TEST_CASE("of what a box says instead of an answer the end is told, and the line
                Contains("but \"last\"") || Contains("099;\\x0alast\""));
     CHECK_THAT(told_after("line\rbegun"), Contains("but \"line\\x0abegun\""));
 }
+
+TEST_CASE("a box's stream is stopped before its clock is read, and goes on after it where it ran", "[unit]") {
+    for (const bool streams : {false, true}) {
+        Bench bench;
+        auto display = bench.open();
+        if (streams)
+            display.start_status();
+        bench.box.model.commands.clear();
+        display.read_clocks();
+        CHECK(bench.box.model.commands == (streams
+                                               ? std::vector<std::string>{"Stop", "Start", "Stop", "Start"}
+                                               : std::vector<std::string>{"Stop", "Start", "Stop"}));
+    }
+    Bench nameless;
+    nameless.box.model.product = "";
+    CHECK_THAT(message_of([&] { nameless.open(); }), Contains("was answered without a name"));
+}

@@ -244,3 +244,53 @@ TEST_CASE("an item of an EyeLink that is cut off by a byte tells nothing, and a 
             CHECK(kept.all<TrackerInput>()[0].value == 0x8181);
     }
 }
+
+TEST_CASE("an EyeLink's item is read where it is as long as what is read of it, and passed over where not",
+          "[unit]") {
+    const auto told = [](EyelinkItem kind, const ItemBytes& item, std::size_t bytes) {
+        EyelinkDecoder decoder(EyelinkEyes::left, 1000.0);
+        KeptItems kept;
+        decoder.take(kind, std::span(item.bytes).first(bytes), kept);
+        return kept.items.size();
+    };
+    const ItemBytes sample = sample_item(5, 0x8000), fixation = eye_item(8, 0, 5, 9);
+    CHECK(told(EyelinkItem::sample, sample, 80) == 1);
+    CHECK(told(EyelinkItem::sample, sample, 79) == 0);
+    CHECK(told(EyelinkItem::fixation_end, fixation, 114) == 1);
+    CHECK(told(EyelinkItem::fixation_end, fixation, 113) == 0);
+    ItemBytes port;
+    port.at<std::uint32_t>(0, 7).at<std::uint16_t>(6, 0x0101);
+    CHECK(told(EyelinkItem::button, port, 8) == 1);
+    CHECK(told(EyelinkItem::button, port, 7) == 0);
+    CHECK(told(EyelinkItem::input, port, 8) == 1);
+    CHECK(told(EyelinkItem::input, port, 7) == 0);
+}
+
+TEST_CASE("an event lasts from its start to its end and one sample, where the rate is known", "[unit]") {
+    const auto lasts = [](double rate_hz) {
+        EyelinkDecoder decoder(EyelinkEyes::left, rate_hz);
+        KeptItems kept;
+        decoder.take(EyelinkItem::blink_end, eye_item(4, 0, 100, 150).bytes, kept);
+        return kept.all<TrackerEvent>().at(0).duration;
+    };
+    CHECK(lasts(0.0) == 50ms);
+    CHECK(lasts(-1.0) == 50ms);
+    CHECK(lasts(1000.0) == 51ms);
+    CHECK(lasts(2000.0) == 50ms);
+    CHECK(lasts(500.0) == 52ms);
+    CHECK(lasts(0.5) == 2050ms);
+    // Half a pixel a degree is a resolution, too; none is none.
+    for (const float resolution : {0.5f, 0.0f, -1.0f}) {
+        ItemBytes saccade = eye_item(6, 0, 100, 150);
+        saccade.at(28, 10.0f).at(32, 20.0f).at(48, 13.0f).at(52, 24.0f);
+        for (const std::size_t offset : {96u, 100u, 104u, 108u})
+            saccade.at(offset, resolution);
+        EyelinkDecoder decoder(EyelinkEyes::left, 1000.0);
+        KeptItems kept;
+        decoder.take(EyelinkItem::saccade_end, saccade.bytes, kept);
+        const auto amplitude = kept.all<TrackerEvent>().at(0).amplitude_deg;
+        CHECK(amplitude.has_value() == (resolution > 0.0f));
+        if (amplitude)
+            CHECK(*amplitude == Approx(10.0));
+    }
+}

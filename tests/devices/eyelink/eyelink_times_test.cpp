@@ -2,6 +2,8 @@
 #include "devices/eyelink/eyelink_driver.h"
 
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
 #include <span>
 #include <thread>
 
@@ -9,6 +11,7 @@
 
 #include "experiment/base/error.h"
 #include "tests/devices/eyelink/eyelink_bench.h"
+#include "tests/devices/tracker/row_parts.h"
 #include "tests/support/counted_clock.h"
 #include "tests/support/temporary_folder.h"
 
@@ -310,4 +313,40 @@ TEST_CASE("a host whose variables cannot be asked for is taken as it is, at once
     const SessionTime before = bench.clock.time;
     CHECK_THAT(driver.connect(bench.wish).model, !Catch::Contains("its host has"));
     CHECK(bench.clock.time - before == 50ms);
+}
+
+TEST_CASE("the row of the EyeLink takes address, targets and notes from the protocol", "[unit]") {
+    StandIn library;
+    setenv("OVERT_EYELINK_LIBRARY", library.path.c_str(), 1);
+    const TemporaryFolder notes;
+    RowParts parts;
+    constexpr TrackerKind eyelink = kind_called<TrackerKind>("eyelink");
+    CHECK(parts.driver<eyelink>()->connect({}).name == "eyelink");
+    CHECK(library.heard("address 100.1.1.1"));
+    CHECK(library.heard("command calibration_type = HV" + std::to_string(parts.protocol.calibration.points)));
+    parts.protocol.tracker.address = "10.0.0.9";
+    parts.protocol.calibration.points = 13;
+    parts.notes = notes.path();
+    {
+        const auto driver = parts.driver<eyelink>();
+        driver->connect({});
+        CHECK(library.heard("address 10.0.0.9"));
+        CHECK(library.heard("command calibration_type = HV13"));
+        driver->belongs_in("/somewhere");
+    }
+    CHECK_FALSE(std::filesystem::is_empty(notes.path()));
+    parts.protocol.tracker.address = "dummy";
+    CHECK(parts.driver<eyelink>()->connect({}).name == "eyelink without a tracker");
+    CHECK(tracker_device_of<eyelink>().look_for() == "its library is there");
+    unsetenv("OVERT_EYELINK_LIBRARY");
+}
+
+TEST_CASE("of a refusal the host's word is told, however short, or none", "[unit]") {
+    for (const auto& [word, end] : {std::pair("", "(error -3)."), {"X", "(error -3: X)."}}) {
+        TimedBench bench;
+        bench.library.tell("last_message", word);
+        bench.library.tell("refused", "sample_rate");
+        EyelinkDriver driver(bench.settings, bench.clock);
+        CHECK_THROWS_WITH(driver.connect(bench.wish), Catch::EndsWith(end));
+    }
 }

@@ -273,7 +273,8 @@ i16 eyelink_read_reply(char* text) {
     return 0;
 }
 i16 eyelink_last_message(char* text) {
-    write_to(text, "VALUE OUT OF RANGE");
+    const auto told = texts.find("last_message");
+    write_to(text, told == texts.end() ? "VALUE OUT OF RANGE" : told->second);
     return static_cast<i16>(std::strlen(text));
 }
 i16 open_data_file(char* name) {

@@ -13,6 +13,7 @@
 #include "devices/tracker/tracker_device.h"
 #include "experiment/base/error.h"
 #include "tests/devices/hid/hid_bytes.h"
+#include "tests/devices/tracker/row_parts.h"
 #include "tests/support/kept_items.h"
 #include "tests/support/next_function.h"
 #include "tests/support/temporary_folder.h"
@@ -646,4 +647,93 @@ TEST_CASE("reports that have come are forgotten, a thousand at most", "[unit]") 
     hid.gives = 8;
     read_away(*line, report, clock);
     CHECK(hid.taken() == std::vector<std::string>(1000, "read 8 0"));
+}
+
+TEST_CASE("the row of HID trackers takes the device from the protocol", "[unit]") {
+    HidStandIn hid;
+    RowParts parts;
+    parts.protocol.tracker.address = "1234:abcd";
+    CHECK_THROWS_WITH(parts.driver<kind_called<TrackerKind>("hid")>()->connect({}),
+                      Catch::Contains("No HID device 1234:abcd is plugged in. HID devices that are: none."));
+    // Of a gaze point both coordinates are needed.
+    for (const int only : {0x21, 0x22}) {
+        DescriptorText text;
+        text.page(0x12).open(0x01, 1).open(0x10, 2).id(0x20);
+        text.unit(0x11, -2)
+            .logical(-10'000, 10'000)
+            .size(16, 1)
+            .open(0x24, 0)
+            .usage(only)
+            .input(0x02)
+            .close();
+        text.close().close();
+        std::string why;
+        CHECK_FALSE(HidGazeLayout::find(parse_report_descriptor(text.bytes), why));
+        CHECK(why == "its reports have no gaze point");
+    }
+}
+
+TEST_CASE("what a HID eye tracker says of itself counts from what can be on", "[unit]") {
+    std::string why;
+    const auto layout = HidGazeLayout::find(parse_report_descriptor(eye_tracker_descriptor()), why);
+    REQUIRE(layout);
+    const HidTrackerReadiness told[] = {HidTrackerReadiness::unknown,
+                                        HidTrackerReadiness::ready,
+                                        HidTrackerReadiness::configuring,
+                                        HidTrackerReadiness::screen_setup_needed,
+                                        HidTrackerReadiness::user_calibration_needed,
+                                        HidTrackerReadiness::unknown,
+                                        HidTrackerReadiness::unknown};
+    for (int value = 0; value < 7; ++value)
+        CHECK(layout->readiness(bytes_of({0x13, value, 0, 0})) == told[value]);
+    // Half a millimetre is a screen, nothing is none.
+    const auto screen = [&](int width_um, int height_um) {
+        return layout
+            ->screen_mm(bytes_of(
+                {0x12, width_um & 0xFF, width_um >> 8, 0, 0, height_um & 0xFF, height_um >> 8, 0, 0}))
+            .has_value();
+    };
+    CHECK(screen(500, 500));
+    CHECK_FALSE(screen(0, 500));
+    CHECK_FALSE(screen(500, 0));
+    // A rate in hertz has the descriptor's power of ten, and one without a unit is as it stands.
+    for (const int unit : {0xF001, 0}) {
+        DescriptorText text;
+        text.page(0x12).open(0x01, 1).open(0x10, 2).id(0x20);
+        text.unit(0x11, -2)
+            .logical(-10'000, 10'000)
+            .size(16, 2)
+            .open(0x24, 0)
+            .usage(0x21)
+            .usage(0x22)
+            .input(0x02)
+            .close();
+        text.close();
+        text.open(0x13, 2)
+            .id(0x13)
+            .unit(unit, 2)
+            .logical(0, 255)
+            .size(8, 1)
+            .usage(0x300)
+            .feature(0x82)
+            .close();
+        text.close();
+        const auto found = HidGazeLayout::find(parse_report_descriptor(text.bytes), why);
+        INFO(why);
+        REQUIRE(found);
+        CHECK(found->sampling_hz(bytes_of({0x13, 5})) == (unit == 0 ? 5.0 : 500.0));
+        CHECK_FALSE(found->sampling_hz(bytes_of({0x13, 0})));
+    }
+}
+
+TEST_CASE("each recording of a HID eye tracker begins with a bound of its clock", "[unit]") {
+    TrackerBench bench;
+    HidDriver driver = bench.driver();
+    driver.connect(bench.wish);
+    for (int recording = 1; recording <= 3; ++recording) {
+        driver.start();
+        bench.far.arriving.push_back({bench.clock.now() + 1ms, gaze_report(1000, 1000, 2000)});
+        driver.read(bench.kept, bench.clock.now() + 2ms);
+        CHECK(bench.kept.all<ClockPair>().size() == static_cast<std::size_t>(recording));
+    }
 }

@@ -289,3 +289,10 @@ TEST_CASE("collections lie within each other up to 64 deep, and as many beside e
     long_report.size(1, 1).input(0x02);
     CHECK_THROWS_AS(parse_report_descriptor(long_report.bytes), DeviceError);
 }
+
+TEST_CASE("a descriptor that is too long is refused with how long it is", "[unit]") {
+    CHECK_THROWS_WITH(parse_report_descriptor(std::vector<std::byte>(4097)),
+                      Catch::Contains("it has 4097 bytes, and 4096 are the most there can be"));
+    // An item of nothing but zeros has no meaning: 4096 of them are none.
+    CHECK(parse_report_descriptor(std::vector<std::byte>(4096)).fields.empty());
+}

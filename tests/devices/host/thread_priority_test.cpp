@@ -109,6 +109,7 @@ struct HostStandIn {
     uid_t user = 1000;
     rlim_t locked = 65536, busy = RLIM_INFINITY;
     std::vector<std::string> asked;
+    int other_threads = 0; ///< that were meant, and not the one that asks
     static inline HostStandIn* now = nullptr;
 };
 
@@ -122,16 +123,20 @@ extern "C" {
 int sched_setscheduler(pid_t thread, int policy, const sched_param* param) noexcept {
     if (!HostStandIn::now)
         return next_function<decltype(sched_setscheduler)>("sched_setscheduler")(thread, policy, param);
+    HostStandIn::now->other_threads += thread != 0;
     return HostStandIn::now->note(fmt::format("scheduler {} {}", policy, param->sched_priority),
                                   HostStandIn::now->scheduler_error);
 }
 int sched_getscheduler(pid_t thread) noexcept {
+    if (HostStandIn::now)
+        HostStandIn::now->other_threads += thread != 0;
     return HostStandIn::now ? HostStandIn::now->policy
                             : next_function<decltype(sched_getscheduler)>("sched_getscheduler")(thread);
 }
 int sched_setaffinity(pid_t thread, std::size_t size, const cpu_set_t* set) noexcept {
     if (!HostStandIn::now)
         return next_function<decltype(sched_setaffinity)>("sched_setaffinity")(thread, size, set);
+    HostStandIn::now->other_threads += thread != 0;
     std::string processors = "processors";
     for (std::size_t i = 0; i < CPU_SETSIZE; ++i)
         if (CPU_ISSET(i, set))
@@ -287,4 +292,14 @@ TEST_CASE("where the kernel refuses real-time priority RealtimeKit is asked, and
     host.limit_error = EPERM; // without a limit it gives none
     CHECK_FALSE(asked());
     CHECK(count(host.taken()) == 3);
+}
+
+TEST_CASE("all is asked for the thread that asks", "[unit]") {
+    HostStandIn host;
+    prepare_thread({.realtime = true, .processor = 1});
+    try_realtime_priority();
+    at_normal_priority([] {});
+    host.scheduler_error = EPERM;
+    prepare_thread({.realtime = true});
+    CHECK(host.other_threads == 0);
 }

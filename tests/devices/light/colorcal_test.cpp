@@ -211,3 +211,12 @@ TEST_CASE("what is left of earlier answers, however much, is no answer to the ne
     CHECK(pieces < 1010);
     CHECK(photometer.commands.back() == "MES");
 }
+
+TEST_CASE("a row of the matrix that cannot be read is named with the port and the command", "[unit]") {
+    for (const char* const row : {"r01", "r02", "r03"}) {
+        Photometer photometer;
+        photometer.answers[row] = "OK00,1,2,x";
+        CHECK_THROWS_WITH(photometer.open(), Catch::StartsWith(std::string("/dev/ttyACM0: \"") + row +
+                                                               "\" was not answered with three integers"));
+    }
+}

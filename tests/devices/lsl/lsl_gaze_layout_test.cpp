@@ -3,6 +3,7 @@
 #include <limits>
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
 #include "experiment/base/error.h"
 #include "tests/support/kept_items.h"
@@ -268,4 +269,22 @@ TEST_CASE("gaze is taken from the wished eye's channels before those of no eye, 
         unknown[channel].unit = "furlongs";
         CHECK_THROWS_WITH(LslGazeLayout(unknown, {}, wish, "s"), Contains("neither pixels nor"));
     }
+}
+
+TEST_CASE("a channel is named by its label or its number from 1, and else refused with those that there are",
+          "[unit]") {
+    const std::vector<LslChannel> channels{{"a", "", "", "px", ""}, {"b", "", "T", "px", ""}};
+    const auto x_of = [&](const std::string& name) {
+        LslLayoutSettings settings;
+        settings.assignments = {parse_lsl_assignment("x " + name), parse_lsl_assignment("y b")};
+        return samples_of(LslGazeLayout(channels, settings, {}, "s"), {7.0, 8.0}).at(0).gaze->x_px;
+    };
+    CHECK(x_of("a") == 7.0);
+    CHECK(x_of("1") == 7.0);
+    CHECK(x_of("2") == 8.0);
+    for (const char* const none : {"0", "3", "-1", "c", "1.0"})
+        CHECK_THROWS_WITH(x_of(none),
+                          Contains(fmt::format("The stream s has no channel \"{}\"; it has 1 \"a\" "
+                                               "(no type), 2 \"b\" (T).",
+                                               none)));
 }

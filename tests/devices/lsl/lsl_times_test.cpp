@@ -1,5 +1,7 @@
 /// What tells a stream, how long one may be silent, and how wide a reading of its clock is.
 #include <cmath>
+#include <cstdlib>
+#include <thread>
 
 #include <catch2/catch.hpp>
 
@@ -8,6 +10,7 @@
 #include "devices/lsl/lsl_stream_search.h"
 #include "experiment/base/error.h"
 #include "tests/devices/lsl/lsl_bench.h"
+#include "tests/devices/tracker/row_parts.h"
 #include "tests/support/counted_clock.h"
 #include "tests/support/kept_items.h"
 
@@ -303,4 +306,82 @@ TEST_CASE("what is asked of liblsl to send a stream, and what becomes of a refus
     }
     CHECK(bench.fake().infos == 0);
     CHECK(bench.fake().outlets == 0);
+}
+
+TEST_CASE("the row of streams takes from the protocol which it is and what its channels are", "[unit]") {
+    const LslBench bench;
+    const auto stream = bench.add_gaze("other");
+    const auto meant = bench.add_gaze("meant");
+    meant->correction_s = 0.0;
+    setenv("OVERT_LSL_LIBRARY", LslBench::library().c_str(), 1);
+    RowParts parts;
+    parts.protocol.tracker.address = "name=meant";
+    parts.protocol.tracker.channels = {"right x 2", "right y 1", "right confidence 7"};
+    parts.protocol.tracker.unit = StreamUnit::percent;
+    parts.protocol.tracker.y_is_up = true;
+    parts.protocol.tracker.least_confidence = 0.5;
+    parts.protocol.tracker.missing = {-1.0};
+    const auto driver = parts.driver<kind_called<TrackerKind>("lsl")>();
+    meant->is_open = true;
+    std::jthread feeder([&](const std::stop_token& stop) {
+        for (int i = 0; !stop.stop_requested(); ++i) {
+            bench.fake().feed(*meant, 1000.0 + 0.01 * i,
+                              {25.0, 50.0, 3.0, 0.5, 0.5, 4.0, i % 2 == 0 ? 0.5 : 0.4});
+            parts.sitting.clock.wait_until(parts.sitting.clock.now() + 10ms);
+            std::this_thread::sleep_for(1ms);
+        }
+    });
+    const TrackerDescription told = driver->connect({});
+    CHECK_THAT(told.model, Catch::StartsWith("\"meant\" on"));
+    driver->start();
+    KeptItems kept;
+    for (int tries = 0; tries < 2000 && kept.all<GazeSample>().size() < 4; ++tries) {
+        driver->read(kept, parts.sitting.clock.now());
+        std::this_thread::sleep_for(1ms);
+    }
+    feeder = {};
+    unsetenv("OVERT_LSL_LIBRARY");
+    const auto samples = kept.all<GazeSample>();
+    const auto details = kept.all<SampleDetail>();
+    REQUIRE(samples.size() >= 4);
+    REQUIRE(details.size() == samples.size());
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        const bool is_sure = *details[i].confidence >= 0.5f;
+        REQUIRE(samples[i].gaze.has_value() == is_sure);
+        if (is_sure) {
+            CHECK(samples[i].gaze->x_px == Approx(960.0));
+            CHECK(samples[i].gaze->y_px == Approx(0.75 * 1080.0));
+        }
+    }
+    CHECK(tracker_device_of<kind_called<TrackerKind>("lsl")>().is_calibrated_elsewhere);
+}
+
+TEST_CASE(
+    "where liblsl tells no uncertainty a reading of a stream's clock is a millisecond wide to each side",
+    "[unit]") {
+    FakeLsl* (*find)() = nullptr;
+    SharedLibrary({OVERT_FAKE_LIBLSL_OLD}, "the stand-in", "").find(find, "fake_lsl");
+    FakeLsl& fake = *find();
+    const LslBench bench;
+    const auto stream = bench.add_gaze("tracker");
+    {
+        const std::scoped_lock lock(fake.mutex);
+        fake.network = {stream};
+    }
+    CountedClock clock;
+    clock.reading = 1ms;
+    LslInletSettings settings;
+    settings.library = OVERT_FAKE_LIBLSL_OLD;
+    settings.patience = 100ms;
+    LslInlet inlet(settings, clock);
+    stream->is_open = true;
+    for (int i = 0; i < 200; ++i)
+        fake.feed(*stream, 1000.0 + 0.004 * i, {0.25, 0.75, 3.0, 0.5, 0.5, 4.0, 0.9});
+    inlet.connect({});
+    clock.reading = {};
+    const auto pair = inlet.read_clocks();
+    REQUIRE(pair);
+    CHECK(pair->after - pair->before == 2ms);
+    const std::scoped_lock lock(fake.mutex);
+    fake.network.clear();
 }

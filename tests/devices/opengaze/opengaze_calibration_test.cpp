@@ -241,3 +241,18 @@ TEST_CASE("points of our own that an Open Gaze server does not take are refused 
     bench.model.refused_on = {"CALIBRATE_RESULT_SUMMARY"};
     CHECK_THAT(bench.tracker->set_up(setup_screen).message, !Contains("mean error"));
 }
+
+TEST_CASE("the first answer of its id is a question's, whatever comes beside it", "[unit]") {
+    VirtualClock clock;
+    FarEnd far(clock);
+    far.answer = [](std::string_view) {
+        return std::string("<ACK ID=\"A\" VALUE=\"no\" />\r\n<REC ID=\"Q\" VALUE=\"no\" />\r\n<CAL ID=\"Q\" "
+                           "VALUE=\"no\" />\r\n<ACK ID=\"Q\" VALUE=\"1\" />\r\n<NACK ID=\"Q\" VALUE=\"2\" "
+                           "/>\r\n<ACK ID=\"Z\" VALUE=\"no\" />\r\n");
+    };
+    OpenGazeLink link(std::make_unique<InMemoryLine>(far), clock, {});
+    const auto answer = link.get("Q");
+    REQUIRE(answer);
+    CHECK(answer->is_granted);
+    CHECK(answer->message().value("VALUE") == "1");
+}

@@ -3,6 +3,8 @@
 #include <catch2/catch.hpp>
 
 #include "experiment/base/error.h"
+#include "experiment/calibration/own_calibration.h"
+#include "experiment/protocol/protocol.h"
 #include "tests/devices/opengaze/opengaze_bench.h"
 
 using namespace overt;
@@ -234,4 +236,23 @@ TEST_CASE("an Open Gaze server that falls silent or goes away is lost, with a ga
     REQUIRE_FALSE(bench.items.all<TrackerGap>().empty());
     CHECK(bench.items.all<TrackerGap>().back().reason == TrackerGap::Reason::connection);
     CHECK(bench.items.all<TrackerGap>().back().after == samples.back().sampled_at);
+}
+
+TEST_CASE("a protocol says where Gazepoint's server is, which point counts and where targets stand",
+          "[unit]") {
+    Protocol protocol;
+    CHECK(describe(opengaze_settings_of(protocol).server) == "127.0.0.1:4242");
+    protocol.tracker.address = "10.0.0.7:99";
+    protocol.tracker.point = TrackedPoint::best;
+    protocol.calibration.points = 5;
+    const OpenGazeSettings settings = opengaze_settings_of(protocol);
+    CHECK(describe(settings.server) == "10.0.0.7:99");
+    CHECK(settings.point == TrackedPoint::best);
+    REQUIRE(settings.calibration_points.size() == 5);
+    const auto targets = calibration_targets(5, protocol.calibration.area, screen_geometry_of(protocol));
+    for (std::size_t i = 0; i < 5; ++i) {
+        CHECK(settings.calibration_points[i].x == Approx(targets[i].x_px / protocol.display.width_px));
+        CHECK(settings.calibration_points[i].y == Approx(targets[i].y_px / protocol.display.height_px));
+        CHECK(settings.calibration_points[i].x < 1.0);
+    }
 }

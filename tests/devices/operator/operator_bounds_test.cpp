@@ -1,4 +1,5 @@
 /// How much of each the operator's socket takes and gives, one more than that, and in which words it says so.
+#include <atomic>
 #include <filesystem>
 #include <thread>
 
@@ -12,6 +13,8 @@
 #include "devices/operator/operator_server.h"
 #include "devices/operator/operator_socket.h"
 #include "experiment/base/error.h"
+#include "experiment/base/utf8_text.h"
+#include "tests/support/next_function.h"
 #include "tests/support/temporary_folder.h"
 
 using namespace overt;
@@ -312,4 +315,102 @@ TEST_CASE("what a server opens for its views, those that it turns away and those
     options.socket = folder.path() / "none" / "s";
     CHECK_THROWS_AS(OperatorServer(std::move(options)), Error);
     CHECK(open_descriptors() == before);
+}
+
+TEST_CASE("what a program sent that is no command is told from its first letter on, sixty of them",
+          "[unit]") {
+    Served served;
+    for (const std::string& text :
+         {std::string("stop!"), std::string(60, 'a') + "b", std::string("\xff\x01x")}) {
+        const std::size_t before = served.words(0).size();
+        Raw raw(served);
+        raw.send(line_of_greeting() + text + "\n");
+        CHECK_FALSE(raw.read(5s));
+        const auto words = served.words(before + 1);
+        REQUIRE(words.size() == before + 1);
+        const std::string said = text[0] == '\xff' ? ascii_of(text) : text.substr(0, 60);
+        CHECK(words.back() == "operator's view: a program sent \"" + said +
+                                  "\", which is no command: it was cut off, and the session goes on");
+    }
+}
+
+namespace {
+
+/// The user of the program at the other end of a socket, instead of the true one; -1: that one.
+std::atomic<std::int64_t> peer_user{-1};
+
+} // namespace
+
+// It takes the place of the C library's for this program.
+extern "C" int getsockopt(int socket, int level, int option, void* value, socklen_t* size) noexcept {
+    static auto* const next = next_function<decltype(getsockopt)>("getsockopt");
+    const int result = next(socket, level, option, value, size);
+    if (peer_user >= 0 && level == SOL_SOCKET && option == SO_PEERCRED)
+        static_cast<ucred*>(value)->uid = static_cast<uid_t>(peer_user);
+    return result;
+}
+
+TEST_CASE("views of this user and of the system's are served, and those of others turned away", "[unit]") {
+    Served served;
+    const uid_t own = ::geteuid();
+    for (const uid_t user : {own, uid_t{0}}) {
+        peer_user = user;
+        OperatorClient view(served.folder.path() / "s");
+        CHECK(view.read(50ms));
+    }
+    for (const uid_t user : {own + 1, own + 1000}) {
+        peer_user = user;
+        const std::size_t before = served.words(0).size();
+        Raw other(served);
+        CHECK_FALSE(other.read(5s));
+        CHECK(other.received.empty());
+        CHECK(served.words(before + 1).back() ==
+              "operator's view: a program of another user was turned away");
+    }
+    peer_user = -1;
+    // An image without a pixel is none.
+    OperatorClient view(served.folder.path() / "s");
+    for (int tries = 0; tries < 100 && view.read(10ms) && tries < 20; ++tries) {
+    }
+    CameraImage image;
+    for (const auto& [width, height] : {std::pair(0, 2), {2, 0}}) {
+        image.width_px = width;
+        image.height_px = height;
+        image.rgba.assign(64, std::byte{9});
+        served.server->show_camera(image);
+    }
+    for (int tries = 0; tries < 10; ++tries)
+        view.read(10ms);
+    CHECK_FALSE(view.take_camera());
+    image.width_px = image.height_px = 1;
+    served.server->show_camera(image);
+    std::optional<ViewedCamera> shown;
+    for (int tries = 0; tries < 300 && !(shown = view.take_camera()); ++tries)
+        view.read(10ms);
+    REQUIRE(shown);
+    CHECK(shown->width_px == 1);
+}
+
+TEST_CASE("a session that speaks another version is told apart, and one that never answers, too", "[unit]") {
+    const TemporaryFolder folder;
+    const SocketAddress address(folder.path() / "s");
+    const int listener = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    REQUIRE(::bind(listener, address.address(), address.size()) == 0);
+    REQUIRE(::listen(listener, 4) == 0);
+    std::jthread session([&] {
+        const int view = ::accept4(listener, nullptr, nullptr, SOCK_CLOEXEC);
+        const std::string line = fmt::format("{{\"overt_watch\":{}}}\n", view_version + 1);
+        CHECK(::send(view, line.data(), line.size(), MSG_NOSIGNAL) > 0);
+        char byte = 0;
+        while (::recv(view, &byte, 1, 0) > 0) {
+        }
+        ::close(view);
+    });
+    CHECK_THROWS_WITH(
+        OperatorClient(folder.path() / "s"),
+        Catch::Contains(fmt::format("the session speaks version {} of the operator's language, this "
+                                    "program version {}: use the overt",
+                                    view_version + 1, view_version)));
+    session = {};
+    ::close(listener);
 }

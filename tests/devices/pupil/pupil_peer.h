@@ -27,7 +27,8 @@ class PupilPeer {
 
     std::atomic<bool> answers{true}, publishes{true}, has_surface{true}, calibrates_well{true};
     std::atomic<double> confidence{0.95};
-    std::atomic<int> cameras{2}; ///< 2: both eyes; 0, 1: that camera only
+    std::atomic<bool> doubles{false}; ///< each pupil and gaze is told twice, and an older one after it
+    std::atomic<int> cameras{2};      ///< 2: both eyes; 0, 1: that camera only
     std::atomic<double> calibration_s{0.1};
     std::atomic<int> gazes_a_picture{1}; ///< as the matching of both eyes makes of them
 
@@ -109,6 +110,16 @@ class PupilPeer {
         return bytes;
     }
 
+    /// One of a time, and more where they are doubled.
+    void publish_at(const std::string& topic, nlohmann::json message) {
+        publish(topic, packed(message));
+        if (!doubles)
+            return;
+        publish(topic, packed(message));
+        message["timestamp"] = message["timestamp"].get<double>() - 0.5;
+        publish(topic, packed(message));
+    }
+
     void publish(const std::string& topic, const std::string& content) {
         zmq_send(published_, topic.data(), topic.size(), ZMQ_SNDMORE);
         zmq_send(published_, content.data(), content.size(), 0);
@@ -142,18 +153,18 @@ class PupilPeer {
         while (publishes && next_s_ <= now_s()) {
             for (const int camera : {0, 1})
                 if (cameras == 2 || cameras == camera)
-                    publish(fmt::format("pupil.{}.3d", camera),
-                            packed({{"topic", fmt::format("pupil.{}.3d", camera)},
-                                    {"id", camera},
-                                    {"timestamp", next_s_},
-                                    {"confidence", confidence.load()},
-                                    {"norm_pos", {0.5, 0.5}},
-                                    {"diameter", 40.0},
-                                    {"diameter_3d", camera == 0 ? 3.5 : 4.5},
-                                    {"sphere", {{"center", {1.0, 2.0, 40.0}}, {"radius", 10.4}}}}));
+                    publish_at(fmt::format("pupil.{}.3d", camera),
+                               {{"topic", fmt::format("pupil.{}.3d", camera)},
+                                {"id", camera},
+                                {"timestamp", next_s_},
+                                {"confidence", confidence.load()},
+                                {"norm_pos", {0.5, 0.5}},
+                                {"diameter", 40.0},
+                                {"diameter_3d", camera == 0 ? 3.5 : 4.5},
+                                {"sphere", {{"center", {1.0, 2.0, 40.0}}, {"radius", 10.4}}}});
             for (int i = 0; i < gazes_a_picture; ++i) {
                 const double time_s = next_s_ + i / (120.0 * gazes_a_picture);
-                publish("gaze.3d.01.", packed({{"topic", "gaze.3d.01."}, {"timestamp", time_s}}));
+                publish_at("gaze.3d.01.", {{"topic", "gaze.3d.01."}, {"timestamp", time_s}});
                 if (has_surface)
                     publish("surfaces.screen", packed(surface_message(time_s)));
                 publish("surfaces.screen2", packed(surface_message(time_s)));

@@ -289,3 +289,39 @@ TEST_CASE("what waited when a recording of Pupil Capture began is no part of it,
     bench.read_samples(10);
     CHECK(bench.items.all<TrackerGap>().empty());
 }
+
+TEST_CASE("what is no port is refused, with the end of what was said", "[unit]") {
+    PupilBench bench;
+    for (const char* const port : {"0", "-1", "65536", "1x", "1000000000000"}) {
+        bench.peer.answer_sub_port(port);
+        CHECK_THROWS_WITH(bench.connect(), Contains(fmt::format("to SUB_PORT it says \"{}\";", port)));
+    }
+    bench.peer.answer_sub_port(std::string(40, 'a'));
+    CHECK_THROWS_WITH(bench.connect(), Contains("says \"" + std::string(40, 'a') + "\""));
+    bench.peer.answer_sub_port("b" + std::string(40, 'a'));
+    CHECK_THROWS_WITH(bench.connect(), Contains("says \"…" + std::string(40, 'a') + "\""));
+}
+
+TEST_CASE("rates of Pupil Capture are those of different and rising times", "[unit]") {
+    PupilBench bench;
+    bench.peer.doubles = true;
+    bench.peer.has_surface = false;
+    const TrackerDescription description = bench.connect();
+    CHECK(description.told_rate_hz == Approx(120.0).epsilon(0.02));
+    CHECK(description.sample_rate_hz == Approx(120.0).epsilon(0.02));
+}
+
+TEST_CASE("an eye whose camera tells nothing is named with the camera's number", "[unit]") {
+    for (const Eye eye : {Eye::left, Eye::right}) {
+        PupilBench bench;
+        bench.settings.patience = 300ms;
+        bench.peer.cameras = eye == Eye::left ? 0 : 1;
+        bench.wish.both_eyes = false;
+        bench.wish.eye = eye;
+        CHECK_THROWS_WITH(bench.connect(),
+                          Contains(eye == Eye::left ? "nothing of the left eye; switch on the "
+                                                      "detection of eye 1 in it"
+                                                    : "nothing of the right eye; switch on the "
+                                                      "detection of eye 0 in it"));
+    }
+}

@@ -182,3 +182,32 @@ TEST_CASE("scripted inputs come at the times that their words have", "[unit]") {
     CHECK(dragged.back().input.kind == InputKind::pointer_up);
     CHECK(ms(dragged.back()) == 200);
 }
+
+TEST_CASE("what is no operator's key is refused with all that there is", "[unit]") {
+    const auto refused = [](const char* text) {
+        std::string why;
+        try {
+            read_operator_key(text, 3);
+        } catch (const InputError& error) {
+            why = error.what();
+        }
+        return why;
+    };
+    std::string phases;
+    for (int i = 0; i < session_phase_count; ++i)
+        phases += std::string(i == 0 ? "" : ", ") + std::string(name_of(static_cast<SessionPhase>(i)));
+    CHECK_THAT(refused("now=skip"),
+               Catch::StartsWith("--simulate-operator now=skip: there is no + or no =; write ") &&
+                   Catch::Contains("Phases: " + phases + ". Keys: pause, recalibrate, "));
+    // Letters of two, three and four bytes are one each.
+    for (const auto& [text, character] :
+         {std::pair("\u00e4", U'\u00e4'), {"\u20ac", U'\u20ac'}, {"\U0001F441", U'\U0001F441'}}) {
+        const auto typed = read_operator_key(std::string("response screen+1=type ") + text, 3);
+        REQUIRE(typed.inputs.size() == 1);
+        CHECK(typed.inputs[0].input.character == character);
+        const auto pressed = read_operator_key(std::string("response screen+1=press ") + text, 3);
+        REQUIRE(pressed.inputs.size() == 3);
+        CHECK(pressed.inputs[1].input.character == character);
+        CHECK(pressed.key == ResponsePress::Key::next);
+    }
+}

@@ -6,7 +6,7 @@
 
 #include "experiment/base/error.h"
 #include "experiment/clock_map.h"
-#include "tests/devices/simulated/sitting.h"
+#include "tests/devices/tracker/row_parts.h"
 #include "tests/support/still_setup_screen.h"
 
 using namespace overt;
@@ -431,4 +431,40 @@ TEST_CASE("a validation's targets are a grid of nine, and its errors those betwe
         CHECK(spread_of(axis).mean == Approx(0.0).margin(4.0 * 0.4 / std::sqrt(1800.0)));
         CHECK(spread_of(axis).sd == Approx(0.4).epsilon(0.07));
     }
+}
+
+TEST_CASE(
+    "a simulated tracker of a protocol has its rate, or the one that is granted, and calibrates as it says",
+    "[unit]") {
+    constexpr TrackerKind simulated = kind_called<TrackerKind>("simulated");
+    test::RowParts parts;
+    parts.protocol.tracker.rate_hz = 250.0;
+    auto tracker = parts.tracker<simulated>();
+    CHECK(tracker->description().sample_rate_hz == 250.0);
+    CHECK(tracker->calibrates_itself());
+    parts.faults.granted_rate_hz = 125.0;
+    parts.protocol.calibration.by = CalibratedBy::overt;
+    tracker = parts.tracker<simulated>();
+    CHECK(tracker->description().sample_rate_hz == 125.0);
+    CHECK_FALSE(tracker->calibrates_itself());
+    CHECK(parts.tracker<kind_called<TrackerKind>("none")>()->measures_gaze() == false);
+}
+
+TEST_CASE("a simulated tracker has 1 to 10,000 samples a second", "[unit]") {
+    SimulatedSitting sitting(1);
+    const auto takes = [&](double rate_hz) {
+        SimulatedTrackerSettings settings;
+        settings.rate_hz = rate_hz;
+        try {
+            const SimulatedEyeTracker tracker(sitting.clock, sitting.observer, 1, settings);
+            return true;
+        } catch (const Error&) {
+            return false;
+        }
+    };
+    CHECK(takes(1.0));
+    CHECK(takes(10'000.0));
+    CHECK_FALSE(takes(0.999));
+    CHECK_FALSE(takes(10'000.1));
+    CHECK_FALSE(takes(std::nan("")));
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <set>
 
+#include "devices/simulated/operator_script.h"
 #include "devices/simulated/simulated_response_panel.h"
 #include "experiment/ports/session_log.h"
 #include "tests/devices/simulated/sitting.h"
@@ -274,4 +275,84 @@ TEST_CASE("spoken answers begin in the first half of an answer's time, end befor
         shortest_s = std::min(shortest_s, reading_s);
     }
     CHECK(shortest_s < 1.2);
+}
+
+TEST_CASE("the shortest spoken answers end 0.2 s after they began, and others 0.3 s before the key",
+          "[unit]") {
+    const SimulatedSitting sitting(28);
+    int short_ones = 0, long_ones = 0;
+    for (int trial = 0; trial < 120'000; ++trial) {
+        const SimulatedAnswer answer = sitting.observer.answer_to({trial, 0, {}});
+        const double after_s = to_seconds(answer.after), voice_s = to_seconds(answer.voice_after);
+        const bool is_short = voice_s + 0.2 > after_s - 0.3;
+        short_ones += is_short && std::abs(to_seconds(answer.voice_until) - voice_s - 0.2) < 1e-8;
+        long_ones += !is_short && std::abs(to_seconds(answer.voice_until) - after_s + 0.3) < 1e-8;
+    }
+    CHECK(short_ones > 0);
+    CHECK(short_ones + long_ones == 120'000);
+}
+
+TEST_CASE("turning that was planned is over with its trial, and goes on between its screens", "[unit]") {
+    SimulatedSitting sitting(29);
+    Protocol protocol;
+    protocol.tasks.emplace_back().id = "free";
+    const SimulatedAnswers answers(protocol, 29);
+    SimulatedResponsePanel panel(sitting.clock, sitting.observer, {}, &answers);
+    const Trial trial;
+    const auto inputs_after = [&](SessionPhase phase) {
+        panel.await(Awaited::answer, sitting.clock.now(), &trial);
+        TurningOffer turning;
+        turning.since = sitting.clock.now();
+        turning.lasts_s = 60.0;
+        turning.pause_s = 0.5;
+        turning.turn_sd_deg = 20.0;
+        turning.deg_per_px = 0.25;
+        panel.offer_turning(turning);
+        panel.entered(phase, 0);
+        sitting.clock.wait_until(sitting.clock.now() + std::chrono::seconds(60));
+        int inputs = 0;
+        while (panel.next_input())
+            ++inputs;
+        return inputs;
+    };
+    CHECK(inputs_after(SessionPhase::response_screen) > 10);
+    CHECK(inputs_after(SessionPhase::trial) == 0);
+}
+
+TEST_CASE("of what an observer's script does, keys are written down, and words are not", "[unit]") {
+    SimulatedSitting sitting(30);
+    const std::vector<ScriptedOperatorKey> script{read_operator_key("response screen+1=press 7", 0),
+                                                  read_operator_key("response screen+2=type seven", 0)};
+    SimulatedResponsePanel panel(sitting.clock, sitting.observer, script);
+    PressedKeys log;
+    const Trial trial{0, 0, {}};
+    panel.entered(SessionPhase::trial, 0);
+    panel.entered(SessionPhase::response_screen, 0);
+    panel.await(Awaited::answer, sitting.clock.now(), &trial);
+    const SessionTime began = sitting.clock.now();
+    sitting.clock.wait_until(began + std::chrono::seconds(3));
+    for (int i = 0; i < 5; ++i)
+        panel.poll();
+    panel.write_down(log);
+    REQUIRE(log.presses.size() == 1);
+    CHECK(log.presses[0].name == "7");
+    CHECK(log.presses[0].at == began + std::chrono::seconds(1));
+}
+
+TEST_CASE("what was offered before an answer is awaited is answered, too", "[unit]") {
+    SimulatedSitting sitting(31);
+    Protocol protocol;
+    protocol.tasks.emplace_back().id = "free";
+    const SimulatedAnswers answers(protocol, 31);
+    SimulatedResponsePanel panel(sitting.clock, sitting.observer, {}, &answers);
+    AnswerOffer offer;
+    offer.id = "which";
+    offer.kind = "choice";
+    offer.values = offer.keys = {"f", "j"};
+    const Trial trial;
+    panel.offer({offer});
+    panel.await(Awaited::answer, sitting.clock.now(), &trial);
+    panel.window_opened(sitting.clock.now());
+    sitting.clock.wait_until(sitting.clock.now() + std::chrono::seconds(60));
+    CHECK(panel.next_input());
 }

@@ -220,3 +220,23 @@ TEST_CASE("a Tobii is asked to measure, or to measure anew, where the target sta
     CHECK(said == std::vector<std::string>{"enter", "collect 750 250", "discard 750 250", "collect 750 250",
                                            "compute", "leave"});
 }
+
+TEST_CASE("of a Tobii's eyes the other one is spoken of where both are wished and it could not be calibrated",
+          "[unit]") {
+    for (const bool both : {true, false})
+        for (const Eye eye : {Eye::left, Eye::right})
+            for (const int calibrated : {1, 2, 3}) { // both, the left, the right one
+                Calibrating bench;
+                bench.wish.both_eyes = both;
+                bench.wish.eye = eye;
+                bench.connect();
+                bench.library.set("calibration", calibrated);
+                const SetupOutcome outcome = bench.calibrate();
+                const bool is_own = calibrated == 1 || (calibrated == 2) == (eye == Eye::left);
+                CAPTURE(both, static_cast<int>(eye), calibrated);
+                CHECK(outcome.kind == (is_own ? SetupOutcome::Kind::done : SetupOutcome::Kind::failed));
+                const bool tells_other =
+                    outcome.message.find("; the other eye could not") != std::string::npos;
+                CHECK(tells_other == (is_own && both && calibrated != 1));
+            }
+}

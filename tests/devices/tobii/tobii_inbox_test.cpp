@@ -1,6 +1,8 @@
 // What Tobii's library tells, by callbacks that the test itself makes.
 #include "devices/tobii/tobii_inbox.h"
 
+#include <algorithm>
+#include <cstdlib>
 #include <cstring>
 #include <map>
 
@@ -9,6 +11,7 @@
 
 #include "experiment/base/error.h"
 #include "tests/devices/tobii/tobii_bench.h"
+#include "tests/devices/tracker/row_parts.h"
 
 using namespace overt;
 using namespace overt::test;
@@ -288,4 +291,27 @@ TEST_CASE("a reading of a Tobii's clock that cannot be is none", "[unit]") {
     CHECK_FALSE(reads(300, 301, 0));         // answered before it was asked
     CHECK_FALSE(reads(300, -60'000'000, 0)); // in a minute
     CHECK_FALSE(reads(300, 0, 203));
+}
+
+TEST_CASE("the row of Tobii's trackers takes device and targets from the protocol", "[unit]") {
+    StandInLibrary library(OVERT_STAND_IN_TOBII);
+    setenv("OVERT_TOBII_LIBRARY", OVERT_STAND_IN_TOBII, 1);
+    SteadyClock clock;
+    RowParts parts;
+    parts.clock = &clock;
+    parts.protocol.tracker.address = "tet-tcp://10.0.0.7";
+    parts.protocol.calibration.points = 5;
+    parts.protocol.calibration.target_deg = 0.75;
+    const auto driver = parts.driver<kind_called<TrackerKind>("tobii")>();
+    TrackerWish wish;
+    CHECK_THAT(driver->connect(wish).model, Contains("SER3"));
+    DiarySetupScreen screen(clock);
+    CHECK(driver->set_up(screen).method == "tracker, 5 points");
+    CHECK(std::ranges::count_if(screen.diary,
+                                [](const std::string& each) { return each.ends_with(" of 0.75"); }) == 5);
+    library.set("devices", 2);
+    CHECK(tobii_trackers_found() == "its library is there, version 2.11.7; trackers that it finds: Glass "
+                                    "9000 SER1 at tet-tcp://10.0.0.1, "
+                                    "Glass 9000 SER2 at tet-tcp://10.0.0.2");
+    unsetenv("OVERT_TOBII_LIBRARY");
 }

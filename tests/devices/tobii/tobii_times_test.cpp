@@ -142,3 +142,20 @@ TEST_CASE("a Tobii that does not tell its rates, or tells none, is refused", "[u
     CHECK(bench.driver.finish("", {}).empty());
     CHECK_FALSE(bench.driver.read_clocks());
 }
+
+TEST_CASE("a Tobii that is connected anew has not told the time, until it does", "[unit]") {
+    TimedTobii bench;
+    bench.driver.connect(bench.wish);
+    REQUIRE(bench.driver.read_clocks());
+    bench.driver.start();
+    bench.read_samples(3);
+    CHECK(bench.kept.all<ClockPair>().empty());
+    bench.driver.stop();
+    bench.library.set("syncs", 0);
+    bench.driver.connect(bench.wish);
+    bench.kept.items.clear();
+    bench.driver.start();
+    bench.read_samples(3);
+    CHECK(bench.kept.all<ClockPair>().size() == 1);
+    bench.driver.stop();
+}

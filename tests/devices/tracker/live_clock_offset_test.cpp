@@ -39,3 +39,20 @@ TEST_CASE("a clock that was set begins anew", "[unit]") {
     offset.take({SessionTime(2s) - 1ms, tracker_time(500'000), SessionTime(2s) + 1ms});
     CHECK(*offset.session_time_of(tracker_time(500'000)) == SessionTime(2s));
 }
+
+TEST_CASE("what readings say of an offset widens by 200 ppm of the time since the last", "[unit]") {
+    // A tracker's clock that was 0 with the session's; each reading tells less to one side.
+    const auto offset_after = [](SessionDuration between, SessionDuration low, SessionDuration high) {
+        LiveClockOffset offset;
+        offset.take({SessionTime(100s) - 1ms, tracker_time(100'000'000), SessionTime(100s) + 1ms});
+        const SessionTime at = SessionTime(100s) + between;
+        const auto us = std::chrono::duration_cast<std::chrono::microseconds>(at.time_since_epoch()).count();
+        offset.take({at - low, tracker_time(us), at + high});
+        return to_seconds(*offset.session_time_of(tracker_time(us)) - at);
+    };
+    // Of wider readings what was known counts, and what it may have drifted since: 10 s after, 2 ms.
+    CHECK(offset_after(10s, 1s, 500us) == Approx(0.5 * (-0.003 + 0.0005)).margin(3e-7));
+    CHECK(offset_after(10s, 500us, 1s) == Approx(0.5 * (-0.0005 + 0.003)).margin(3e-4));
+    CHECK(offset_after(0s, 1s, 1s) == Approx(0.0).margin(3e-4));
+    CHECK(offset_after(10s, 100us, 200us) == Approx(0.00005).margin(1e-9));
+}

@@ -52,3 +52,11 @@ TEST_CASE("60 samples a second where 250 were granted are told", "[unit]") {
         }
     CHECK(*twice.rate_hz() == Approx(250.0));
 }
+
+TEST_CASE("a rate is known from a second on", "[unit]") {
+    SampleRateWatch shorter, exact;
+    record(shorter, 0, 9'999, 101);
+    CHECK_FALSE(shorter.rate_hz());
+    record(exact, 0, 10'000, 101);
+    CHECK(exact.rate_hz() == Approx(100.0));
+}
