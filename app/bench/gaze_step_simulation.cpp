@@ -15,7 +15,7 @@ namespace overt {
 namespace {
 
 constexpr double sample_rate_hz = 2000.0;
-constexpr std::int64_t sample_us = 500;
+constexpr std::int64_t step_sample_us = 500;
 constexpr double piece_s = 0.2, blink_s = 0.3;
 constexpr std::int64_t piece_samples = 400; ///< intervals
 
@@ -126,7 +126,7 @@ PlantedPath planted_path(const FlipHistory& history, const PlantedClock& clock, 
     const TrackerTime first = clock.tracker_of(begin);
     for (std::int64_t k = 0;; ++k) {
         GazeSample sample;
-        sample.sampled_at = first + TrackerClock::duration(sample_us * k);
+        sample.sampled_at = first + TrackerClock::duration(step_sample_us * k);
         const SessionTime at = clock.session_of(sample.sampled_at);
         if (at >= end)
             break;
@@ -148,10 +148,11 @@ PlantedPath planted_path(const FlipHistory& history, const PlantedClock& clock, 
             sample.gaze = ScreenPoint{1.0, 1.0}; // before the first light
         path.samples.push_back(sample);
     }
-    path.onset = first + TrackerClock::duration(sample_us * onset);
+    path.onset = first + TrackerClock::duration(step_sample_us * onset);
     const bool blinks_within = has_blink && blink_begin <= onset + piece_samples;
-    path.detected = path.onset + TrackerClock::duration(
-                                     sample_us * (piece_samples + (blinks_within ? blink_length + 1 : 0)));
+    path.detected =
+        path.onset +
+        TrackerClock::duration(step_sample_us * (piece_samples + (blinks_within ? blink_length + 1 : 0)));
     return path;
 }
 
@@ -248,7 +249,7 @@ GazeStepTrials simulate_gaze_steps(const Protocol& protocol, std::span<const Obj
                                looked_before(ended - 1) < came;
         // From the record: the same samples, with the frames that the flips say afterwards.
         GazeCondition again({std::chrono::microseconds(200'000), std::chrono::microseconds(300'000),
-                             std::chrono::microseconds(sample_us)});
+                             std::chrono::microseconds(step_sample_us)});
         const ClockMap map(readings);
         for (std::size_t i = 0; i < next; ++i) {
             const GazeSample& sample = path.samples[i];

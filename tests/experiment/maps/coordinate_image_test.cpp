@@ -17,7 +17,7 @@ using namespace overt;
 
 namespace {
 
-const Bounds box{{-31.25, 4.0, 1000.1}, {17.3, 4.5, 1900.7}};
+const Bounds whole_box{{-31.25, 4.0, 1000.1}, {17.3, 4.5, 1900.7}};
 
 glm::dvec3 place_in(const Bounds& bounds, RandomStream& random) {
     return bounds.min +
@@ -31,7 +31,7 @@ CoordinateImage disc(glm::ivec2 size) {
     for (int y = 0; y < size.y; ++y) {
         for (int x = 0; x < size.x; ++x) {
             if (glm::length(glm::dvec2(x, y) - 0.5 * glm::dvec2(size)) < 0.4 * size.y)
-                image.at(x, y) = glm::vec4(place_in(box, random), 1.0f);
+                image.at(x, y) = glm::vec4(place_in(whole_box, random), 1.0f);
         }
     }
     return image;
@@ -41,7 +41,7 @@ MapDescription full_description() {
     MapDescription description;
     description.object = "bust";
     description.unit = "mm";
-    description.bounds = box;
+    description.bounds = whole_box;
     description.scale = 65535;
     description.camera = Camera{{0.1, -1234.5678901234567, 3.0}, {1.0 / 3.0, 0.0, 3.0}, {11.987654321}};
     description.angle = Degrees{-24.863013698630137};
@@ -85,9 +85,9 @@ std::filesystem::path foreign(const std::filesystem::path& file, PixelType type,
 
 TEST_CASE("a decoded place is within half a code of the place that was coded", "[unit]") {
     RandomStream random(1, "places");
-    const CoordinateCodec codec(box);
+    const CoordinateCodec codec(whole_box);
     for (int i = 0; i < 20000; ++i) {
-        const glm::dvec3 place = place_in(box, random);
+        const glm::dvec3 place = place_in(whole_box, random);
         const glm::dvec3 error = glm::abs(codec.decode(codec.encode(place)) - place);
         for (int axis = 0; axis < 3; ++axis)
             REQUIRE(error[axis] <= 0.5 * codec.step()[axis] * (1.0 + 1e-9));
@@ -96,7 +96,7 @@ TEST_CASE("a decoded place is within half a code of the place that was coded", "
 
 TEST_CASE("every code stands for itself, in both scales", "[unit]") {
     for (const int scale : {CoordinateCodec::usual_scale, CoordinateCodec::paper_scale}) {
-        const CoordinateCodec codec(box, scale);
+        const CoordinateCodec codec(whole_box, scale);
         for (int i = 0; i <= 65535; ++i) {
             const CoordinateCode code(static_cast<std::uint16_t>(i), static_cast<std::uint16_t>(65535 - i),
                                       static_cast<std::uint16_t>(i * 7919 % 65536));
@@ -106,13 +106,13 @@ TEST_CASE("every code stands for itself, in both scales", "[unit]") {
 }
 
 TEST_CASE("the ends of the box are coded exactly, and what lies outside is taken to them", "[unit]") {
-    const CoordinateCodec codec(box);
-    CHECK(codec.decode(CoordinateCode(0)) == box.min);
-    CHECK(codec.decode(CoordinateCode(65535)) == box.max);
-    CHECK(codec.encode(box.min) == CoordinateCode(0));
-    CHECK(codec.encode(box.max) == CoordinateCode(65535));
-    CHECK(codec.encode(box.min - 5.0) == CoordinateCode(0));
-    CHECK(codec.encode(box.max + 5.0) == CoordinateCode(65535));
+    const CoordinateCodec codec(whole_box);
+    CHECK(codec.decode(CoordinateCode(0)) == whole_box.min);
+    CHECK(codec.decode(CoordinateCode(65535)) == whole_box.max);
+    CHECK(codec.encode(whole_box.min) == CoordinateCode(0));
+    CHECK(codec.encode(whole_box.max) == CoordinateCode(65535));
+    CHECK(codec.encode(whole_box.min - 5.0) == CoordinateCode(0));
+    CHECK(codec.encode(whole_box.max + 5.0) == CoordinateCode(65535));
 }
 
 TEST_CASE("the paper's scale keeps its formula, and the far side of the box within its largest code",
@@ -133,7 +133,7 @@ TEST_CASE("a box of no size at all, a reversed one and a scale of neither kind a
     CHECK_NOTHROW(CoordinateCodec({{1, 1, 1}, {1, 1, 1}}));
     CHECK_THROWS_AS(CoordinateCodec({{1, 0, 0}, {0, 1, 1}}), InputError);
     CHECK_THROWS_AS(CoordinateCodec({{0, 0, 0}, {1, NAN, 1}}), InputError);
-    CHECK_THROWS_WITH(CoordinateCodec(box, 255), Catch::Contains("65535 or 65536, not 255"));
+    CHECK_THROWS_WITH(CoordinateCodec(whole_box, 255), Catch::Contains("65535 or 65536, not 255"));
 }
 
 TEST_CASE("a map comes back from EXR bit for bit, with all that is known of it", "[unit]") {
@@ -178,7 +178,7 @@ TEST_CASE("a map comes back from PNG within half a code, with all that is known 
         const CoordinateImageFile read = read_coordinate_image(folder.path() / "map.png");
         check_same(read.description, description);
         CHECK(read.description.scale == scale);
-        const glm::dvec3 half = 0.5 * CoordinateCodec(box, scale).step();
+        const glm::dvec3 half = 0.5 * CoordinateCodec(whole_box, scale).step();
         for (std::size_t i = 0; i < image.pixels.size(); ++i) {
             REQUIRE(read.image.pixels[i].w == image.pixels[i].w);
             const glm::dvec3 error = glm::abs(glm::dvec3(read.image.pixels[i] - image.pixels[i]));
@@ -196,7 +196,7 @@ TEST_CASE("the codes in the PNG are those of the codec, and nothing asks for ano
     CHECK(picture.header().type == PixelType::bits16);
     std::vector<std::uint16_t> codes(image.pixels.size() * 4);
     picture.read(4, PixelType::bits16, codes.data());
-    const CoordinateCodec codec(box);
+    const CoordinateCodec codec(whole_box);
     for (std::size_t i = 0; i < image.pixels.size(); ++i) {
         const bool covered = image.pixels[i].w != 0.0f;
         const CoordinateCode wanted = covered ? codec.encode(glm::dvec3(image.pixels[i])) : CoordinateCode(0);
@@ -275,7 +275,7 @@ TEST_CASE("a map without its box or scale is refused with the remedy", "[unit]")
                                                       Catch::Contains("lut_scale") &&
                                                       Catch::Contains("bounding box"));
     MapDescription no_scale;
-    no_scale.bounds = box;
+    no_scale.bounds = whole_box;
     CHECK_THROWS_WITH(read_coordinate_image(png, no_scale), Catch::Contains("scale"));
     MapDescription odd = no_scale;
     odd.scale = 256;
@@ -289,7 +289,7 @@ TEST_CASE("a map without its box or scale is refused with the remedy", "[unit]")
 TEST_CASE("pictures that are no maps are refused by name and reason", "[unit]") {
     const test::TemporaryFolder folder;
     MapDescription known;
-    known.bounds = box;
+    known.bounds = whole_box;
     known.scale = 65535;
     const auto refusal = [&](const std::filesystem::path& file) {
         try {

@@ -25,7 +25,7 @@ struct WithTable {
     std::optional<Protocol> protocol;
 };
 
-std::vector<std::string> lines_of(std::string_view keys) {
+std::vector<std::string> motion_lines(std::string_view keys) {
     return ReadText(minimal_protocol, std::string("[animation]\n").append(keys)).lines();
 }
 
@@ -86,33 +86,33 @@ TEST_CASE("a table of places is refused where it is wrong, all at once", "[unit]
                                              Contains("way.csv:3:1: error: t_s goes from 0.5 to 0.2"));
     const WithTable long_one("frame_rate_hz = 10\n", "t_s,qw,qx,qy,qz\n0,2,0,0,0\n1,1,0,0,0\n");
     CHECK_THAT(long_one.diagnostics.print(), Contains("way.csv:2:3: error: a rotation of length 2"));
-    CHECK(lines_of("kind = \"keyframes\"\nkeyframes = \"none.csv\"\n").size() == 1);
-    CHECK(lines_of("kind = \"keyframes\"\n") ==
+    CHECK(motion_lines("kind = \"keyframes\"\nkeyframes = \"none.csv\"\n").size() == 1);
+    CHECK(motion_lines("kind = \"keyframes\"\n") ==
           std::vector<std::string>{"13:8: a motion of kind \"keyframes\" needs the table of its places"});
 }
 
 TEST_CASE("keys that a kind needs, or has no use for, are told at their place", "[unit]") {
-    CHECK(lines_of("kind = \"turntable\"\n").empty());
-    CHECK(lines_of("kind = \"turntable\"\nturns = 0\n") ==
+    CHECK(motion_lines("kind = \"turntable\"\n").empty());
+    CHECK(motion_lines("kind = \"turntable\"\nturns = 0\n") ==
           std::vector<std::string>{"14:9: no turn at all: turns is 0"});
     CHECK(
-        lines_of("kind = \"turntable\"\namplitude_deg = 5\n") ==
+        motion_lines("kind = \"turntable\"\namplitude_deg = 5\n") ==
         std::vector<std::string>{"14:17: \"amplitude_deg\" has no effect on a motion of kind \"turntable\""});
-    CHECK(lines_of("kind = \"steps\"\n").front() ==
+    CHECK(motion_lines("kind = \"steps\"\n").front() ==
           "13:8: a motion of kind \"steps\" needs the angles where it stands");
-    CHECK(lines_of("kind = \"steps\"\nangles_deg = [0, 10, 20, 30, 40, 50, 60]\n").front() ==
+    CHECK(motion_lines("kind = \"steps\"\nangles_deg = [0, 10, 20, 30, 40, 50, 60]\n").front() ==
           "14:14: 61 frames, of which the last is the first again, are not divided evenly among 7 angles");
-    CHECK(lines_of("kind = \"steps\"\nangles_deg = [0, 10, 20]\n").empty());
-    CHECK(lines_of("kind = \"waves\"\n").size() == 1);
-    CHECK(lines_of("kind = \"waves\"\nwaves = [[20, 1, 0], [5, 3, 90]]\n").empty());
-    CHECK(lines_of("kind = \"waves\"\nwaves = [20, 1.5, 0]\n").front() ==
+    CHECK(motion_lines("kind = \"steps\"\nangles_deg = [0, 10, 20]\n").empty());
+    CHECK(motion_lines("kind = \"waves\"\n").size() == 1);
+    CHECK(motion_lines("kind = \"waves\"\nwaves = [[20, 1, 0], [5, 3, 90]]\n").empty());
+    CHECK(motion_lines("kind = \"waves\"\nwaves = [20, 1.5, 0]\n").front() ==
           "14:9: a sine of 1.5 periods in all frames does not close the loop");
-    CHECK(lines_of("axis = [0, 0, 0]\n").front() == "13:8: an axis of length 0 points nowhere");
-    CHECK(lines_of("kind = \"approach\"\n").size() == 1);
-    CHECK(lines_of("kind = \"approach\"\napproach_mm = 20\n").empty());
-    CHECK(lines_of("kind = \"trapezoid\"\nrest_share = 0.3\nease = \"minimum-jerk\"\n").empty());
-    CHECK(lines_of("kind = \"orbit\"\naxis = [1, 0, 0]\n").size() == 1);
-    CHECK(lines_of("kind = \"still\"\nlight_turns = 1\n").empty());
+    CHECK(motion_lines("axis = [0, 0, 0]\n").front() == "13:8: an axis of length 0 points nowhere");
+    CHECK(motion_lines("kind = \"approach\"\n").size() == 1);
+    CHECK(motion_lines("kind = \"approach\"\napproach_mm = 20\n").empty());
+    CHECK(motion_lines("kind = \"trapezoid\"\nrest_share = 0.3\nease = \"minimum-jerk\"\n").empty());
+    CHECK(motion_lines("kind = \"orbit\"\naxis = [1, 0, 0]\n").size() == 1);
+    CHECK(motion_lines("kind = \"still\"\nlight_turns = 1\n").empty());
 }
 
 TEST_CASE("what the observer turns and tilts has a frame for each turn at each elevation", "[unit]") {
@@ -127,18 +127,18 @@ TEST_CASE("what the observer turns and tilts has a frame for each turn at each e
     CHECK(motion.pictures().size() == 49);
     CHECK(motion.by_observer.keys == std::vector<std::string>{"left", "right", "up", "down"});
     CHECK_FALSE(motion.only_turns());
-    CHECK(lines_of(turned + "elevation_to_deg = 20\n").front() ==
+    CHECK(motion_lines(turned + "elevation_to_deg = 20\n").front() ==
           "17:20: \"elevation_to_deg\" says how far it is tilted, and nothing in which steps");
-    CHECK(lines_of(turned + "elevation_step_deg = 7\nelevation_to_deg = 20\n").front() ==
+    CHECK(motion_lines(turned + "elevation_step_deg = 7\nelevation_to_deg = 20\n").front() ==
           "17:22: from 0 to 20 deg are 2.85714 steps of 7 deg, which is no whole number");
-    CHECK(lines_of(turned + "elevation_step_deg = 5\nelevation_to_deg = -20\n").front() ==
+    CHECK(motion_lines(turned + "elevation_step_deg = 5\nelevation_to_deg = -20\n").front() ==
           "18:20: it can be tilted from 0 to -20 deg");
-    CHECK(lines_of(turned + "with = \"keys\"\nelevation_step_deg = 5\nelevation_to_deg = 20\n"
-                            "keys = [\"left\", \"right\"]\n")
+    CHECK(motion_lines(turned + "with = \"keys\"\nelevation_step_deg = 5\nelevation_to_deg = 20\n"
+                                "keys = [\"left\", \"right\"]\n")
               .front() == "20:8: an object is turned and tilted with four keys");
-    CHECK(lines_of("kind = \"observer\"\nstep_deg = 0.1\nelevation_step_deg = 0.1\nelevation_to_deg = 20\n")
-              .back() ==
-          "15:22: 3600 turns at 201 elevations are 723600 poses, and a motion has up to 10000");
-    CHECK(lines_of("kind = \"turn\"\nelevation_step_deg = 5\n").front() ==
+    CHECK(
+        motion_lines("kind = \"observer\"\nstep_deg = 0.1\nelevation_step_deg = 0.1\nelevation_to_deg = 20\n")
+            .back() == "15:22: 3600 turns at 201 elevations are 723600 poses, and a motion has up to 10000");
+    CHECK(motion_lines("kind = \"turn\"\nelevation_step_deg = 5\n").front() ==
           "14:22: \"elevation_step_deg\" is for a motion of kind \"observer\"");
 }
