@@ -15,7 +15,7 @@ namespace {
 
 constexpr glm::ivec2 page_px{24, 16};
 constexpr int pages_each = 9;
-constexpr std::size_t page_bytes = 24 * 16 * 4;
+constexpr std::size_t bytes_of_page = 24 * 16 * 4;
 
 /// Each page a grey of its own; pages of object 9 cannot be read from the third on.
 class GreyPages final : public FrameSource {
@@ -60,12 +60,12 @@ struct Store {
     std::vector<int> greys(const StoredStimuli& stimulus) const {
         std::vector<int> greys;
         Framebuffer target(*context);
-        std::vector<std::byte> bytes(page_bytes);
+        std::vector<std::byte> bytes(bytes_of_page);
         for (int page = 0; page < stimulus.pages; ++page) {
             target.attach_layer(*stimulus.textures, page);
             target.read(PixelFormat::rgba8, bytes);
             greys.push_back(std::to_integer<int>(bytes[0]));
-            for (std::size_t i = 0; i < page_bytes; i += 4)
+            for (std::size_t i = 0; i < bytes_of_page; i += 4)
                 REQUIRE(bytes[i] == bytes[0]);
         }
         return greys;
@@ -161,7 +161,7 @@ TEST_CASE("a stimulus that cannot be read fails when it is loaded, and the next 
 
 TEST_CASE("a frame store too small for two stimuli holds one, and refuses what is larger than itself",
           "[gl]") {
-    Store one(page_bytes * (pages_each + 3));
+    Store one(bytes_of_page * (pages_each + 3));
     one.store.load({1, 0});
     one.store.expect({2, 0});
     // Pages would be read in the background.
@@ -172,6 +172,6 @@ TEST_CASE("a frame store too small for two stimuli holds one, and refuses what i
     CHECK(one.pages.read == pages_each);
     CHECK(one.greys(one.store.load({2, 0})) == truth({2, 0}));
     CHECK(one.greys(one.store.load({3, 0})) == truth({3, 0}));
-    Store none(page_bytes * (pages_each - 1));
+    Store none(bytes_of_page * (pages_each - 1));
     CHECK_THROWS_AS(none.store.load({1, 0}), InputError);
 }

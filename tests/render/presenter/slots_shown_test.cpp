@@ -14,7 +14,7 @@ using namespace overt;
 
 namespace {
 
-constexpr glm::ivec2 wide_px{640, 60}, slot_px{30, 40};
+constexpr glm::ivec2 screen_of_slots_px{640, 60}, slot_px{30, 40};
 
 /// Random light, another in each page of each object.
 class NoisyPages final : public FrameSource {
@@ -54,7 +54,7 @@ struct ScreenOfSlots {
 
     static ScreenGeometry geometry_at(glm::ivec2 origin) {
         ScreenGeometry geometry;
-        geometry.screen_px = wide_px;
+        geometry.screen_px = screen_of_slots_px;
         geometry.image_px = slot_px;
         geometry.image_origin_px = origin;
         return geometry;
@@ -70,7 +70,7 @@ struct ScreenOfSlots {
 /// The left half of one screen and the right half of another.
 std::vector<std::byte> halves_of(const std::vector<std::byte>& left, const std::vector<std::byte>& right) {
     std::vector<std::byte> joined = left;
-    const std::size_t row_bytes = left.size() / static_cast<std::size_t>(wide_px.y);
+    const std::size_t row_bytes = left.size() / static_cast<std::size_t>(screen_of_slots_px.y);
     for (std::size_t i = 0; i < joined.size(); ++i)
         if (i % row_bytes >= row_bytes / 2)
             joined[i] = right[i];
@@ -93,8 +93,8 @@ TEST_CASE("two slots show, to the byte, what each shows alone", "[gl]") {
           Way{OutputMode::color_plus_plus, PairFilter::lanczos}, Way{OutputMode::bits_plus_plus}}) {
         CAPTURE(name_of(way.output), name_of(way.filter), name_of(way.dither));
         DisplaySettings settings;
-        settings.width_px = wide_px.x;
-        settings.height_px = wide_px.y;
+        settings.width_px = screen_of_slots_px.x;
+        settings.height_px = screen_of_slots_px.y;
         settings.output = way.output;
         settings.pair_filter = way.filter;
         settings.dither = way.dither;
@@ -129,8 +129,8 @@ TEST_CASE("two slots show, to the byte, what each shows alone", "[gl]") {
 TEST_CASE("slots with the same stimulus share its pages, and a screen between clears them all", "[gl]") {
     const auto context = make_headless_context(ContextKind::osmesa);
     DisplaySettings settings;
-    settings.width_px = wide_px.x;
-    settings.height_px = wide_px.y;
+    settings.width_px = screen_of_slots_px.x;
+    settings.height_px = screen_of_slots_px.y;
     settings.output = OutputMode::native_8bit;
     const std::vector<glm::ivec2> places{{10, 5}, {60, 5}, {110, 5}};
     ScreenOfSlots screen(*context, settings, places[0], places);
@@ -152,8 +152,8 @@ TEST_CASE("slots with the same stimulus share its pages, and a screen between cl
 TEST_CASE("of two slots at one place the one that comes up covers the one that goes", "[gl]") {
     const auto context = make_headless_context(ContextKind::osmesa);
     DisplaySettings settings;
-    settings.width_px = wide_px.x;
-    settings.height_px = wide_px.y;
+    settings.width_px = screen_of_slots_px.x;
+    settings.height_px = screen_of_slots_px.y;
     settings.output = OutputMode::native_8bit;
     const glm::ivec2 place{102, 10};
     ScreenOfSlots both(*context, settings, place, {place, place}), alone(*context, settings, place, {});
@@ -170,8 +170,8 @@ TEST_CASE("of two slots at one place the one that comes up covers the one that g
 TEST_CASE("a scrambled mask has the squares of what was shown last, in another order", "[gl]") {
     const auto context = make_headless_context(ContextKind::osmesa);
     DisplaySettings settings;
-    settings.width_px = wide_px.x;
-    settings.height_px = wide_px.y;
+    settings.width_px = screen_of_slots_px.x;
+    settings.height_px = screen_of_slots_px.y;
     settings.output = OutputMode::native_8bit;
     const glm::ivec2 left{102, 10}, right{500, 14};
     ScreenOfSlots screen(*context, settings, left, {left, right});
@@ -191,7 +191,8 @@ TEST_CASE("a scrambled mask has the squares of what was shown last, in another o
             for (int x = 0; x < slot_px.x; x += 2) {
                 auto& square = squares.emplace_back();
                 for (int row = 0; row < 2; ++row) {
-                    const auto first = bytes.begin() + 4 * ((corner.y + y + row) * wide_px.x + corner.x + x);
+                    const auto first =
+                        bytes.begin() + 4 * ((corner.y + y + row) * screen_of_slots_px.x + corner.x + x);
                     square.insert(square.end(), first, first + 8);
                 }
             }
