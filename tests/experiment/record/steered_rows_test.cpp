@@ -124,7 +124,7 @@ TEST_CASE("a path is of the angles between poses, whatever they turn about", "[u
 
 TEST_CASE("of the delays of inputs 95 % are no longer than what is said", "[unit]") {
     CHECK_FALSE(summary_of(std::vector<double>()));
-    CHECK(summary_of({0.02}) == InputDelays{1, 0.02, 0.02, 0.02});
+    CHECK(summary_of(std::vector{0.02}) == InputDelays{1, 0.02, 0.02, 0.02});
     std::vector<double> delays_s;
     for (int i = 100; i > 0; --i)
         delays_s.push_back(i);
