@@ -19,11 +19,11 @@ using namespace std::chrono_literals;
 
 namespace {
 
-struct Bench {
+struct TrackerBench {
     SteadyClock clock;
     DriverDiary diary;
     ThreadedTracker tracker;
-    explicit Bench(double rate_hz = 2000.0, std::size_t ring = std::size_t{1} << 16)
+    explicit TrackerBench(double rate_hz = 2000.0, std::size_t ring = std::size_t{1} << 16)
         : tracker(std::make_unique<ScriptedDriver>(clock, diary, rate_hz), clock,
                   {.rate_hz = rate_hz, .screen = {}}, ring) {}
 
@@ -59,7 +59,7 @@ bool comes_true(const std::function<bool()>& condition) {
 } // namespace
 
 TEST_CASE("each sample of a driver arrives once, in order, with clock readings between", "[unit]") {
-    Bench bench;
+    TrackerBench bench;
     bench.tracker.start_recording();
     std::vector<TrackerItem> items;
     const SessionTime end = bench.clock.now() + 1300ms;
@@ -83,7 +83,7 @@ TEST_CASE("each sample of a driver arrives once, in order, with clock readings b
 }
 
 TEST_CASE("samples that nobody takes are told as a gap, with their number", "[unit]") {
-    Bench bench(2000.0, 256);
+    TrackerBench bench(2000.0, 256);
     bench.tracker.start_recording();
     REQUIRE(comes_true([&] { return bench.diary.reads > 200; }));
     std::vector<TrackerItem> items = bench.take_all();
@@ -108,7 +108,7 @@ TEST_CASE("samples that nobody takes are told as a gap, with their number", "[un
 }
 
 TEST_CASE("marks reach the driver in order, before, in and after a recording", "[unit]") {
-    Bench bench;
+    TrackerBench bench;
     bench.tracker.mark({bench.clock.now(), "TRIALID 1"});
     bench.tracker.start_recording();
     for (int i = 0; i < 100; ++i)
@@ -126,7 +126,7 @@ TEST_CASE("marks reach the driver in order, before, in and after a recording", "
 
 TEST_CASE("what becomes of a recording at the tracker is seen, and a lost tracker can be had again",
           "[unit]") {
-    Bench bench;
+    TrackerBench bench;
     for (const RecordingState state : {RecordingState::repeat, RecordingState::skip, RecordingState::abort}) {
         bench.tracker.start_recording();
         CHECK(bench.tracker.recording_state() == RecordingState::running);
@@ -150,7 +150,7 @@ TEST_CASE("what becomes of a recording at the tracker is seen, and a lost tracke
 
 TEST_CASE("drift is measured from samples where a tracker has no check of its own", "[unit]") {
     // The x of the samples runs away: nothing rests.
-    Bench bench;
+    TrackerBench bench;
     CHECK(bench.tracker.drift_check({960.0, 540.0}).kind == DriftOutcome::Kind::no_eye);
     CHECK(bench.diary.stops == 1);
 }
@@ -168,7 +168,7 @@ TEST_CASE("who listens is told of each sample that poll() gives, at once and in 
         std::mutex mutex;
         std::vector<double> heard;
     };
-    Bench bench;
+    TrackerBench bench;
     Listener listener;
     CHECK(bench.tracker.tell_samples_to(&listener));
     bench.tracker.start_recording();
