@@ -25,23 +25,23 @@ double between_refreshes_ms(RandomStream& random, double interval_ms) {
 
 /// Adds one fault to a script, and to what a true ledger says of it.
 void add_fault(FaultScript& script, RandomStream& random, int refresh, double interval_ms) {
-    using Kind = DisplayFault::Kind;
-    DisplayFault fault{static_cast<Kind>(random.below(4)), std::nullopt, refresh};
+    DisplayFault fault{static_cast<DisplayFault::Kind>(random.below(4)), std::nullopt, refresh};
     switch (fault.kind) {
-    case Kind::late:
-    case Kind::stall: {
+    case DisplayFault::Kind::late:
+    case DisplayFault::Kind::stall: {
         fault.amount_ms = between_refreshes_ms(random, interval_ms);
         const auto missed = static_cast<int>(fault.amount_ms / interval_ms);
         if (missed > 0)
             script.misses.push_back(
-                {refresh, missed, fault.kind == Kind::late ? MissCause::drawn_late : MissCause::asked_late});
+                {refresh, missed,
+                 fault.kind == DisplayFault::Kind::late ? MissCause::drawn_late : MissCause::asked_late});
         break;
     }
-    case Kind::skip:
+    case DisplayFault::Kind::skip:
         fault.refreshes = 1 + static_cast<int>(random.below(5));
         script.misses.push_back({refresh, fault.refreshes, MissCause::shown_late});
         break;
-    case Kind::stamp:
+    case DisplayFault::Kind::stamp:
         // Beyond doubt: jitter ends at three standard deviations, and six count as wrong.
         fault.amount_ms = 0.1 + 12.0 * script.faults.jitter_sd_ms + random.uniform(0.0, 30.0);
         if (random.below(2) == 0)

@@ -133,7 +133,7 @@ PlantedPath planted_path(const FlipHistory& history, const PlantedClock& clock, 
         const What what = what_is(k);
         // The frame that is lit depends on the row, and the row on the frame's places: until they agree.
         std::optional<LitFrame> lit = history.frame_shown_at(at, 0.0);
-        for (int tries = 0; what != What::lost && tries < 1000; ++tries) {
+        for (int drawn = 0; what != What::lost && drawn < 1000; ++drawn) {
             if (!lit)
                 break;
             const std::vector<ScreenPoint>& all = places.of(lit->pose, what == What::on);

@@ -169,20 +169,20 @@ TEST_CASE("groups see some entries of any list", "[unit]") {
 }
 
 TEST_CASE("a factor that is not there, or has one level, is refused by name with what there is", "[unit]") {
-    using Lines = std::vector<std::string>;
     const ReadText unknown(twelve, "[[block]]\nid = \"one\"\norder = \"blocked\"\nby = \"glos\"\n"),
         one(twelve, "[[block]]\nid = \"one\"\norder = \"blocked\"\nby = \"view\"\n"),
         limit(twelve, "max_run = { colour = 2, view = 2 }\n"),
         twice(std::string(twelve) + "max_run = { object = 2 }\n");
-    CHECK(unknown.lines() == Lines{"28:6: there is no factor \"glos\""});
-    CHECK(one.lines() ==
-          Lines{"28:6: the factor \"view\" has one level, \"view\": there is nothing to go by"});
+    CHECK(unknown.lines() == std::vector<std::string>{"28:6: there is no factor \"glos\""});
+    CHECK(one.lines() == std::vector<std::string>{
+                             "28:6: the factor \"view\" has one level, \"view\": there is nothing to go by"});
     CHECK_THAT(one.diagnostics.print(), Contains("object, material, light, roughness, size") ||
                                             Contains("object, material, light, size, roughness"));
     CHECK(limit.lines() ==
-          Lines{"25:22: there is no factor \"colour\"",
-                "25:32: the factor \"view\" has one level, \"view\": there is nothing to keep apart"});
-    CHECK(twice.lines() == Lines{"25:22: max_object_run says it already, in line 24"});
+          std::vector<std::string>{
+              "25:22: there is no factor \"colour\"",
+              "25:32: the factor \"view\" has one level, \"view\": there is nothing to keep apart"});
+    CHECK(twice.lines() == std::vector<std::string>{"25:22: max_object_run says it already, in line 24"});
 }
 
 TEST_CASE("two factors that always change together are told, a list and its own column are not", "[unit]") {

@@ -55,16 +55,16 @@ std::vector<std::uint32_t> bits_of(PictureDecoder& decoder, int begin, int end, 
 
 TEST_CASE("overt's own frames, light and maps are read without OpenImageIO, to the same bits", "[unit]") {
     const TemporaryFolder folder;
-    struct Kind {
+    struct StoredAs {
         std::vector<std::string> channels;
         PixelType type;
         const char* compression;
     };
-    for (const Kind& kind : {Kind{{"R", "G", "B", "A"}, PixelType::float32, "pxr24"},
-                             {{"R", "G", "B", "A"}, PixelType::float16, "zip"},
-                             {{"R", "G", "B"}, PixelType::float16, "zip"},
-                             {{"Y", "A"}, PixelType::float16, "zip"},
-                             {{"triangle"}, PixelType::bits32, "zip"}}) {
+    for (const StoredAs& kind : {StoredAs{{"R", "G", "B", "A"}, PixelType::float32, "pxr24"},
+                                 {{"R", "G", "B", "A"}, PixelType::float16, "zip"},
+                                 {{"R", "G", "B"}, PixelType::float16, "zip"},
+                                 {{"Y", "A"}, PixelType::float16, "zip"},
+                                 {{"triangle"}, PixelType::bits32, "zip"}}) {
         CAPTURE(kind.channels, kind.compression);
         const std::string file = noise(folder, kind.channels, kind.type, kind.compression).string();
         const auto plain = open_plain_exr(file);

@@ -30,10 +30,10 @@ auto press_once(SessionPhase phase, int trial, Key key, Key answer = Key::yes, c
 }
 
 std::vector<std::string> phase_names_of(const Phases& phases) {
-    std::vector<std::string> names;
+    std::vector<std::string> found;
     for (const SessionPhase phase : phases)
-        names.emplace_back(name_of(phase));
-    return names;
+        found.emplace_back(name_of(phase));
+    return found;
 }
 
 } // namespace

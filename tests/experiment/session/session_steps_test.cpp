@@ -91,8 +91,8 @@ TEST_CASE("a trial that the operator rejects comes again, or is left out, and th
 }
 
 TEST_CASE("practice that the operator repeats comes again at once; skipped, it was not answered", "[unit]") {
-    using Key = ResponsePress::Key;
-    for (const Key key : {Key::repeat, Key::reject, Key::skip}) {
+    for (const ResponsePress::Key key :
+         {ResponsePress::Key::repeat, ResponsePress::Key::reject, ResponsePress::Key::skip}) {
         for (const std::string rejected : {"end-of-block", "never"}) {
             CAPTURE(name_of(key), rejected);
             Sitting sitting(short_protocol("[repeat]\nrejected = \"" + rejected +
@@ -108,7 +108,8 @@ TEST_CASE("practice that the operator repeats comes again at once; skipped, it w
             };
             CHECK(sitting.run().completed_trials == 2);
             CHECK(presses == 1);
-            const bool again = key == Key::repeat || (key == Key::reject && rejected != "never");
+            const bool again = key == ResponsePress::Key::repeat ||
+                               (key == ResponsePress::Key::reject && rejected != "never");
             CHECK(sitting.log.count("practice") == (again ? 2 : 1));
             CHECK(sitting.log.count("practice answered") == (again ? 1 : 0));
             CHECK(sitting.log.count("practice skipped") == (again ? 0 : 1));
@@ -288,24 +289,23 @@ TEST_CASE("time that the operator takes is not taken from the observer", "[unit]
         SessionTime began, ended, again;
         paused.panel.tell = [&,
                              is_done = false](ScriptedPanel& panel) mutable -> std::optional<ResponsePress> {
-            using Key = ResponsePress::Key;
             if (panel.phase() == SessionPhase::response_screen && panel.trial == 0 && !is_done) {
                 if (panel.looks != 250)
-                    return ResponsePress{Key::character, {}};
+                    return ResponsePress{ResponsePress::Key::character, {}};
                 is_done = true;
                 began = paused.clock.now();
-                return ResponsePress{Key::pause, {}};
+                return ResponsePress{ResponsePress::Key::pause, {}};
             }
             if (panel.phase() == SessionPhase::pause) {
                 ended = paused.clock.now();
                 if (panel.looks == 500)
-                    return ResponsePress{Key::pause, {}};
+                    return ResponsePress{ResponsePress::Key::pause, {}};
             }
             if (is_done && panel.phase() == SessionPhase::response_screen && panel.trial == 0 &&
                 panel.looks == 1)
                 again = paused.clock.now();
             if (panel.phase() == SessionPhase::response_screen && panel.trial == 0 && !answers)
-                return ResponsePress{Key::character, {}};
+                return ResponsePress{ResponsePress::Key::character, {}};
             return std::nullopt;
         };
         CHECK(paused.run().completed_trials == 2);

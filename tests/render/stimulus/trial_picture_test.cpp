@@ -10,7 +10,7 @@ namespace {
 /// A disc of 100 mm in a picture of any size.
 class Disc final : public SurfaceLookup {
   public:
-    explicit Disc(glm::ivec2 image_px) : image_px_(image_px) {}
+    explicit Disc(glm::ivec2 size_px) : image_px_(size_px) {}
     std::optional<SurfacePoint> surface_at(PoseIndex, glm::dvec2 point_px) const override {
         const glm::dvec2 place = (point_px / glm::dvec2(image_px_) - 0.5) * 2.0;
         if (glm::length(place) > 0.8)

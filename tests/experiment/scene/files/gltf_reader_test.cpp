@@ -227,7 +227,6 @@ void claim_packed(GlbMaker& maker, std::string_view mode, std::size_t count, std
 } // namespace
 
 TEST_CASE("a glTF file that lies about its bytes is refused at the place in its JSON", "[unit]") {
-    using Json = nlohmann::json;
     struct Lie {
         std::string_view what;
         void (*tell)(GlbMaker& maker);
@@ -304,7 +303,7 @@ TEST_CASE("a glTF file that lies about its bytes is refused at the place in its 
         {"more replaced than there are",
          [](GlbMaker& m) {
              m.json["accessors"][0]["sparse"] = {
-                 {"count", 9}, {"indices", Json::object()}, {"values", Json::object()}};
+                 {"count", 9}, {"indices", nlohmann::json::object()}, {"values", nlohmann::json::object()}};
          },
          "/accessors/0/sparse/count"},
         {"a node that hangs on itself", [](GlbMaker& m) { m.json["nodes"][0]["children"] = {0}; },
@@ -349,7 +348,7 @@ TEST_CASE("a glTF file that lies about its bytes is refused at the place in its 
          "'ACME_shape'"},
         {"packed bytes of no mode",
          [](GlbMaker& m) {
-             m.json["bufferViews"][0]["extensions"] = {{"EXT_meshopt_compression", Json::object()}};
+             m.json["bufferViews"][0]["extensions"] = {{"EXT_meshopt_compression", nlohmann::json::object()}};
          },
          "/bufferViews/0/extensions/EXT_meshopt_compression: \"mode\" is missing"},
         {"packed bytes that claim a gigabyte",
@@ -399,7 +398,7 @@ TEST_CASE("a glTF file that lies about its bytes is refused at the place in its 
         {"a material of old",
          [](GlbMaker& m) {
              m.json["materials"] = {
-                 {{"extensions", {{"KHR_materials_pbrSpecularGlossiness", Json::object()}}}}};
+                 {{"extensions", {{"KHR_materials_pbrSpecularGlossiness", nlohmann::json::object()}}}}};
          },
          "/materials/0: is written in the old form"},
         {"a colour of three numbers",
