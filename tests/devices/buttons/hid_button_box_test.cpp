@@ -1,6 +1,7 @@
 #include "devices/buttons/hid_button_box.h"
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
 #include "experiment/base/error.h"
 #include "tests/devices/hid/hid_bytes.h"
@@ -111,4 +112,41 @@ TEST_CASE("keys have the names that stand on them, and others their numbers", "[
         CHECK(hid_button_name(first_key_number + key) == name);
     CHECK(hid_button_name(first_key_number) == "key 0");
     CHECK(hid_button_name(first_key_number - 1) == std::to_string(first_key_number - 1));
+}
+
+TEST_CASE("usages of a thousand and some are buttons, of more none; held changes come in their order",
+          "[unit]") {
+    for (const int last : {1025, 1026}) { // from 1 on
+        DescriptorText text;
+        text.page(0x09)
+            .open(1, 1)
+            .item(0x18, 1, 2)
+            .item(0x28, last, 2)
+            .logical(1, last)
+            .size(16, 1)
+            .input(0x00)
+            .close();
+        const HidButtons buttons(parse_report_descriptor(text.bytes));
+        CHECK(buttons.has_any() == (last == 1025));
+    }
+    VirtualClock clock(SessionTime(1s));
+    HidFarEnd far(clock);
+    HidButtonBox box(std::make_unique<InMemoryHidLine>(far), parse_report_descriptor(game_pad_descriptor()),
+                     "pad", clock);
+    for (const std::size_t room : {1u, 2u, 3u, 7u}) {
+        far.arriving.push_back({clock.now(), bytes_of({0, 0, 0xFF, 3})});
+        far.arriving.push_back({clock.now(), bytes_of({0, 0, 0, 0})});
+        std::string order;
+        std::array<ButtonChange, 8> some;
+        for (ButtonChange& change : some)
+            change.button = 777;
+        while (const std::size_t count = box.poll(std::span(some).first(room))) {
+            REQUIRE(count <= room);
+            for (std::size_t i = 0; i < count; ++i)
+                order += fmt::format("{}{}", some[i].is_down ? '+' : '-', some[i].button);
+            CHECK(some[room].button == 777);
+        }
+        CHECK(order == "+1+2+3+4+5+6+7+8+9+10-1-2-3-4-5-6-7-8-9-10");
+    }
+    CHECK(box.poll({}) == 0);
 }

@@ -1,3 +1,5 @@
+#include <tuple>
+
 #include <catch2/catch.hpp>
 
 #include "experiment/base/random.h"
@@ -290,4 +292,36 @@ TEST_CASE("a box's stream is stopped before its clock is read, and goes on after
     Bench nameless;
     nameless.box.model.product = "";
     CHECK_THAT(message_of([&] { nameless.open(); }), Contains("was answered without a name"));
+}
+
+TEST_CASE("a box has settled when two readings of its rate in turn are the same within half a percent",
+          "[unit]") {
+    for (const auto& [one, other, settles] : {std::tuple(100.0, 100.0, true),
+                                              {100.0, 100.45, true},
+                                              {100.0, 99.55, true},
+                                              {100.0, 100.6, false},
+                                              {100.0, 99.4, false},
+                                              {0.0, 0.0, false}}) {
+        Bench bench;
+        auto display = bench.open();
+        int asked = 0;
+        bench.box.mutate = [&, low = one, high = other](std::string reply) {
+            return reply.starts_with("#VideoFrameRate")
+                       ? fmt::format("#VideoFrameRate;{:.3f};Hz;\r", ++asked % 2 == 1 ? low : high)
+                       : reply;
+        };
+        CAPTURE(one, other);
+        if (settles) {
+            CHECK(display.set_mode(BoxMode::mono_plus_plus).rate_hz == Approx(other));
+            CHECK(asked == 2);
+        } else {
+            const SessionTime began = bench.clock.now();
+            CHECK_THAT(message_of([&] { display.set_mode(BoxMode::mono_plus_plus); }),
+                       Contains("within 10 s after a change of mode"));
+            CHECK(bench.clock.now() - began >= 10s);
+            CHECK(asked > 90); // ten times a second
+            CHECK(asked < 105);
+        }
+        bench.box.mutate = nullptr;
+    }
 }

@@ -1,5 +1,7 @@
 #include "devices/hid/report_descriptor.h"
 
+#include <cmath>
+
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
@@ -295,4 +297,107 @@ TEST_CASE("a descriptor that is too long is refused with how long it is", "[unit
                       Catch::Contains("it has 4097 bytes, and 4096 are the most there can be"));
     // An item of nothing but zeros has no meaning: 4096 of them are none.
     CHECK(parse_report_descriptor(std::vector<std::byte>(4096)).fields.empty());
+}
+
+TEST_CASE("as many bits and fields as may be are read, and one more is refused", "[unit]") {
+    const auto refusal = [](const DescriptorText& text) {
+        try {
+            parse_report_descriptor(text.bytes);
+        } catch (const DeviceError& error) {
+            const std::string why = error.what();
+            return why.substr(why.rfind(": ") + 2);
+        }
+        return std::string();
+    };
+    // 16 KiB of padding, in one item or several, with and without an id's byte.
+    CHECK(refusal(DescriptorText().item(0x74, 32).item(0x94, 4096, 4).input(1)) == "");
+    CHECK(refusal(DescriptorText().item(0x74, 32).item(0x94, 4097, 4).input(1)) ==
+          "a report has more than 16384 bytes.");
+    CHECK(refusal(DescriptorText().item(0x74, 32).item(0x94, 4095, 4).input(1).item(0x94, 1).input(1)) == "");
+    CHECK_FALSE(
+        refusal(DescriptorText().item(0x74, 32).item(0x94, 4095, 4).input(1).item(0x94, 2).input(1)).empty());
+    CHECK(refusal(DescriptorText().id(1).item(0x74, 8).item(0x94, 16383, 4).input(1)) == "");
+    CHECK_FALSE(refusal(DescriptorText().id(1).item(0x74, 8).item(0x94, 16384, 4).input(1)).empty());
+    // 12,288 fields, over all reports.
+    const auto fields = [&](int inputs, int features) {
+        return refusal(DescriptorText()
+                           .page(9)
+                           .item(0x74, 1)
+                           .item(0x94, inputs, 4)
+                           .usage(1)
+                           .input(2)
+                           .item(0x94, features, 4)
+                           .usage(1)
+                           .feature(2));
+    };
+    CHECK(fields(12'288, 0) == "");
+    CHECK(fields(12'000, 288) == "");
+    CHECK(fields(12'000, 289) == "there are more than 12288 fields.");
+    CHECK_FALSE(fields(12'289, 0).empty());
+    // A field of 64 bits, and padding of any.
+    for (const int bits : {1, 64, 65, 100}) {
+        CHECK((refusal(DescriptorText().page(9).item(0x74, bits).item(0x94, 1).usage(1).input(2)) == "") ==
+              (bits <= 64));
+        CHECK(refusal(DescriptorText().item(0x74, bits).item(0x94, 1).input(1)) == "");
+    }
+    for (const int id : {1, 255})
+        CHECK(refusal(DescriptorText().item(0x84, id, 2)) == "");
+    for (const int id : {0, 256})
+        CHECK(refusal(DescriptorText().item(0x84, id, 2)) == std::to_string(id) + " is no report id.");
+    // Pushes, of which 64 may wait.
+    DescriptorText pushes;
+    for (int i = 0; i < 64; ++i)
+        pushes.item(0xA4);
+    CHECK(refusal(pushes) == "a push has no pop.");
+    CHECK(refusal(DescriptorText(pushes).item(0xA4)) == "too many pushes.");
+    for (int i = 0; i < 64; ++i)
+        pushes.item(0xB4);
+    CHECK(refusal(pushes) == "");
+    CHECK(refusal(pushes.item(0xB4)) == "a pop has no push.");
+    // What is cut off.
+    for (const std::vector<std::byte>& cut :
+         {bytes_of({0x05}), bytes_of({0x06, 1}), bytes_of({0x07, 1, 2, 3}), bytes_of({0xFE}),
+          bytes_of({0xFE, 2, 0, 1}), bytes_of({0xFE, 1, 0})})
+        CHECK_THROWS_WITH(parse_report_descriptor(cut), Catch::Contains("byte 0: the item is cut off"));
+    CHECK_NOTHROW(parse_report_descriptor(bytes_of({0xFE, 2, 0, 1, 2})));
+    CHECK_NOTHROW(parse_report_descriptor(bytes_of({0xFE, 0, 0})));
+}
+
+TEST_CASE("the powers of ten of a unit go from -8 to 7, and its lengths are centimetres and inches",
+          "[unit]") {
+    for (int exponent = -8; exponent <= 7; ++exponent) {
+        const auto descriptor = parse_report_descriptor(DescriptorText()
+                                                            .page(9)
+                                                            .unit(0x11, exponent)
+                                                            .logical(0, 100)
+                                                            .item(0x74, 8)
+                                                            .item(0x94, 1)
+                                                            .usage(1)
+                                                            .input(2)
+                                                            .bytes);
+        REQUIRE(descriptor.fields.size() == 1);
+        CHECK(descriptor.fields[0].unit_exponent == exponent);
+        CHECK(hid_millimetres(descriptor.fields[0], 3) == Approx(30.0 * std::pow(10.0, exponent)));
+    }
+    for (const auto& [unit, mm] :
+         {std::pair(0x11, 10.0), {0x13, 25.4}, {0x12, 0.0}, {0x14, 0.0}, {0x10, 0.0}, {0x00, 0.0}}) {
+        HidField field;
+        field.unit = static_cast<std::uint32_t>(unit);
+        CHECK(is_length(field) == (mm > 0.0));
+        CHECK(hid_millimetres(field, 2).value_or(0.0) == 2.0 * mm);
+    }
+    // Null values lie outside of the range, whose ends are values.
+    HidField field;
+    field.logical_minimum = -5;
+    field.logical_maximum = 5;
+    for (const int value : {-6, -5, 0, 5, 6})
+        CHECK(hid_physical(field, value).has_value() == (value >= -5 && value <= 5));
+    field.logical_minimum = field.logical_maximum = 0; // no range
+    CHECK(hid_physical(field, 7) == 7.0);
+    field.logical_maximum = 10;
+    field.physical_maximum = 100; // from 0
+    CHECK(hid_physical(field, 3) == Approx(30.0));
+    field.physical_maximum = 0;
+    field.physical_minimum = -100; // to 0
+    CHECK(hid_physical(field, 3) == Approx(-70.0));
 }

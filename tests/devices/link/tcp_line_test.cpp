@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
+#include <cerrno>
 #include <optional>
 
 #include <catch2/catch.hpp>
@@ -307,4 +309,94 @@ TEST_CASE("what has come is forgotten in a thousand readings at most", "[unit]")
         read_away(line, SessionTime(5s));
         CHECK(line.readings == std::min(most + 1, 1000));
     }
+}
+
+namespace {
+
+/// What connecting ends with, instead of being tried; 0: it is tried.
+std::atomic<int> connection_error{0};
+
+struct PipeLine final : DescriptorLine {
+    PipeLine(std::string name, const Clock& clock, int descriptor)
+        : DescriptorLine(std::move(name), clock, Descriptor(descriptor), "it was closed") {}
+};
+
+} // namespace
+
+// It takes the place of the C library's for this program.
+extern "C" int connect(int socket, const sockaddr* address, socklen_t size) {
+    static auto* const next = next_function<decltype(connect)>("connect");
+    if (connection_error == 0)
+        return next(socket, address, size);
+    errno = connection_error;
+    return -1;
+}
+
+TEST_CASE("why a server cannot be reached is said with what helps", "[unit]") {
+    const SteadyClock clock;
+    const auto refused = [&](int error) {
+        connection_error = error;
+        std::string why;
+        try {
+            const TcpLine line({"127.0.0.1", 4242}, "tracker", clock, clock.now() + 1s);
+        } catch (const DeviceError& failure) {
+            why = failure.what();
+        }
+        connection_error = 0;
+        return why;
+    };
+    const std::string head = "The tracker at 127.0.0.1:4242 cannot be reached: ";
+    CHECK(refused(ECONNREFUSED) == head + "Connection refused; nothing listens there: start its program on "
+                                          "that machine and switch its server "
+                                          "on, or name another address.");
+    for (const auto& [error, words] : {std::pair(ETIMEDOUT, "Connection timed out"),
+                                       {EHOSTUNREACH, "No route to host"},
+                                       {ENETUNREACH, "Network is unreachable"}})
+        CHECK(refused(error) == head + words +
+                                    "; no answer: check the address, the network cable and the firewall of "
+                                    "that machine.");
+    CHECK(refused(EACCES) == head + "Permission denied; check the address and the network.");
+}
+
+TEST_CASE("a line over a pipe gives its last bytes before it is lost, and says why", "[unit]") {
+    const SteadyClock clock;
+    int ends[2];
+    REQUIRE(pipe2(ends, O_NONBLOCK | O_CLOEXEC) == 0);
+    PipeLine line("a pipe", clock, ends[0]);
+    CHECK(line.name() == "a pipe");
+    std::array<char, 4> some{};
+    CHECK(line.read({}, clock.now() + 1s) == 0);
+    CHECK(line.read(some, SessionTime()) == 0);
+    REQUIRE(write(ends[1], "abcdef", 6) == 6);
+    close(ends[1]);
+    CHECK(line.read(some, clock.now() + 1s) == 4);
+    CHECK(line.read(some, clock.now() + 1s) == 2);
+    CHECK_FALSE(line.lost());
+    CHECK(line.loss().empty());
+    CHECK(line.read(some, clock.now() + 1s) == 0);
+    CHECK(line.lost());
+    CHECK(line.loss() == "it was closed");
+    CHECK_FALSE(line.write("x", clock.now() + 1s));
+    // One that cannot be read at all: the system's word.
+    int others[2];
+    REQUIRE(pipe2(others, O_NONBLOCK | O_CLOEXEC) == 0);
+    PipeLine outward("outward", clock, others[1]);
+    CHECK(outward.write("hi", clock.now() + 1s));
+    char there[3] = {};
+    CHECK(read(others[0], there, 2) == 2);
+    CHECK(std::string(there) == "hi");
+    CHECK(outward.write("", clock.now()));
+    // Full: not for ever.
+    CHECK_FALSE(outward.write(std::string(1 << 20, 'x'), clock.now() + 20ms));
+    CHECK_FALSE(outward.lost());
+    Descriptor moved(dup(others[0]));
+    const int value = moved.value();
+    Descriptor taken(std::move(moved));
+    CHECK(taken.value() == value);
+    Descriptor other(dup(others[0]));
+    const int second = other.value();
+    other = std::move(taken);
+    CHECK(other.value() == value);
+    CHECK(taken.value() == second); // NOLINT(bugprone-use-after-move): they change places
+    close(others[0]);
 }

@@ -384,3 +384,19 @@ TEST_CASE("a told frequency is proven over a tenth of a second at least, and wit
     CHECK_FALSE(proven_tick_hz(0.0, earlier, later));
     CHECK_FALSE(proven_tick_hz(-1e6, earlier, later));
 }
+
+TEST_CASE("a counter that jumps by a million has been set anew", "[unit]") {
+    for (const std::int64_t jump : {999'999, 1'000'000}) {
+        TrackerWish wish;
+        OpenGazeSamples samples(wish, TrackedPoint::eyes, std::chrono::milliseconds(20));
+        OpenGazeClock clock;
+        KeptItems items;
+        samples.begin();
+        samples.take(record_of(5, 10.0), SessionTime(std::chrono::seconds(1)), clock, items);
+        samples.take(record_of(5 + jump, 10.01), SessionTime(std::chrono::seconds(1)), clock, items);
+        const auto gaps = items.all<TrackerGap>();
+        REQUIRE(gaps.size() == (jump < 1'000'000 ? 1u : 0u));
+        if (!gaps.empty())
+            CHECK(gaps[0].lost_samples == jump - 1);
+    }
+}

@@ -256,3 +256,38 @@ TEST_CASE("a protocol says where Gazepoint's server is, which point counts and w
         CHECK(settings.calibration_points[i].x < 1.0);
     }
 }
+
+TEST_CASE("a rate needs three records with times, of thirty at most in three seconds", "[unit]") {
+    for (const int records : {0, 1, 2, 3, 29, 30, 31}) {
+        OpenGazeBench bench;
+        int sent = 0;
+        bench.model.mutate = [&](std::string record, int) {
+            return ++sent <= records ? record : std::string();
+        };
+        const SessionTime began = bench.clock.now();
+        CAPTURE(records);
+        if (records < 3) {
+            CHECK_THROWS_WITH(bench.connect(),
+                              Contains(fmt::format("sends no records with times ({} came in 3 s)", records)));
+        } else {
+            CHECK(bench.connect().sample_rate_hz == 150.0);
+        }
+        // All three seconds are waited for where fewer than thirty come.
+        CHECK((bench.clock.now() - began >= 3s) == (records < 30));
+        CHECK(bench.clock.now() - began < 3500ms);
+    }
+    // Records without times are none.
+    OpenGazeBench bench;
+    bench.model.mutate = [](std::string record, int) {
+        const std::size_t at = record.find(" TIME=");
+        return record.replace(at, 6, " XIME=");
+    };
+    CHECK_THROWS_WITH(bench.connect(), Contains("(30 came in 3 s)"));
+    // The median of the intervals, whatever one of them is.
+    OpenGazeBench jumping;
+    jumping.model.told_rate = "";
+    jumping.model.mutate = [](std::string record, int counter) {
+        return counter == 7 ? std::string() : record;
+    };
+    CHECK(jumping.connect().sample_rate_hz == Approx(150.0).epsilon(1e-3));
+}

@@ -425,3 +425,46 @@ TEST_CASE("each note that is acknowledged is recorded, and one that finds no roo
     CHECK(log.notes == acknowledged);
     CHECK(log.others == 1);
 }
+
+TEST_CASE("forty-eight notes wait for a trial's end, sixty keys, and answers and the end of a session always",
+          "[unit]") {
+    const TemporaryFolder folder;
+    OperatorServer server(options_at(folder.path() / "view.sock"));
+    StandingClock clock;
+    SilentPanel silent;
+    OperatorPanel panel(server, clock, silent);
+    OperatorClient client(folder.path() / "view.sock");
+    panel.entered(SessionPhase::stimulus, 2);
+    int told = 0, refused = 0;
+    const auto send = [&](const std::string& words) {
+        const int before = told;
+        client.send(operator_command(words).value());
+        bool is_pressed = false;
+        for (int tries = 0; tries < 2000 && told == before; ++tries) {
+            is_pressed = panel.poll().has_value() || is_pressed;
+            client.read(1ms);
+            for (const ViewedEvent& event : client.take_events()) {
+                ++told;
+                refused += event.detail.find("was not taken") != std::string::npos;
+            }
+        }
+        return is_pressed;
+    };
+    for (int i = 0; i < 50; ++i) {
+        send(fmt::format("note number {}", i));
+        CHECK(refused == std::max(0, i - 47));
+    }
+    for (int i = 0; i < 14; ++i) {
+        const bool is_taken = send("pause"); // 49 to 60
+        CHECK(is_taken == (i < 12));
+    }
+    CHECK(refused == 4);
+    CHECK(send("abort"));
+    NotedEvents log;
+    panel.write_down(log);
+    CHECK(log.notes == 48);
+    CHECK(log.others == 13);
+    send("note after it");
+    panel.write_down(log);
+    CHECK(log.notes == 49);
+}

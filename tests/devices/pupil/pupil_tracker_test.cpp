@@ -1,12 +1,18 @@
 #include "devices/pupil/pupil_tracker.h"
 
+#include <algorithm>
+#include <array>
+#include <cstring>
+
 #include <catch2/catch.hpp>
 
 #include "devices/host/clocks.h"
 #include "experiment/base/error.h"
 #include "tests/devices/pupil/pupil_peer.h"
 #include "tests/devices/tracker/scripted_setup_screen.h"
+#include "tests/support/counted_clock.h"
 #include "tests/support/kept_items.h"
+#include "tests/support/next_function.h"
 
 using namespace overt;
 using namespace overt::test;
@@ -324,4 +330,103 @@ TEST_CASE("an eye whose camera tells nothing is named with the camera's number",
                                                     : "nothing of the right eye; switch on the "
                                                       "detection of eye 0 in it"));
     }
+}
+
+namespace {
+
+/// Options that sockets of ZeroMQ are given, and times that they are waited for, where a test notes them.
+struct NotedZmq {
+    std::vector<std::string> options;
+    std::vector<long> waits;
+};
+thread_local NotedZmq* noted_zmq = nullptr;
+
+} // namespace
+
+// They take the place of the library's for this program.
+extern "C" {
+int zmq_setsockopt(void* socket, int option, const void* value, std::size_t size) {
+    static auto* const next = next_function<decltype(zmq_setsockopt)>("zmq_setsockopt");
+    if (noted_zmq) {
+        std::int64_t number = 0;
+        if (size <= sizeof number)
+            std::memcpy(&number, value, size);
+        noted_zmq->options.push_back(
+            option == ZMQ_SUBSCRIBE || option == ZMQ_UNSUBSCRIBE
+                ? fmt::format("{} {}", option, std::string(static_cast<const char*>(value), size))
+                : fmt::format("{} {} of {}", option, number, size));
+    }
+    return next(socket, option, value, size);
+}
+int zmq_poll(zmq_pollitem_t* items, int count, long ms) {
+    static auto* const next = next_function<decltype(zmq_poll)>("zmq_poll");
+    if (noted_zmq)
+        noted_zmq->waits.push_back(ms);
+    return next(items, count, noted_zmq ? 0 : ms);
+}
+}
+
+TEST_CASE("sockets of ZeroMQ linger not, hold ten thousand messages, and wait whole milliseconds", "[unit]") {
+    CountedClock clock;
+    const ZmqContext context;
+    NotedZmq noted;
+    noted_zmq = &noted;
+    {
+        ZmqSocket socket(context, ZmqSocket::Kind::subscribe, "tcp://127.0.0.1:9", clock);
+        CHECK(noted.options == std::vector<std::string>{fmt::format("{} 0 of 4", ZMQ_LINGER),
+                                                        fmt::format("{} 10000 of 4", ZMQ_RCVHWM),
+                                                        fmt::format("{} 4194304 of 8", ZMQ_MAXMSGSIZE)});
+        noted.options.clear();
+        socket.subscribe("pupil.");
+        socket.unsubscribe("pupil.");
+        CHECK(noted.options == std::vector<std::string>{fmt::format("{} pupil.", ZMQ_SUBSCRIBE),
+                                                        fmt::format("{} pupil.", ZMQ_UNSUBSCRIBE)});
+        std::vector<std::string> frames;
+        for (const SessionDuration left :
+             {SessionDuration(-5ms), SessionDuration(0ms), SessionDuration(1ns), SessionDuration(1ms),
+              SessionDuration(2500us), SessionDuration(2h)})
+            CHECK_FALSE(socket.receive(frames, clock.time + left));
+        CHECK(noted.waits == std::vector<long>{0, 0, 1, 1, 3, 3'600'000});
+    }
+    CHECK_THROWS_WITH(ZmqSocket(context, ZmqSocket::Kind::request, "nowhere", clock),
+                      Contains("nowhere cannot be connected: ") && Contains("; name a host and a port."));
+    noted_zmq = nullptr;
+}
+
+TEST_CASE("of a message sixteen frames are taken, each as it is, and longer ones leave nothing behind",
+          "[unit]") {
+    SteadyClock clock;
+    const ZmqContext context;
+    void* const server = zmq_socket(context.handle(), ZMQ_REP);
+    REQUIRE(zmq_bind(server, "tcp://127.0.0.1:*") == 0);
+    char endpoint[64];
+    std::size_t size = sizeof endpoint;
+    REQUIRE(zmq_getsockopt(server, ZMQ_LAST_ENDPOINT, endpoint, &size) == 0);
+    {
+        ZmqSocket socket(context, ZmqSocket::Kind::request, endpoint, clock);
+        for (const int count : {1, 2, 15, 16, 17, 20, 3}) {
+            const std::array<std::string_view, 2> question{"how many", ""};
+            REQUIRE(socket.send(question, clock.now() + 20s));
+            std::vector<std::string> heard;
+            for (bool more = true; more;) {
+                zmq_msg_t frame;
+                zmq_msg_init(&frame);
+                REQUIRE(zmq_msg_recv(&frame, server, 0) >= 0);
+                heard.emplace_back(static_cast<const char*>(zmq_msg_data(&frame)), zmq_msg_size(&frame));
+                more = zmq_msg_more(&frame) != 0;
+                zmq_msg_close(&frame);
+            }
+            CHECK(heard == std::vector<std::string>{"how many", ""});
+            for (int i = 0; i < count; ++i) {
+                const std::string text = fmt::format("frame {}", i);
+                zmq_send(server, text.data(), text.size(), i + 1 < count ? ZMQ_SNDMORE : 0);
+            }
+            std::vector<std::string> frames{"old", "older", "oldest", "and more"};
+            REQUIRE(socket.receive(frames, clock.now() + 20s));
+            REQUIRE(frames.size() == std::min<std::size_t>(static_cast<std::size_t>(count), 16));
+            for (std::size_t i = 0; i < frames.size(); ++i)
+                CHECK(frames[i] == fmt::format("frame {}", i));
+        }
+    }
+    zmq_close(server);
 }

@@ -158,8 +158,10 @@ void run(const std::stop_token& stop) {
         const bool is_back = i == static_cast<std::int64_t>(number("back_at", 1e9)) ||
                              i >= static_cast<std::int64_t>(number("back_from", 1e9));
         const std::int64_t device = taken + device_ahead_us - (is_back ? 1'000'000'000 : 0);
-        gaze.tell({eye_at(0.25f, 0.75f, 3.0f, has_left, -30.0f), eye_at(0.5f, 0.5f, 4.0f, true, 30.0f),
-                   device, taken});
+        const int times = i == static_cast<std::int64_t>(number("twice_at", 1e9)) ? 2 : 1;
+        for (int told = 0; told < times; ++told)
+            gaze.tell({eye_at(0.25f, 0.75f, 3.0f, has_left, -30.0f), eye_at(0.5f, 0.5f, 4.0f, true, 30.0f),
+                       device, taken});
     }
 }
 

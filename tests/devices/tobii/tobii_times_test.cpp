@@ -159,3 +159,19 @@ TEST_CASE("a Tobii that is connected anew has not told the time, until it does",
     CHECK(bench.kept.all<ClockPair>().size() == 1);
     bench.driver.stop();
 }
+
+TEST_CASE("a Tobii's measurement of the same time as the one before has no place beside it", "[unit]") {
+    TimedTobii bench;
+    bench.library.set("twice_at", 5);
+    bench.driver.connect(bench.wish);
+    bench.driver.start();
+    bench.read_samples(10);
+    bench.driver.stop();
+    const auto samples = bench.kept.all<GazeSample>();
+    for (std::size_t i = 1; i < samples.size(); ++i)
+        CHECK(samples[i].sampled_at > samples[i - 1].sampled_at);
+    const auto gaps = bench.kept.all<TrackerGap>();
+    REQUIRE(gaps.size() == 1);
+    CHECK(gaps[0].reason == TrackerGap::Reason::unreadable);
+    CHECK(gaps[0].after == samples[5].sampled_at);
+}
