@@ -15,6 +15,7 @@ namespace overt {
 /// a row for each group are in several figures where a page does not hold them: see row_chart.h. They use
 /// `results` when they draw.
 std::vector<StudyFigure> study_figures(const StudyResults& results);
+std::vector<StudyFigure> study_figures(const StudyResults&& results) = delete; // gone before they are drawn
 
 /// Writes them as SVG and PDF into `folder`, made if it is not there. Gives their names. Throws RecordError.
 std::vector<std::string> write_figures(const StudyResults& results, const std::filesystem::path& folder);

@@ -212,7 +212,8 @@ TEST_CASE("names in figures are whole, however long they are", "[unit]") {
 
 TEST_CASE("each number of the figures of rows stands below a head that says what it is", "[unit]") {
     // Right of the first number's left edge, all that is right-aligned in a column ends where its head ends.
-    for (const StudyFigure& figure : study_figures(study_with(2, 3, short_name, 1234.5))) {
+    const StudyResults study = study_with(2, 3, short_name, 1234.5);
+    for (const StudyFigure& figure : study_figures(study)) {
         if (figure.name != "figure_5" && figure.name != "table_1")
             continue;
         MeasuringPen pen;
@@ -255,7 +256,8 @@ TEST_CASE("each column of rows has its head, and so have the bars", "[unit]") {
 TEST_CASE("small numbers in figures are written out, and none is written as 0", "[unit]") {
     const auto texts_of = [](double value) {
         std::string all;
-        for (const StudyFigure& figure : study_figures(study_with(2, 3, short_name, value))) {
+        const StudyResults study = study_with(2, 3, short_name, value);
+        for (const StudyFigure& figure : study_figures(study)) {
             MeasuringPen pen;
             figure.draw(pen);
             for (const Box& text : pen.texts)
