@@ -66,11 +66,11 @@ struct FlipRecord {
 /// that was missed left what was there in all slots.
 struct SlotFlip {
     int trial = 0;
-    int refresh_in_trial = 0;    ///< of the flip
-    int place = 1;               ///< among what the trial shows (Trial::shown)
-    AnimationFrameIndex planned; ///< as in the FlipRecord
-    AnimationFrameIndex shown;   ///< no_frame: the slot was empty
-    PoseIndex pose;
+    int refresh_in_trial = 0;         ///< of the flip
+    int place = 1;                    ///< among what the trial shows (Trial::shown)
+    AnimationFrameIndex planned = {}; ///< as in the FlipRecord
+    AnimationFrameIndex shown = {};   ///< no_frame: the slot was empty
+    PoseIndex pose = {};
     friend constexpr bool operator==(const SlotFlip&, const SlotFlip&) = default;
 };
 

@@ -16,8 +16,8 @@ namespace overt {
 struct TobiiSettings {
     std::string library; ///< its file; empty: see load_tobii()
     /// The tracker's address, such as "tet-tcp://172.28.195.1", or its serial number; empty: the only one.
-    std::string device;
-    std::vector<ScreenPoint> calibration_points; ///< on the screen, in px; in this order
+    std::string device = {};
+    std::vector<ScreenPoint> calibration_points = {}; ///< on the screen, in px; in this order
     Degrees target{0.5};
     /// How long a target is there before it is measured.
     SessionDuration target_delay = std::chrono::milliseconds(1000);

@@ -15,7 +15,7 @@ struct TrackerWish {
     double rate_hz = 1000.0;
     Eye eye = Eye::right; ///< of one eye; of both, the one that the analysis takes
     bool both_eyes = false;
-    ScreenGeometry screen;
+    ScreenGeometry screen = {};
     /// Whom a file on the tracker's host is for: the observer, or the id of a further tracker.
     std::string file_name = "overt";
 };

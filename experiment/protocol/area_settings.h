@@ -19,8 +19,8 @@ struct AreaSettings {
     std::vector<std::array<double, 6>> planes;    ///< point and normal
     /// Of a flat picture, in its pixels from its top left corner: left, top, right, bottom; and the x, y and
     /// radius of discs. Boxes and spheres are made of them when the protocol is complete.
-    std::vector<std::array<double, 4>> rectangles;
-    std::vector<std::array<double, 3>> discs;
+    std::vector<std::array<double, 4>> rectangles = {};
+    std::vector<std::array<double, 3>> discs = {};
 
     bool operator==(const AreaSettings&) const = default;
 };

@@ -101,14 +101,14 @@ inline constexpr auto names_of<GazeMissed> = enum_names<GazeMissed>("continue", 
 /// `until` of a step: gaze stays within a distance of a point, or on an area of the object, in one piece.
 struct GazeWait {
     std::optional<double> within_deg; ///< of the fixation target, or of the screen's middle
-    std::string area;                 ///< an area of the object; empty: within_deg says where
-    Place area_place;
-    std::string
-        slot; ///< where: its object, or its middle; empty: any that the step shows, or no slot's middle
-    Place slot_place;
+    std::string area = {};            ///< an area of the object; empty: within_deg says where
+    Place area_place = {};
+    /// Where: its object, or its middle; empty: any that the step shows, or no slot's middle.
+    std::string slot = {};
+    Place slot_place = {};
     double for_s = 0.2;
     double blink_s = 0.3; ///< gaze that is lost for no longer neither counts nor breaks
-    std::optional<double> patience_s;
+    std::optional<double> patience_s = {};
     GazeMissed otherwise = GazeMissed::goes_on;
 };
 

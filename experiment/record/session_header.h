@@ -170,7 +170,7 @@ struct RecordedPoint {
     glm::dvec3 barycentric{0.0};              ///< weights of the triangle's corners, sum 1
     glm::dvec3 position{0.0};                 ///< in object coordinates, in the object's unit
     std::optional<std::uint32_t> vertex = {}; ///< of the mesh, where it is one
-    std::string part;                         ///< of the surface
+    std::string part = {};                    ///< of the surface
 };
 
 /// One thing that the protocol's [dataset] says, by its key; a list has an entry for each text.

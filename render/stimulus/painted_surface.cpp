@@ -55,7 +55,7 @@ PaintedSurface::PaintedSurface(const GlContext& context, const Mesh& mesh, const
             continue;
         const FileMaterial own = appearance.materials.empty() ? FileMaterial() : appearance.materials[of];
         const bool is_given = material.kind == MaterialKind::own && given[of] && material.reflectance;
-        Piece piece{*means[of], static_cast<GLint>(corners.positions.size()), 0, std::nullopt};
+        Piece piece{*means[of], static_cast<GLint>(corners.positions.size()), 0, {}, {}};
         if (!is_given && own.colour_picture.picture >= 0)
             piece.picture = picture_of(context, appearance, own.colour_picture, PixelFormat::srgba8);
         const bool is_metal_given = material.kind != MaterialKind::own || (given[of] && material.metallic);

@@ -15,7 +15,6 @@ using Info = std::shared_ptr<FakeStream>;
 /// By this search; counts it.
 bool is_heard(FakeStream& stream) { return stream.unheard == 0 || stream.unheard-- <= 0; }
 
-std::string words_of(const std::string& word) { return word; }
 std::string words_of(const char* word) { return word; }
 std::string words_of(double number) {
     char text[32];

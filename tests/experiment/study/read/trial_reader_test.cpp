@@ -192,7 +192,7 @@ TEST_CASE("what stands in another slot is a presentation with its slot's name", 
     CHECK(results.objects[static_cast<std::size_t>(results.trials[0].object)].id == "bust");
     CHECK(results.objects[static_cast<std::size_t>(results.trials[1].object)].id == "vase");
     // Samples of one trial count once.
-    CHECK(results.glance.samples == results.trials[0].quality.samples);
+    CHECK(static_cast<double>(results.glance.samples) == results.trials[0].quality.samples);
     CHECK(results.trials[0].key("day") == "3");
     CHECK(results.trials[0].key("session") == "3");
 }
