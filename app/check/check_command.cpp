@@ -31,7 +31,11 @@ namespace overt {
 namespace {
 
 SurfaceFacts surface_of(const Object& object, const ObjectSettings& settings, const Protocol& protocol) {
-    SurfaceFacts facts{object.id, object.mesh->triangles.size(), size_of(object, settings, protocol), {}};
+    SurfaceFacts facts{object.id,
+                       object.mesh->triangles.size(),
+                       size_of(object, settings, protocol),
+                       {},
+                       disparity_of(object, protocol)};
     const std::vector<double> areas = object.mesh->part_areas();
     const double area = object.mesh->area();
     for (std::size_t part = 0; part < areas.size(); ++part)

@@ -106,6 +106,19 @@ void add_mode(CLI::App& display, ChosenCommand& chosen) {
     add_json_flag(command, options.json);
 }
 
+void add_stereo(CLI::App& display, ChosenCommand& chosen) {
+    const auto [command, options] = add_command(
+        display, chosen, run_display_stereo, "stereo",
+        "Shows both eyes a cross, a frame and half a line each, and lets the arrows move the pictures "
+        "until they lie on each other: for setting up a stereoscope",
+        "overt display stereo my_study.toml\n"
+        "  overt display stereo my_study.toml --picture fields.png");
+    command.add_option("PROTOCOL", options.protocol, "Protocol file (TOML) with [stereo]")->required();
+    option(command, "--picture", options.picture, "FILE.png", "Write the screen instead of showing it");
+    add_monitor_option(command, options.monitor, "the protocol's");
+    command.add_flag("--windowed", options.windowed, "A window instead of the whole screen");
+}
+
 /// Two commands by one name: what is drawn, and what arrives at the box.
 struct VerifyOptions {
     DisplayVerifyOptions on_screen;
@@ -156,6 +169,7 @@ void add_display_commands(CLI::App& app, ChosenCommand& chosen) {
     add_mode(display, chosen);
     add_characterise(display, chosen);
     add_colour(display, chosen);
+    add_stereo(display, chosen);
 }
 
 } // namespace overt

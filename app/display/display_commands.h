@@ -71,6 +71,16 @@ struct DisplayCharacteriseOptions {
 int run_display_characterise(const DisplayCharacteriseOptions& options);
 
 /// From colours to a characterised display's light, and back. One of the four is given.
+struct DisplayStereoOptions {
+    std::filesystem::path protocol; ///< with [stereo]
+    std::filesystem::path picture;  ///< of the screen, to be written instead of a window; empty: none
+    std::string monitor;            ///< see MonitorWish; empty: the protocol's
+    bool windowed = false;
+};
+/// Shows both eyes what tells whether their pictures lie on each other, lets keys move them, and prints the
+/// keys of the protocol that say where they are then.
+int run_display_stereo(const DisplayStereoOptions& options);
+
 struct DisplayColourOptions {
     std::filesystem::path characterisation;
     std::vector<double> xyz, cones, rgb; ///< three numbers each, or none

@@ -13,6 +13,7 @@
 #include "experiment/scene/areas.h"
 #include "experiment/scene/making/mesh_parts.h"
 #include "experiment/spectra/metal_table.h"
+#include "experiment/stimulus/disparity.h"
 #include "experiment/stimulus/object_size.h"
 #include "render/image/light_probe.h"
 #include "render/image/linear_image.h"
@@ -99,6 +100,14 @@ std::vector<Object> examine_objects(const Protocol& protocol, const std::filesys
             if (!object.has_mesh())
                 return;
             examine_cameras(protocol, object, diagnostics);
+            if (const auto disparity = disparity_of(object, protocol);
+                disparity && disparity->most() > protocol.stereo.largest_disparity_arcmin)
+                diagnostics.warning(
+                    protocol.file.string(), place,
+                    fmt::format("object \"{}\": the two eyes see it up to {:.0f} arcmin apart, more than "
+                                "largest_disparity_arcmin = {:g}: some observers will see it double",
+                                settings.id, disparity->most(), protocol.stereo.largest_disparity_arcmin),
+                    "make it flatter or smaller, or move the observer away");
             const std::string unit = fmt::format("object[{}].unit", i);
             if (const auto doubt =
                     doubt_of_size(size_of(object, settings, protocol),

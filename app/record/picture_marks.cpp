@@ -53,9 +53,10 @@ void draw_line_of_mark(LinearImage& picture, const MarkLine& line, double reach_
 /// The camera of a picture; marks' places come in its pixels.
 class PictureView final : public ProbeView {
   public:
-    PictureView(glm::ivec2 image_px, Degrees vertical_fov) {
-        middle = {0.5 * image_px.x, 0.5 * image_px.y};
-        px_at_unit_depth = 0.5 * image_px.y / std::tan(0.5 * to_radians(vertical_fov).value);
+    explicit PictureView(const View& view) {
+        const glm::dvec2 ahead_px = view.straight_ahead_px();
+        middle = {ahead_px.x, ahead_px.y};
+        px_at_unit_depth = view.px_at_unit_depth();
     }
     SeenProbe seen_in(AnimationFrameIndex) const noexcept override { return {}; }
 
@@ -130,7 +131,7 @@ void PictureMarks::draw_gauges(LinearImage& picture, const Placed& probe, const 
     const SessionHeader& header = record_->header();
     const Task& task = protocol_->tasks.at(static_cast<std::size_t>(seen_->trial.task));
     const Stimulus stimulus = header.in_slot(seen_->trial.shown(0));
-    const PictureView view(picture.size_px, header.camera_of(stimulus).vertical_fov);
+    const PictureView view(View{header.camera_of(stimulus), picture.size_px});
     const double px_per_deg = header.display.screen.px_per_deg_at_centre();
     for (const GivenAnswer& given : seen_->outcome.given) {
         const auto answer = std::ranges::find(task.answers, given.id, &TaskAnswer::id);

@@ -58,7 +58,11 @@ const SurfaceLookup* RecordedSurfaces::lookup_of(const ViewedObject& viewed) {
 
 RecordedSurfaces::Surface& RecordedSurfaces::surface_of(const ViewedObject& viewed) {
     if (keep_ == Keep::last && !loaded_.contains(viewed)) {
-        loaded_.clear();
+        // What both eyes see of an object is asked for together.
+        const auto views = static_cast<int>(record_->header().views_of_an_eye());
+        std::erase_if(loaded_, [&](const auto& held) {
+            return held.first.object != viewed.object || held.first.view % views != viewed.view % views;
+        });
         malloc_trim(0); // else the C library keeps it, and the next object's comes on top
     }
     std::unique_ptr<Surface>& surface = loaded_[viewed];

@@ -16,9 +16,9 @@ OpenDisplay::OpenDisplay(DisplayRequest request) : request_(std::move(request)) 
         context_ = make_headless_context(request_.context);
         return;
     }
-    auto window = std::make_unique<WindowContext>(
-        WindowRequest{request_.size_px, request_.title, !request_.windowed && !request_.virtual_time, true,
-                      request_.bits_per_channel, request_.monitor, request_.refresh_hz});
+    auto window = std::make_unique<WindowContext>(WindowRequest{
+        request_.size_px, request_.title, !request_.windowed && !request_.virtual_time, true,
+        request_.bits_per_channel, request_.monitor, request_.refresh_hz, request_.has_two_eyes});
     window_ = window.get();
     context_ = std::move(window);
 }

@@ -23,6 +23,7 @@ struct DisplayRequest {
     bool windowed = false;     ///< a window instead of the whole screen
     std::string monitor = {};  ///< see WindowRequest
     bool headless = false;     ///< no window, unless `context` says so
+    bool has_two_eyes = false; ///< a window has a buffer for each eye
     /// In a window in real time, times are those of the best source there is; else of the swaps.
     bool finds_blanks = false;
 };

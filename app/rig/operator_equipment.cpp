@@ -17,8 +17,9 @@ OperatorServer::Options operator_view_of(const SessionHeader& header, const Prot
     facts.folder = std::filesystem::absolute(folder).lexically_normal().string();
     facts.trials = static_cast<int>(header.schedule.trials.size());
     facts.refresh_hz = protocol.display.refresh_hz;
-    facts.width_px = protocol.display.width_px;
-    facts.height_px = protocol.display.height_px;
+    const ScreenGeometry screen = screen_geometry_of(protocol);
+    facts.width_px = screen.screen_px.x;
+    facts.height_px = screen.screen_px.y;
     for (const Slot& slot : protocol.slots) {
         const ImageBox at = slot_geometry(protocol, slot).image_box();
         facts.slots.push_back({slot.id, at.origin_px.x, at.origin_px.y, at.size_px.x, at.size_px.y});

@@ -43,11 +43,11 @@ std::string sentence_on(const PageVerification& page, const std::string& stimulu
 
 std::vector<PageVerification> verify_pages(PagePresenter& presenter, const FrameSource& pages,
                                            const Stimulus& stimulus, const ScreenGeometry& geometry,
-                                           const DisplaySettings& display) {
+                                           const DisplaySettings& display, Eye eye) {
     presenter.load_frames(stimulus);
     std::vector<PageVerification> verified;
     for (int page = 0; page < presenter.pages(); ++page) {
-        const LinearImage picture = pages.page(stimulus, page);
+        const LinearImage picture = pages.page(pages.in_slot({stimulus, 0}, eye), page);
         const std::vector<std::byte> bytes = presenter.read_page(page);
         verified.push_back(
             {page, check_signal({geometry.screen_px, bytes}, display, {&picture, geometry.image_origin_px}),
@@ -56,25 +56,30 @@ std::vector<PageVerification> verify_pages(PagePresenter& presenter, const Frame
     return verified;
 }
 
-void record_verification(PagePresenter& presenter, const FrameSource& pages, const Protocol& protocol,
-                         const Schedule& schedule, const Clock& clock, SessionLog& log,
-                         const StimulusProgress& progress) {
+void record_verification(std::span<PagePresenter* const> presenters, const FrameSource& pages,
+                         const Protocol& protocol, const Schedule& schedule, const Clock& clock,
+                         SessionLog& log, const StimulusProgress& progress) {
     const std::vector<Stimulus> stimuli = distinct_stimuli(protocol, schedule);
     // In the first slot: the others have the same bytes.
     const ScreenGeometry geometry = slot_geometry(protocol, protocol.slots.front());
+    const DisplaySettings display = display_of_field(protocol);
     std::string first_difference;
     int done = 0;
     for (const Stimulus& stimulus : stimuli) {
         if (progress)
             progress(done++, static_cast<int>(stimuli.size()));
-        const std::string name = protocol.objects[static_cast<std::size_t>(stimulus.object)].id + "/" +
-                                 protocol.materials[static_cast<std::size_t>(stimulus.material)].id;
-        for (const PageVerification& page :
-             verify_pages(presenter, pages, stimulus, geometry, protocol.display)) {
-            const std::string sentence = sentence_on(page, name);
-            log.event({clock.now(), -1, output_verified_event, sentence});
-            if (page.findings.different > 0 && first_difference.empty())
-                first_difference = sentence;
+        for (std::size_t of = 0; of < presenters.size(); ++of) {
+            std::string name = protocol.objects[static_cast<std::size_t>(stimulus.object)].id + "/" +
+                               protocol.materials[static_cast<std::size_t>(stimulus.material)].id;
+            if (presenters.size() > 1)
+                name += of == 0 ? ", left eye," : ", right eye,";
+            for (const PageVerification& page :
+                 verify_pages(*presenters[of], pages, stimulus, geometry, display, static_cast<Eye>(of))) {
+                const std::string sentence = sentence_on(page, name);
+                log.event({clock.now(), -1, output_verified_event, sentence});
+                if (page.findings.different > 0 && first_difference.empty())
+                    first_difference = sentence;
+            }
         }
     }
     if (progress)

@@ -24,18 +24,19 @@ struct PageVerification {
 };
 
 /// Draws each page of a stimulus once, without showing it. `pages` and `presenter` belong together; `display`
-/// is what the presenter was made for.
+/// and `eye` are what the presenter was made for.
 std::vector<PageVerification> verify_pages(PagePresenter& presenter, const FrameSource& pages,
                                            const Stimulus& stimulus, const ScreenGeometry& geometry,
-                                           const DisplaySettings& display);
+                                           const DisplaySettings& display, Eye eye = Eye::left);
 
 /// Told before each stimulus.
 using StimulusProgress = std::function<void(int done, int total)>;
 
 /// Verifies each stimulus of a schedule and writes an event "output verified" for each page. Throws
-/// GraphicsError, once all is written, if a single value differs from its prediction.
-void record_verification(PagePresenter& presenter, const FrameSource& pages, const Protocol& protocol,
-                         const Schedule& schedule, const Clock& clock, SessionLog& log,
-                         const StimulusProgress& progress);
+/// GraphicsError, once all is written, if a single value differs from its prediction. `presenters`: by eye,
+/// where each has pictures of its own; else one.
+void record_verification(std::span<PagePresenter* const> presenters, const FrameSource& pages,
+                         const Protocol& protocol, const Schedule& schedule, const Clock& clock,
+                         SessionLog& log, const StimulusProgress& progress);
 
 } // namespace overt

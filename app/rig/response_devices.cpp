@@ -14,8 +14,12 @@ constexpr ResponseDevice known_devices[] = {
      }},
     {"window keyboard", [](const ResponseParts& parts) { return parts.window != nullptr; },
      [](const ResponseParts& parts, ResponsePanel* answering) -> std::unique_ptr<ResponsePanel> {
-         return std::make_unique<WindowResponsePanel>(*parts.window, parts.clock, parts.protocol.operators,
-                                                      parts.protocol.consent, answering);
+         auto panel = std::make_unique<WindowResponsePanel>(
+             *parts.window, parts.clock, parts.protocol.operators, parts.protocol.consent, answering);
+         panel->take_places_by([&protocol = parts.protocol](glm::dvec2 from_middle_px) {
+             return in_field(protocol, from_middle_px);
+         });
+         return panel;
      }},
 };
 

@@ -43,6 +43,7 @@ DisplayRequest display_of(const Protocol& protocol, const RigRequest& request) {
             .virtual_time = request.virtual_time,
             .windowed = request.windowed,
             .monitor = request.monitor.empty() ? display.monitor : request.monitor,
+            .has_two_eyes = protocol.stereo.kind == StereoKind::frame_sequential,
             .finds_blanks = true};
 }
 
@@ -96,10 +97,16 @@ std::string Rig::timing_word() const {
 
 bool Rig::maps_are_live() const {
     // Software takes a tenth of a second for a map: far longer than a refresh.
-    // Live maps are of the one object that is shown.
-    return protocol_->slots.size() == 1 &&
+    // Live maps are of the one picture that is shown.
+    return protocol_->slots.size() == 1 && !protocol_->stereo.is_on() &&
            (request_.maps == MapTime::live ||
             (request_.maps == MapTime::automatic && !context().description().is_software));
+}
+
+std::vector<PagePresenter*> Rig::page_presenters() {
+    if (stereo_)
+        return {&stereo_->of(Eye::left), &stereo_->of(Eye::right)};
+    return {presenter_.get()};
 }
 
 std::vector<PresentationListener*> Rig::listeners() {
@@ -122,9 +129,13 @@ void Rig::open(SimulatedFaults faults, SessionTime start) {
     if (!request_.draws_stimuli)
         undrawn_ = std::make_unique<UndrawnFrames>(library_, *protocol_);
     const FrameSource& frames = undrawn_ ? static_cast<const FrameSource&>(*undrawn_) : library_;
-    presenter_ =
-        std::make_unique<PagePresenter>(display_.context(), display_.surface(), frames, geometry,
-                                        protocol_->display, protocol_->screens, slot_places(*protocol_));
+    if (protocol_->stereo.is_on())
+        stereo_ =
+            std::make_unique<StereoPresenter>(display_.context(), display_.surface(), frames, *protocol_);
+    else
+        presenter_ =
+            std::make_unique<PagePresenter>(display_.context(), display_.surface(), frames, geometry,
+                                            protocol_->display, protocol_->screens, slot_places(*protocol_));
     if (maps_are_live())
         live_maps_ =
             std::make_unique<LiveMaps>(display_.context(), *protocol_, objects_, library_.cache().poses());

@@ -16,7 +16,7 @@
 #include "experiment/ports/response_panel.h"
 #include "experiment/protocol/files/fault_file.h"
 #include "experiment/record/session_header.h"
-#include "render/presenter/page_presenter.h"
+#include "render/presenter/stereo_presenter.h"
 #include "render/stimulus/live_maps.h"
 #include "render/stimulus/stimulus_library.h"
 #include "render/window/quiet_desktop.h"
@@ -109,7 +109,11 @@ class Rig {
     /// a real screen. Throws InputError if nothing does, see require_video_check().
     const ScreenFinding& check_video(const BoxIdentity& box);
 
-    PagePresenter& presenter() { return *presenter_; }
+    Presenter& presenter() { return stereo_ ? static_cast<Presenter&>(*stereo_) : *presenter_; }
+    /// What draws the pictures: one, or those of the left and the right eye.
+    std::vector<PagePresenter*> page_presenters();
+    /// The one of them that shows what is drawn, and in which the screen's messages begin.
+    PagePresenter& leading_presenter() { return stereo_ ? stereo_->leading() : *presenter_; }
     EyeTracker& tracker() { return *tracker_; }
     /// One that records at the same time.
     struct Further {
@@ -156,8 +160,9 @@ class Rig {
     StimulusLibrary library_;
     SeenAreas areas_;
     SeenPoints points_;
-    std::unique_ptr<UndrawnFrames> undrawn_; ///< in its place, if stimuli are not drawn
-    std::unique_ptr<PagePresenter> presenter_;
+    std::unique_ptr<UndrawnFrames> undrawn_;   ///< in its place, if stimuli are not drawn
+    std::unique_ptr<PagePresenter> presenter_; ///< or
+    std::unique_ptr<StereoPresenter> stereo_;
     std::unique_ptr<LiveMaps> live_maps_;
     std::unique_ptr<SimulatedObserver> observer_;
     std::unique_ptr<SimulatedAnswers> simulated_answers_;

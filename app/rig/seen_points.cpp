@@ -49,22 +49,32 @@ std::shared_ptr<const ProbeView> SeenPoints::point_of(const PlacedStimulus& plac
     if (!caster)
         caster = std::make_unique<RayCaster>(object.mesh);
     const SceneView& scene = object.scene(stimulus.view);
+    const Eye other = protocol_->tracker.analysed_eye() == Eye::left ? Eye::right : Eye::left;
+    const SceneView& others = object.scene(protocol_->in_slot(placed, other).view);
     const std::span<const PoseIndex> frames = poses_->frames_of(stimulus.motion);
     std::vector<SeenProbe> by_pose(poses_->angles.size());
     std::vector<bool> is_known(by_pose.size());
     for (const PoseIndex pose : frames) {
         const auto index = static_cast<std::size_t>(pose.value);
-        if (!is_known[index])
-            by_pose[index] = seen_point(object.mesh, *caster, scene, poses_->object_of(pose), *found);
+        if (is_known[index])
+            continue;
         is_known[index] = true;
+        by_pose[index] = seen_point(object.mesh, *caster, scene, poses_->object_of(pose), *found);
+        // A mark before one eye alone would be seen in no depth.
+        if (protocol_->stereo.is_on())
+            by_pose[index].is_visible =
+                by_pose[index].is_visible &&
+                seen_point(object.mesh, *caster, others, poses_->object_of(pose), *found).is_visible;
     }
     auto view = std::make_shared<PlacedPoint>(std::move(by_pose),
                                               std::vector<PoseIndex>(frames.begin(), frames.end()));
     const ScreenGeometry screen =
         slot_geometry(*protocol_, protocol_->slots[static_cast<std::size_t>(placed.slot)]);
-    view->middle = screen.screen_from_image(0.5 * glm::dvec2(screen.image_px));
-    view->px_at_unit_depth =
-        0.5 * screen.image_px.y / std::tan(0.5 * to_radians(scene.view.camera.vertical_fov).value);
+    const Camera& camera = scene.view.camera;
+    view->middle = screen.screen_from_image(scene.view.straight_ahead_px());
+    view->px_at_unit_depth = scene.view.px_at_unit_depth();
+    view->aside = camera.aside;
+    view->target_depth = glm::distance(camera.position, camera.target);
     made->second = view;
     return view;
 }

@@ -22,8 +22,9 @@ class SeenPoints {
     /// All must outlive this, and the views that it gives.
     SeenPoints(const Protocol& protocol, std::span<const Object> objects, const PoseTable& poses);
 
-    /// A place of the stimulus's object, as its camera sees it in its slot; null where the object has none of
-    /// this name. Each place's first takes a ray for each pose, and an object's first some milliseconds.
+    /// A place of the stimulus's object, as its camera sees it in its slot, visible where both eyes see it;
+    /// null where the object has none of this name. Each place's first takes a ray for each pose, and an
+    /// object's first some milliseconds.
     std::shared_ptr<const ProbeView> point_of(const PlacedStimulus& placed, const std::string& point);
 
   private:

@@ -15,7 +15,9 @@ class UndrawnFrames final : public FrameSource {
     UndrawnFrames(const FrameSource& frames, const Protocol& protocol)
         : frames_(&frames), protocol_(&protocol) {}
 
-    Stimulus in_slot(const PlacedStimulus& placed) const override { return frames_->in_slot(placed); }
+    Stimulus in_slot(const PlacedStimulus& placed, Eye eye) const override {
+        return frames_->in_slot(placed, eye);
+    }
     std::vector<int> page_of_frame(const Stimulus& stimulus) const override {
         return std::vector<int>(frames_->page_of_frame(stimulus).size(), 0);
     }

@@ -18,7 +18,7 @@ BoxInUse::BoxInUse(const FoundBox& found, const DisplaySettings& display, Rig& r
     recorded_.use = found.use;
     if (found.identity) {
         fmt::print("display box: switching {} at {} …\n", found.identity->product, found.identity->port);
-        session_.emplace(*found.identity, display, rig.clock(), rig.presenter());
+        session_.emplace(*found.identity, display, rig.clock(), rig.leading_presenter());
         recorded_ = session_->recorded();
     }
     fmt::print("display box: {}\n", describe(recorded_));

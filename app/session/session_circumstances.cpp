@@ -72,7 +72,7 @@ void note_circumstances(const RunOptions& options, const Protocol& protocol, con
                    "pictures"});
     if (options.verify_output) {
         ProgressBar bar;
-        record_verification(rig.presenter(), rig.library(), protocol, schedule, rig.clock(), log,
+        record_verification(rig.page_presenters(), rig.library(), protocol, schedule, rig.clock(), log,
                             [&](int done, int total) { bar.update("verifying the output", done, total); });
     }
 }

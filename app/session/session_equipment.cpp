@@ -66,7 +66,7 @@ void SessionEquipment::open(const Protocol& protocol, const RunOptions& options,
     rig_.open(plan.faults, plan.resumed ? plan.resumed->clock_start : SessionTime());
     if (rig_.is_on_a_real_screen() && options.refresh_check_s > 0.0)
         check_timing(rig_, options.refresh_check_s);
-    rig_.presenter().close_on(Interruption::requested());
+    rig_.leading_presenter().close_on(Interruption::requested());
     box_.emplace(found_box_, protocol.display, rig_);
     const auto tell = [](const std::string& sentence) { fmt::print(stderr, "{}\n", sentence); };
     buttons_ = open_button_boxes(protocol, rig_, *box_, options, tell);

@@ -152,6 +152,10 @@ SessionHeader make_session_header(const Protocol& protocol, const Schedule& sche
     header.display = {screen_geometry_of(protocol), protocol.display.refresh_hz,
                       from_seconds(1e-3 * protocol.display.latency_ms),
                       std::string(name_of(protocol.display.output)), protocol.display.background};
+    if (protocol.stereo.is_on()) {
+        header.display.stereo = name_of(protocol.stereo.kind);
+        header.display.interocular_mm = protocol.stereo.interocular_mm;
+    }
     for (const Slot& slot : protocol.slots) {
         const ScreenGeometry at = slot_geometry(protocol, slot);
         header.slots.push_back({slot.id, slot.title, at.image_origin_px, at.image_px});

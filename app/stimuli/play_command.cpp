@@ -10,7 +10,7 @@
 #include "app/stimuli/live_play.h"
 #include "app/stimuli/stimulus_commands.h"
 #include "render/image/text_layout.h"
-#include "render/presenter/page_presenter.h"
+#include "render/presenter/stereo_presenter.h"
 #include "render/stimulus/stimulus_library.h"
 #include "render/window/window_system.h"
 
@@ -42,8 +42,15 @@ void play_in_window(OpenDisplay& window, StimulusLibrary& library, const Stimulu
     // For a look on an ordinary screen: the packed signal of a Display++ would be unreadable there.
     display.output = OutputMode::native_8bit;
     display.gamma = 2.2;
-    PagePresenter presenter(window.context(), window.surface(), library, screen_geometry_of(protocol),
-                            display, protocol.screens);
+    Protocol shown = protocol;
+    shown.display = display;
+    std::unique_ptr<Presenter> made;
+    if (protocol.stereo.is_on())
+        made = std::make_unique<StereoPresenter>(window.context(), window.surface(), library, shown);
+    else
+        made = std::make_unique<PagePresenter>(window.context(), window.surface(), library,
+                                               screen_geometry_of(protocol), display, protocol.screens);
+    Presenter& presenter = *made;
     presenter.load_frames(stimulus);
     const Animation& motion = protocol.motion_of(stimulus);
     const double frame_s = 1.0 / motion.frame_rate_hz;
@@ -82,7 +89,8 @@ int run_play(const PlayOptions& options) {
                    .size_px = {protocol.display.width_px, protocol.display.height_px},
                    .title = "overt play",
                    .refresh_hz = protocol.display.refresh_hz,
-                   .windowed = true};
+                   .windowed = true,
+                   .has_two_eyes = protocol.stereo.kind == StereoKind::frame_sequential};
     else if (options.context == ContextKind::window)
         request.context = {};
     OpenDisplay display(request);

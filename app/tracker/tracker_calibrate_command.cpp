@@ -54,7 +54,7 @@ TriedCalibration calibrate_on(const Experiment& given, const TrackerCalibrateOpt
             cache_folder());
     rig.open();
     const Interruption interruption;
-    rig.presenter().close_on(Interruption::requested());
+    rig.leading_presenter().close_on(Interruption::requested());
     if (!rig.tracker().measures_gaze())
         throw InputError("there is no eye tracker to calibrate: name one with --tracker, or in the protocol");
     PrintingLog log;

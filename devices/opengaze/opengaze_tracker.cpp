@@ -244,10 +244,11 @@ OpenGazeSettings opengaze_settings_of(const Protocol& protocol) {
     OpenGazeSettings settings;
     settings.server = parse_network_address(protocol.tracker.address, settings.server);
     settings.point = protocol.tracker.point;
-    for (const ScreenPoint target : calibration_targets(
-             protocol.calibration.points, protocol.calibration.area, screen_geometry_of(protocol)))
-        settings.calibration_points.emplace_back(target.x_px / protocol.display.width_px,
-                                                 target.y_px / protocol.display.height_px);
+    const ScreenGeometry screen = screen_geometry_of(protocol);
+    for (const ScreenPoint target :
+         calibration_targets(protocol.calibration.points, protocol.calibration.area, screen))
+        settings.calibration_points.emplace_back(target.x_px / screen.screen_px.x,
+                                                 target.y_px / screen.screen_px.y);
     return settings;
 }
 

@@ -252,15 +252,33 @@ int script_number(int trial, int show) {
     return trial + most_trials * show;
 }
 
+namespace {
+
+/// How the object of a fixation's target is turned, as the eye pursues it.
+glm::dmat4 pursued(const ScriptedFixation& fixation, SessionDuration since_onset,
+                   const ObservedPresentation& on) noexcept {
+    const SessionDuration since_lit = since_onset - fixation.light_delay;
+    return on.targets->world_from_object(on.seen ? on.seen->angle_at(since_lit)
+                                                 : on.turn->angle_at(since_lit));
+}
+
+} // namespace
+
+double other_eye_right_px(const ScriptedFixation& fixation, SessionDuration since_onset,
+                          std::span<const ObservedPresentation> shown) noexcept {
+    if (!fixation.target)
+        return 0.0;
+    const ObservedPresentation& on = shown[fixation.shown];
+    return on.targets->other_eye_right_px(fixation.target->position, pursued(fixation, since_onset, on));
+}
+
 ScreenPoint place_of(const ScriptedFixation& fixation, SessionDuration since_onset,
                      std::span<const ObservedPresentation> shown) noexcept {
     if (!fixation.target)
         return fixation.place;
     const ObservedPresentation& on = shown[fixation.shown];
-    const SessionDuration since_lit = since_onset - fixation.light_delay;
-    const ObjectPose angle = on.seen ? on.seen->angle_at(since_lit) : on.turn->angle_at(since_lit);
     return on.screen.screen_from_image(
-        on.targets->project(fixation.target->position, on.targets->world_from_object(angle)));
+        on.targets->project(fixation.target->position, pursued(fixation, since_onset, on)));
 }
 
 ScreenPoint place_of(const ScriptedFixation& fixation, SessionDuration since_onset,

@@ -126,6 +126,10 @@ class GazeScript {
 /// By which number GazeScript::compose() draws the script of a trial's show, from 0: each is looked at anew.
 int script_number(int trial, int show);
 
+/// How much farther to the right than place_of() the other eye has the target of a fixation.
+double other_eye_right_px(const ScriptedFixation& fixation, SessionDuration since_onset,
+                          std::span<const ObservedPresentation> shown) noexcept;
+
 /// Where a fixation's target is on the screen, as the eye pursues it.
 ScreenPoint place_of(const ScriptedFixation& fixation, SessionDuration since_onset,
                      std::span<const ObservedPresentation> shown) noexcept;

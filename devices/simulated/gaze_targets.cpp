@@ -52,7 +52,7 @@ GazeTargets::GazeTargets(const ObservedObject& object, const ObservedScene& scen
     for (const Animation& motion : scene.animations) {
         std::vector<glm::dvec3>& eyes = eyes_.emplace_back();
         for (int step = 0; step < motion.steps_per_period(); ++step)
-            eyes.push_back(turned_back(scene_.view.camera.position,
+            eyes.push_back(turned_back(scene_.view.camera.eye(),
                                        scene_.pose_at(motion.object_in(motion.frame_at_step(step)))));
     }
     for (std::size_t effect = 0; effect < scene.effects.size(); ++effect) {
@@ -206,6 +206,11 @@ glm::dmat4 GazeTargets::world_from_object(const ObjectPose& angle) const noexcep
 
 glm::dvec2 GazeTargets::project(glm::dvec3 object_point, const glm::dmat4& world_from_object) const noexcept {
     return scene_.view.project(glm::dvec3(world_from_object * glm::dvec4(object_point, 1.0)));
+}
+
+double GazeTargets::other_eye_right_px(glm::dvec3 object_point,
+                                       const glm::dmat4& world_from_object) const noexcept {
+    return scene_.view.other_eye_right_px(glm::dvec3(world_from_object * glm::dvec4(object_point, 1.0)));
 }
 
 } // namespace overt

@@ -45,6 +45,8 @@ class GazeTargets {
 
     /// Image place of a point of the object, whose turn is `world_from_object`.
     glm::dvec2 project(glm::dvec3 object_point, const glm::dmat4& world_from_object) const noexcept;
+    /// How much farther to the right the other eye has it, where the two have pictures of their own.
+    double other_eye_right_px(glm::dvec3 object_point, const glm::dmat4& world_from_object) const noexcept;
     glm::dmat4 world_from_object(const ObjectPose& angle) const noexcept;
 
   private:

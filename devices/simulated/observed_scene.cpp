@@ -28,6 +28,7 @@ ObservedScene make_observed_scene(const Protocol& protocol, std::span<const Obje
     scene.screen = screen;
     scene.animations.assign(protocol.motions.begin(), protocol.motions.end());
     scene.views = static_cast<int>(protocol.views_at_all_sizes());
+    scene.first_view = protocol.in_slot({}).view;
     scene.refresh_hz = protocol.display.refresh_hz;
     scene.display_latency = from_seconds(1e-3 * protocol.display.latency_ms);
     for (const Object& object : objects) {

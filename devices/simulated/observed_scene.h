@@ -57,7 +57,8 @@ struct ObservedScene {
     double refresh_hz = 120.0;
     SessionDuration display_latency{};                      ///< from vertical blank to the first row's light
     std::vector<ObservedObject> objects;                    ///< see index_of(): each object in each view
-    int views = 1;                                          ///< at all sizes that slots have
+    int views = 1;                                          ///< at all sizes that slots have, of both eyes
+    int first_view = 0;                                     ///< of the eye that is analysed
     std::vector<std::string> areas{std::string(head_area)}; ///< that gaze is meant for, without overlap
     std::vector<ObservedTask> tasks;                        ///< by Trial::task
     std::vector<ObservedEffect> effects = {};
@@ -83,7 +84,7 @@ struct ObservedScene {
     /// Where `objects` has what is seen of a stimulus in its slot.
     std::size_t index_of(const PlacedStimulus& shown) const {
         const auto slot = static_cast<std::size_t>(shown.slot);
-        const int view = shown.stimulus.view + (slot < slot_views.size() ? slot_views[slot] : 0);
+        const int view = first_view + shown.stimulus.view + (slot < slot_views.size() ? slot_views[slot] : 0);
         return static_cast<std::size_t>(shown.stimulus.object) * static_cast<std::size_t>(views) +
                static_cast<std::size_t>(view);
     }

@@ -232,6 +232,8 @@ GazeSample SimulatedEyeTracker::sample_at(std::int64_t tick, glm::dvec2 offset_d
     const glm::dvec2 error_px =
         (offset_deg + beside_deg + settings_.noise_deg * glm::dvec2(noise.x, noise.y)) * px_per_deg_;
     ScreenPoint place{gaze.place.x_px + error_px.x, gaze.place.y_px + error_px.y};
+    if (is_second_eye)
+        place.x_px += gaze.other_eye_right_px;
     if (settings_.uncalibrated)
         place = as_measured(place);
     sample.gaze =

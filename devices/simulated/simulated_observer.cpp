@@ -162,12 +162,12 @@ void SimulatedObserver::look_at(ScreenPoint place, SessionTime onset) {
 SimulatedObserver::Looking SimulatedObserver::resting(SessionTime time) const noexcept {
     const auto after = std::ranges::upper_bound(places_, time, {}, &Place::since);
     if (after == places_.begin())
-        return {places_.empty() ? scene_.screen.centre() : places_.front().from};
+        return {.place = places_.empty() ? scene_.screen.centre() : places_.front().from};
     const Place& place = *std::prev(after);
     const SessionTime arrives =
         place.since + saccade_duration(scene_.screen.angle_between(place.from, place.to));
     if (time >= arrives)
-        return {place.to};
+        return {.place = place.to};
     return {between(place.from, place.to, saccade_progress(share_of(time, place.since, arrives))),
             EyeState::saccade, nullptr};
 }
@@ -188,13 +188,16 @@ SimulatedObserver::Looking SimulatedObserver::scripted(const Presentation& prese
     const std::size_t index = presentation.script.fixation_at(since_onset);
     const ScriptedFixation& fixation = fixations[index];
     const ScreenPoint place = place_of(fixation, since_onset, presentation.shown);
+    const double apart = other_eye_right_px(fixation, since_onset, presentation.shown);
     if (since_onset < fixation.end || index + 1 == fixations.size())
-        return {place, EyeState::fixation, &fixation};
+        return {place, EyeState::fixation, &fixation, apart};
     // Both ends of the way go on with the turning object.
     const ScriptedFixation& next = fixations[index + 1];
     const double share = to_seconds(since_onset - fixation.end) / to_seconds(next.begin - fixation.end);
     const ScreenPoint to = place_of(next, since_onset, presentation.shown);
-    return {between(place, to, saccade_progress(share)), EyeState::saccade, nullptr};
+    const double progress = saccade_progress(share);
+    return {between(place, to, progress), EyeState::saccade, nullptr,
+            std::lerp(apart, other_eye_right_px(next, since_onset, presentation.shown), progress)};
 }
 
 SimulatedObserver::Looking SimulatedObserver::looking_at(const Presentation& presentation,
@@ -211,7 +214,8 @@ TrueGaze SimulatedObserver::gaze_at(SessionTime time) const noexcept {
     const Looking looking = presentation ? looking_at(*presentation, time) : resting(time);
     const glm::dvec2 away_px = wandering_.displacement_deg(time) * px_per_deg_;
     return {{looking.place.x_px + away_px.x, looking.place.y_px + away_px.y},
-            blinks_.eye_closed_at(time) ? EyeState::blink : looking.state};
+            blinks_.eye_closed_at(time) ? EyeState::blink : looking.state,
+            looking.other_eye_right_px};
 }
 
 GazeTruth SimulatedObserver::truth_at(SessionTime time) const noexcept {

@@ -24,8 +24,10 @@ enum class EyeState : std::uint8_t { fixation, saccade, blink };
 
 /// Where an eye points, and whether it is open.
 struct TrueGaze {
-    ScreenPoint place;
+    ScreenPoint place; ///< of the eye that is analysed
     EyeState state = EyeState::fixation;
+    double other_eye_right_px =
+        0.0; ///< how much farther to the right the other eye points, in its own picture
 };
 
 /// All that is known about an instant.
@@ -126,6 +128,7 @@ class SimulatedObserver final : public PresentationListener {
         ScreenPoint place;
         EyeState state = EyeState::fixation;
         const ScriptedFixation* fixation = nullptr;
+        double other_eye_right_px = 0.0;
     };
 
     /// Where an eye without a presentation goes.

@@ -48,6 +48,7 @@ std::optional<Protocol> read_text(std::string_view text, const std::filesystem::
         check_image_fits(examination);
         check_sizes(examination);
         check_output(examination);
+        check_stereo(examination);
         check_motions(examination);
         check_motion_kinds(examination);
         check_screens(examination);

@@ -257,6 +257,7 @@ DesignReport make_design_report(const Protocol& protocol, const std::vector<Obse
     report.slots = ids_of(protocol.slots);
     report.display = protocol.display;
     report.view = protocol.views.front();
+    report.stereo = protocol.stereo;
     for (const Slot& slot : protocol.slots)
         if (slot.entry >= 0)
             report.slot_places.push_back({slot.id, slot_geometry(protocol, slot)});

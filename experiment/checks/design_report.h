@@ -13,6 +13,7 @@
 #include "experiment/checks/recording_size.h"
 #include "experiment/checks/rotation_balance.h"
 #include "experiment/protocol/protocol.h"
+#include "experiment/stimulus/disparity.h"
 #include "experiment/stimulus/object_size.h"
 #include "experiment/trial.h"
 
@@ -103,6 +104,7 @@ struct SurfaceFacts {
     std::size_t triangles = 0;
     ObjectSize size;
     std::vector<std::pair<std::string, double>> part_shares; ///< of the area, by name; sum 1
+    std::optional<DisparityRange> disparity = {};            ///< between two eyes' pictures
 };
 
 /// All that `overt check` says about a sound protocol. Indices are those of the protocol's lists.
@@ -121,6 +123,7 @@ struct DesignReport {
     int practice_trials = 0;
 
     DisplaySettings display;
+    StereoSettings stereo;
     ViewSettings view;
     /// A place for a stimulus, with the image in it.
     struct SlotFacts {

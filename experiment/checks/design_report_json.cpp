@@ -207,6 +207,9 @@ Json to_json(const DesignReport& report) {
              {"shown_mm", {surface.size.shown_mm.x, surface.size.shown_mm.y}},
              {"shown_deg", {surface.size.shown_deg.x, surface.size.shown_deg.y}},
              {"part_shares", std::move(parts)}});
+        if (surface.disparity)
+            json["surfaces"].back()["disparity_arcmin"] = {{"nearest", surface.disparity->nearest_arcmin},
+                                                           {"farthest", surface.disparity->farthest_arcmin}};
     }
     json["incidence"] = Json::array();
     for (const IncidenceCell& cell : report.incidence) {

@@ -51,6 +51,29 @@ void add_facts(std::string& text, std::string_view heading, const std::vector<st
         text += fmt::format("  {:<11}{}\n", i == 0 ? heading : "", lines[i]);
 }
 
+/// Of a protocol with [stereo]: the fields, and how far apart the eyes see each object.
+void add_two_eyes(std::string& text, const DesignReport& report) {
+    const StereoSettings& stereo = report.stereo;
+    if (!stereo.is_on())
+        return;
+    std::vector<std::string> lines;
+    if (stereo.kind == StereoKind::mirrors)
+        lines.push_back(
+            fmt::format("the {} eye has the left half of the screen, {} px wide{}; all places and "
+                        "angles here are those of a half",
+                        stereo.swapped ? "right" : "left", report.display.width_px / 2,
+                        stereo.mirrored ? ", both mirrored" : ""));
+    else
+        lines.emplace_back("each eye has the whole screen in turn, through shutters; untried on hardware");
+    lines.push_back(fmt::format("eyes {:g} mm apart", stereo.interocular_mm));
+    for (const SurfaceFacts& surface : report.surfaces)
+        if (surface.disparity)
+            lines.push_back(fmt::format(
+                "{}: from {:.1f} arcmin before to {:.1f} arcmin behind the screen's plane", surface.object,
+                surface.disparity->nearest_arcmin, surface.disparity->farthest_arcmin));
+    add_facts(text, "Two eyes", lines);
+}
+
 /// "6 objects x 3 materials", and the other lists where they have several entries.
 std::string lists_in_words(const DesignReport& report) {
     std::string words;
@@ -250,6 +273,7 @@ void add_overview(std::string& text, const DesignReport& report) {
                      report.display.height_px, report.display.width_mm, report.display.height_mm,
                      report.display.viewing_distance_mm, angles.screen_width_deg, angles.screen_height_deg),
          fmt::format("light leaves as {}", name_of(report.display.output))});
+    add_two_eyes(text, report);
     std::vector<std::string> places;
     for (const DesignReport::SlotFacts& slot : report.slot_places) {
         const glm::ivec2 first = slot.screen.image_origin_px, last = first + slot.screen.image_px - 1;

@@ -53,10 +53,11 @@ void check_keys_of_mode(ProtocolExamination& examination) {
             examination.error(
                 {"display.onset_trigger"},
                 fmt::format("{} has ten digital outputs: onset_trigger may be 1023 at most", mode));
-        if (display.width_px < t_lock_row_px)
-            examination.error({"display.width_px", "display.output"},
-                              fmt::format("{} carries messages in rows of {} px: the screen is narrower",
-                                          mode, t_lock_row_px));
+        if (field_of(examination.protocol, Eye::left).size_px.x < t_lock_row_px)
+            examination.error(
+                {"display.width_px", "display.output"},
+                fmt::format("{} carries messages in rows of {} px: {} is narrower", mode, t_lock_row_px,
+                            examination.protocol.stereo.is_on() ? "an eye's half" : "the screen"));
     } else {
         if (display.onset_trigger != 0 && row.top_rows == TopRows::none)
             examination.error({"display.onset_trigger"},
@@ -162,7 +163,7 @@ void check_place(ProtocolExamination& examination) {
 
 void check_photodiode(ProtocolExamination& examination) {
     const Protocol& protocol = examination.protocol;
-    const std::optional<PatchPlace> patch = photodiode_patch_of(protocol.display);
+    const std::optional<PatchPlace> patch = photodiode_patch_of(display_of_field(protocol));
     if (!patch) {
         if (examination.is_written("display.photodiode_px"))
             examination.warning({"display.photodiode_px"}, "no square is shown: photodiode says no corner");
@@ -187,7 +188,7 @@ void check_photodiode(ProtocolExamination& examination) {
 
 void check_tags(ProtocolExamination& examination) {
     const Protocol& protocol = examination.protocol;
-    const DisplaySettings& display = protocol.display;
+    const DisplaySettings display = display_of_field(protocol);
     if (display.tags_px == 0) {
         if (examination.is_written("display.tags_light"))
             examination.warning({"display.tags_light"}, "no tags are shown: tags_px says no size");

@@ -32,7 +32,7 @@ bool is_known(ProtocolExamination& examination, const std::string& path, std::st
 namespace {
 
 void check_view(ProtocolExamination& examination, std::size_t index) {
-    const DisplaySettings& display = examination.protocol.display;
+    const DisplaySettings display = display_of_field(examination.protocol);
     const ViewSettings& view = examination.protocol.views[index];
     const auto key = [&](std::string_view name) { return fmt::format("view[{}].{}", index, name); };
     const bool has_slots = !examination.protocol.slot_entries.empty(); // whose places are checked themselves

@@ -14,6 +14,8 @@ void check_image_fits(ProtocolExamination& examination);
 void check_sizes(ProtocolExamination& examination);
 /// What the video signal can carry, and where on the screen.
 void check_output(ProtocolExamination& examination);
+/// Two eyes' fields, and what cannot be shown in them.
+void check_stereo(ProtocolExamination& examination);
 void check_motions(ProtocolExamination& examination);
 void check_motion_kinds(ProtocolExamination& examination); ///< what each kind asks of its keys
 void check_screens(ProtocolExamination& examination);

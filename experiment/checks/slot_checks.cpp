@@ -77,7 +77,7 @@ std::string pixels_of(const ScreenGeometry& at) {
 /// A slot whose whole place cannot be used: beyond the screen, on rows or a square that are something else's.
 void check_slot_place(ProtocolExamination& examination, const Slot& slot) {
     const Protocol& protocol = examination.protocol;
-    const DisplaySettings& display = protocol.display;
+    const DisplaySettings display = display_of_field(protocol);
     const ScreenGeometry at = slot_geometry(protocol, slot);
     const glm::ivec2 first = at.image_origin_px, end = first + at.image_px;
     const auto error = [&](std::string message, std::string hint) {

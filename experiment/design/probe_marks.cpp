@@ -35,7 +35,10 @@ StimulusMark moved_to(const StimulusMark& mark, ScreenPoint at) noexcept {
 }
 
 StimulusMark gauge_mark(const ProbeView& view, const SeenProbe& at, const Attitude& attitude,
-                        double radius_px, double line_px) {
+                        double radius_px, double line_px, bool of_other_eye) {
+    const auto on_screen = [&](const glm::dvec3& position) {
+        return of_other_eye ? view.in_other_eye(position) : view.on_screen(position);
+    };
     // Of the length that has so many pixels in the depth of the place.
     const double radius = radius_px * -at.position.z / view.px_at_unit_depth;
     const glm::dvec3 normal = frame_of_sight(at.position) * normal_of(attitude);
@@ -49,13 +52,13 @@ StimulusMark gauge_mark(const ProbeView& view, const SeenProbe& at, const Attitu
     for (std::size_t i = 0; i < circle.count; ++i) {
         const double turn =
             2.0 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(circle.count - 1);
-        circle.points[i] = view.on_screen(at.position + radius * (std::cos(turn) * u + std::sin(turn) * v));
+        circle.points[i] = on_screen(at.position + radius * (std::cos(turn) * u + std::sin(turn) * v));
     }
     MarkLine& rod = mark.lines[1];
     rod.width_px = line_px;
     rod.count = 2;
-    rod.points[0] = view.on_screen(at.position);
-    rod.points[1] = view.on_screen(at.position + radius * normal);
+    rod.points[0] = on_screen(at.position);
+    rod.points[1] = on_screen(at.position + radius * normal);
     return mark;
 }
 

@@ -35,6 +35,8 @@ void put_description(PictureHeader& header, const MapDescription& description) {
         attributes.emplace_back("overt:camera_position", description.camera->position);
         attributes.emplace_back("overt:camera_target", description.camera->target);
         attributes.emplace_back("overt:camera_vertical_fov_deg", description.camera->vertical_fov.value);
+        if (description.camera->aside != 0.0)
+            attributes.emplace_back("overt:camera_aside", description.camera->aside);
     }
     if (description.angle)
         attributes.emplace_back("overt:angle_deg", description.angle->value);
@@ -57,7 +59,8 @@ MapDescription description_in(const PictureHeader& header) {
                                                                       triple("overt:camera_target");
     const auto* const field = real("overt:camera_vertical_fov_deg");
     if (position && target && field)
-        description.camera = Camera{*position, *target, {*field}};
+        description.camera = Camera{
+            *position, *target, {*field}, real("overt:camera_aside") ? *real("overt:camera_aside") : 0.0};
     if (const auto* const angle = real("overt:angle_deg"))
         description.angle = Degrees{*angle};
     if (const auto* const frame = header.attribute<int>("overt:frame"))
@@ -67,9 +70,7 @@ MapDescription description_in(const PictureHeader& header) {
 
 bool agree(const Bounds& a, const Bounds& b) { return a.min == b.min && a.max == b.max; }
 bool agree(int a, int b) { return a == b; }
-bool agree(const Camera& a, const Camera& b) {
-    return a.position == b.position && a.target == b.target && a.vertical_fov.value == b.vertical_fov.value;
-}
+bool agree(const Camera& a, const Camera& b) { return a == b; }
 bool agree(Degrees a, Degrees b) { return a.value == b.value; }
 bool agree(glm::ivec2 a, glm::ivec2 b) { return a == b; }
 

@@ -112,6 +112,8 @@ Json to_json(const MapDescription& description) {
                           {"target", json_of(camera.target)},
                           {"up", json_of({0.0, 0.0, 1.0})},
                           {"vertical_fov_deg", camera.vertical_fov.value}};
+        if (camera.aside != 0.0)
+            json["camera"]["aside"] = camera.aside;
     }
     if (!description.mesh_sha256.empty())
         json["mesh_sha256"] = description.mesh_sha256;
@@ -148,7 +150,8 @@ std::optional<MapDescription> read_sidecar(const std::filesystem::path& file) {
     if (const auto camera = reader.object("camera")) {
         description.camera = Camera{camera->need("position", camera->vector("position")),
                                     camera->need("target", camera->vector("target")),
-                                    {camera->need("vertical_fov_deg", camera->number("vertical_fov_deg"))}};
+                                    {camera->need("vertical_fov_deg", camera->number("vertical_fov_deg"))},
+                                    camera->number("aside").value_or(0.0)};
     }
     return description;
 }

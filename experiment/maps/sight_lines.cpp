@@ -6,8 +6,8 @@ namespace overt {
 
 SightLines::SightLines(const SceneView& scene, const ObjectPose& object) {
     const View& view = scene.view;
-    centre_px_ = 0.5 * glm::dvec2(view.image_px);
-    px_at_unit_depth_ = 0.5 * view.image_px.y / std::tan(0.5 * to_radians(view.camera.vertical_fov).value);
+    centre_px_ = view.straight_ahead_px();
+    px_at_unit_depth_ = view.px_at_unit_depth();
     const glm::dmat4 view_from_object = view.view_from_world() * scene.pose_at(object).world_from_object();
     // Rows of the rotation are the camera's axes seen from the object.
     const glm::dmat3 object_from_view = glm::transpose(glm::dmat3(view_from_object));

@@ -8,6 +8,7 @@
 #include <glm/glm.hpp>
 
 #include "experiment/animation.h"
+#include "experiment/gaze.h"
 #include "experiment/scene/mesh.h"
 
 namespace overt {
@@ -61,6 +62,17 @@ class SurfaceLookup {
     /// The surface at the centre of a pixel goes on to that of a neighbouring one: no edge lies between them
     /// across which one would step from one sheet of surface to another. False where either shows no surface.
     virtual bool goes_on(PoseIndex pose, glm::ivec2 pixel, glm::ivec2 neighbour) const = 0;
+};
+
+/// What each eye sees: the same, unless the eyes have pictures of their own. Null where there is no surface.
+struct LookupsOfEyes {
+    LookupsOfEyes() = default;
+    LookupsOfEyes(const SurfaceLookup* both) : left(both), right(both) {}
+    LookupsOfEyes(const SurfaceLookup* of_left, const SurfaceLookup* of_right)
+        : left(of_left), right(of_right) {}
+    const SurfaceLookup* of(Eye eye) const { return eye == Eye::left ? left : right; }
+
+    const SurfaceLookup *left = nullptr, *right = nullptr;
 };
 
 } // namespace overt

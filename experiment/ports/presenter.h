@@ -129,8 +129,11 @@ class Presenter {
 
     /// From the next flip on, these stand over the stimuli until they are given anew; over no other screen.
     /// At most `most_marks`. Throws nothing, and allocates nothing for a light that was given before: each is
-    /// given once before a presentation begins.
-    virtual void mark_stimuli(std::span<const StimulusMark> /*marks*/) noexcept {}
+    /// given once before a presentation begins. `of_other_eye`: the same as the eye that is not analysed has
+    /// them; empty where both eyes see one picture.
+    virtual void mark_stimuli(std::span<const StimulusMark> /*marks*/,
+                              std::span<const StimulusMark> /*of_other_eye*/) noexcept {}
+    void mark_stimuli(std::span<const StimulusMark> marks) noexcept { mark_stimuli(marks, {}); }
     static constexpr std::size_t most_marks = 8;
 
     /// Raises these digital outputs of the display box, a bit each, with the refresh that the next flip()

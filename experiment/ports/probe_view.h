@@ -33,8 +33,16 @@ class ProbeView {
         const double scale = px_at_unit_depth / -position.z;
         return {middle.x_px + scale * position.x, middle.y_px - scale * position.y};
     }
-    ScreenPoint middle;            ///< of the image, where the camera looks
+    /// The same in the other eye's picture, where it has one of its own (View::other_eye_right_px).
+    ScreenPoint in_other_eye(const glm::dvec3& position) const noexcept {
+        const ScreenPoint own = on_screen(position);
+        const double right_px = 2.0 * px_at_unit_depth * aside * (1.0 / -position.z - 1.0 / target_depth);
+        return {own.x_px + right_px, own.y_px};
+    }
+    ScreenPoint middle;            ///< where the camera looks straight ahead
     double px_at_unit_depth = 1.0; ///< pixels that a unit of length takes in a depth of one
+    double aside = 0.0;            ///< how far the eye stands to the right of the middle of both
+    double target_depth = 1.0;     ///< in which both eyes see a place alike
 };
 
 } // namespace overt

@@ -83,9 +83,21 @@ bool is_named(std::size_t list, std::size_t entries) {
 
 namespace {
 
+/// Views count on with the sizes of slots, and with the right eye.
+int views_of_an_eye(const Protocol& protocol) {
+    return static_cast<int>(protocol.views_at_all_sizes()) / (protocol.stereo.is_on() ? 2 : 1);
+}
+
+/// "left" or "right"; empty where both eyes have the same.
+std::string_view eye_of_view(const Protocol& protocol, int view) {
+    if (!protocol.stereo.is_on())
+        return {};
+    return view < views_of_an_eye(protocol) ? "left" : "right";
+}
+
 /// The first slot with the size of a view, if it is not the first size.
 std::string slot_of_size(const Protocol& protocol, int view) {
-    const int size = view / static_cast<int>(protocol.views.size());
+    const int size = view % views_of_an_eye(protocol) / static_cast<int>(protocol.views.size());
     const auto slot = std::ranges::find(protocol.slots, size, &Slot::size);
     return size == 0 || slot == protocol.slots.end() ? "" : slot->id;
 }
@@ -99,13 +111,14 @@ std::string joined(const Protocol& protocol, const Stimulus& stimulus, std::stri
             continue;
         if (!name.empty())
             name += between;
-        // Views count on with the sizes of slots.
         name +=
             entries[static_cast<std::size_t>(stimulus.*stimulus_lists[list].index) % entries.size()]->*what;
     }
     const std::string slot = slot_of_size(protocol, stimulus.view);
     if (!slot.empty())
         name.append(between).append(slot);
+    if (const std::string_view eye = eye_of_view(protocol, stimulus.view); !eye.empty())
+        name.append(between).append(eye);
     return name;
 }
 
@@ -133,6 +146,8 @@ std::string viewed_name(const Protocol& protocol, const ViewedObject& viewed, ch
         name += between + protocol.view_at(viewed.view).id;
     if (const std::string slot = slot_of_size(protocol, viewed.view); !slot.empty())
         name += between + slot;
+    if (const std::string_view eye = eye_of_view(protocol, viewed.view); !eye.empty())
+        (name += between) += eye;
     return name;
 }
 

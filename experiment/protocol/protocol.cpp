@@ -92,8 +92,9 @@ std::array<std::vector<bool>, stimulus_lists.size()> chosen_by(const Protocol& p
 ScreenGeometry screen_geometry_of(const Protocol& protocol) {
     const DisplaySettings& display = protocol.display;
     ScreenGeometry geometry;
-    geometry.screen_px = {display.width_px, display.height_px};
-    geometry.screen_mm = {display.width_mm, display.height_mm};
+    geometry.screen_px = field_of(protocol, Eye::left).size_px;
+    geometry.screen_mm = glm::dvec2(display.width_mm, display.height_mm) * glm::dvec2(geometry.screen_px) /
+                         glm::dvec2(display.width_px, display.height_px);
     geometry.viewing_distance_mm = display.viewing_distance_mm;
     geometry.image_px = {protocol.views.front().width_px, protocol.views.front().height_px};
     geometry.image_origin_px = centred_origin_px(geometry.screen_px, geometry.image_px);

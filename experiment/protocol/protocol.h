@@ -36,6 +36,7 @@
 #include "experiment/protocol/recorded_course.h"
 #include "experiment/protocol/sitting_settings.h"
 #include "experiment/protocol/slot.h"
+#include "experiment/protocol/stereo.h"
 #include "experiment/protocol/trial_table.h"
 #include "experiment/screen_geometry.h"
 #include "experiment/stimulus_lists.h"
@@ -214,6 +215,8 @@ struct ViewSettings : ListEntry {
     double margin = 0.06;                      ///< share of the image left free where the camera is fitted
     std::optional<glm::dvec3> camera_position; ///< left out: fitted for each object
     std::optional<glm::dvec3> camera_target;   ///< left out: the centre of the bounding box
+    bool two_eyes = true;  ///< with [stereo], each eye sees it from its own place; else both from the middle
+    double aside_mm = 0.0; ///< of a view for one eye: how far it is to the right of the middle of both
 };
 
 /// What gives the light of a lamp.
@@ -478,6 +481,7 @@ struct Protocol {
     std::string name;
     std::string title;
     DisplaySettings display;
+    StereoSettings stereo;
     TrackerSettings tracker;
     std::vector<FurtherTrackerSettings> further_trackers;
     CalibrationKeys calibration;
@@ -511,7 +515,8 @@ struct Protocol {
     std::vector<ViewSettings> views = std::vector<ViewSettings>(1);
     std::vector<BackgroundSettings> backgrounds = std::vector<BackgroundSettings>(1);
     /// For each further size that slots have (Slot::size), in their order: all views, of that size. What is
-    /// drawn for such a slot counts its views on from those of the list.
+    /// drawn for such a slot counts its views on from those of the list. With [stereo] all these are the left
+    /// eye's, and behind them come the right eye's, in the same order.
     std::vector<ViewSettings> views_in_slots;
     std::vector<LampSettings> lamps; ///< that lights name
     std::vector<FrameSequenceSettings> frames;
@@ -544,13 +549,17 @@ struct Protocol {
     }
     std::size_t views_at_all_sizes() const { return views.size() + views_in_slots.size(); }
 
-    /// The stimulus as its slot shows it: what frames, maps and cameras are found by. Slots of one size have
-    /// the same.
-    Stimulus in_slot(const PlacedStimulus& placed) const {
+    /// The stimulus as its slot shows it to an eye: what frames, maps and cameras are found by. Slots of one
+    /// size have the same, and so have both eyes without [stereo].
+    Stimulus in_slot(const PlacedStimulus& placed, Eye eye) const {
         Stimulus shown = placed.stimulus;
         shown.view += slots.at(static_cast<std::size_t>(placed.slot)).size * static_cast<int>(views.size());
+        if (stereo.is_on() && eye == Eye::right)
+            shown.view += static_cast<int>(views_at_all_sizes() / 2);
         return shown;
     }
+    /// To the eye whose gaze is analysed.
+    Stimulus in_slot(const PlacedStimulus& placed) const { return in_slot(placed, tracker.analysed_eye()); }
 
     std::filesystem::path file;         ///< where it was read
     std::string text;                   ///< the file, byte for byte
@@ -582,7 +591,8 @@ std::vector<NamedWord> own_levels_of(const Protocol& protocol);
 std::array<std::vector<bool>, stimulus_lists.size()> chosen_by(const Protocol& protocol,
                                                                const SimulatedEffect& effect);
 
-/// The screen and the stimulus's place on it, as the protocol has them.
+/// The screen, or with [stereo] the field of it that each eye has, and the stimulus's place there, as the
+/// protocol has them.
 ScreenGeometry screen_geometry_of(const Protocol& protocol);
 
 /// The protocol as the further tracker of this index has it: that is its [tracker], and there is no other.

@@ -118,6 +118,9 @@ void check_header(const SessionHeader& header, const std::filesystem::path& file
                             header.objects[static_cast<std::size_t>(of_list.object)].cameras),
                "the object or the material of a stimulus");
     }
+    for (const RecordedObject& object : header.objects)
+        demand(header.display.stereo.empty() || object.cameras.size() >= 2 * header.views_of_an_eye(),
+               fmt::format("the two eyes' cameras before object \"{}\"", object.id));
     for (const Trial& trial : header.schedule.trials)
         demand(is_index(trial.task, header.tasks) && is_stimulus(trial.stimulus, header, counts) &&
                    (header.blocks.empty() || is_index(trial.block, header.blocks)),

@@ -158,8 +158,10 @@ void read_motions(const SQLite::Database& database, SessionHeader& header) {
 void read_cameras(const SQLite::Database& database, SessionHeader& header) {
     if (!has_table(database, "camera"))
         return;
-    for (Query row(database, "SELECT object, view, x, y, z, target_x, target_y, target_z, vertical_fov_deg "
-                             "FROM camera ORDER BY object, view");
+    for (Query row(database, fmt::format("SELECT object, view, x, y, z, target_x, target_y, target_z, "
+                                         "vertical_fov_deg, {} FROM camera ORDER BY object, view",
+                                         has_column(database, "camera", "aside") ? "aside" : "0.0")
+                                 .c_str());
          row.step();) {
         const auto object = static_cast<std::size_t>(row.small()),
                    view = static_cast<std::size_t>(row.small());
@@ -171,7 +173,7 @@ void read_cameras(const SQLite::Database& database, SessionHeader& header) {
             cameras.resize(view + 1);
         Camera& camera = cameras[view];
         row.read(camera.position.x, camera.position.y, camera.position.z, camera.target.x, camera.target.y,
-                 camera.target.z, camera.vertical_fov.value);
+                 camera.target.z, camera.vertical_fov.value, camera.aside);
     }
 }
 

@@ -79,6 +79,13 @@ constexpr RowColumn<SessionHeader> session_columns[] = {
         "of the flips: `proven` by real vertical blanks, `unproven`, `none` in virtual time or "
         "without a screen; empty if not recorded",
         "''"),
+    column<&Header::display, &Display::stereo>(
+        "stereo",
+        "how each eye had a picture of its own, `mirrors` or `frame-sequential`: the screen's columns "
+        "are those of an eye's field then; empty: both had the same",
+        "''"),
+    column<&Header::display, &Display::interocular_mm>(
+        "interocular_mm", "between the eyes that pictures are drawn for; else 0", "0"),
     column<&Header::animations, 0, &Animation::frame_count>("frame_count", "frames of the animation"),
     column<&Header::animations, 0, &Animation::frame_rate_hz>(
         "frame_rate_hz", "frames to a second, by the protocol; the display shows the nearest rate that its "

@@ -108,9 +108,9 @@ void insert_objects(SQLite::Database& database, const SessionHeader& header) {
         for (const std::string& name : object.part_names)
             insert_values(database, "INTO part", index, part++, name);
         int view = 0;
-        for (const auto& [at, target, fov] : object.cameras)
+        for (const auto& [at, target, fov, aside] : object.cameras)
             insert_values(database, "INTO camera", index, view++, at.x, at.y, at.z, target.x, target.y,
-                          target.z, fov.value);
+                          target.z, fov.value, aside);
         ++index;
     }
     for (const RecordedStimulus& stimulus : header.stimuli)

@@ -71,10 +71,23 @@ int views_of_list(const SessionHeader& header) {
     return static_cast<int>(std::max<std::size_t>(1, header.views.size()));
 }
 
+/// Which of the sizes that slots have.
+std::size_t size_of_view(const SessionHeader& header, int view) {
+    return static_cast<std::size_t>(view % static_cast<int>(header.views_of_an_eye()) /
+                                    views_of_list(header));
+}
+
 } // namespace
 
-Stimulus SessionHeader::in_slot(const PlacedStimulus& placed) const {
+std::size_t SessionHeader::views_of_an_eye() const {
+    return static_cast<std::size_t>(views_of_list(*this)) *
+           std::max<std::size_t>(1, slots_of_sizes(*this).size());
+}
+
+Stimulus SessionHeader::in_slot(const PlacedStimulus& placed, Eye eye) const {
     Stimulus shown = placed.stimulus;
+    if (!display.stereo.empty() && eye == Eye::right)
+        shown.view += static_cast<int>(views_of_an_eye());
     if (placed.slot < 0 || static_cast<std::size_t>(placed.slot) >= slots.size())
         return shown;
     const std::vector<int> first = slots_of_sizes(*this);
@@ -88,7 +101,7 @@ Stimulus SessionHeader::in_slot(const PlacedStimulus& placed) const {
 
 ScreenGeometry SessionHeader::screen_of_view(int view) const {
     const std::vector<int> first = slots_of_sizes(*this);
-    const auto size = static_cast<std::size_t>(view / views_of_list(*this));
+    const std::size_t size = size_of_view(*this, view);
     return size > 0 && size < first.size() ? screen_of_slot(first[size]) : display.screen;
 }
 
@@ -103,9 +116,12 @@ std::string stimulus_name(const SessionHeader& header, const Stimulus& stimulus,
         const auto entry = static_cast<std::size_t>(stimulus.*stimulus_lists[list].index);
         name += entries[entry % entries.size()].id; // views count on with the sizes of slots
     }
-    if (const auto size = static_cast<std::size_t>(stimulus.view / views_of_list(header)); size > 0)
+    if (const std::size_t size = size_of_view(header, stimulus.view); size > 0)
         if (const std::vector<int> first = slots_of_sizes(header); size < first.size())
             name.append(between).append(header.slots[static_cast<std::size_t>(first[size])].id);
+    if (!header.display.stereo.empty())
+        name.append(between).append(
+            static_cast<std::size_t>(stimulus.view) < header.views_of_an_eye() ? "left" : "right");
     return name;
 }
 

@@ -71,6 +71,10 @@ struct RecordedDisplay {
     /// Of the flips: "proven" or "unproven" (TimingClaim); "none" in virtual time and without a screen; empty
     /// where it is not known, as in sessions of earlier programs and in imported ones.
     std::string timing = {};
+    /// How each eye had a picture of its own, by the protocol's word: `screen` is an eye's field then. Empty:
+    /// both had the same.
+    std::string stereo = {};
+    double interocular_mm = 0.0; ///< between the two cameras' eyes; 0 without `stereo`
 };
 
 /// What was known of the display's light: the essentials, and the files that say it, as they were read.
@@ -225,9 +229,15 @@ struct SessionHeader {
         return make_page_cycle(animation_of(stimulus), poses.frames_of(stimulus.motion), display.refresh_hz);
     }
 
-    /// The stimulus as its slot shows it: what frames, maps and cameras are found by. Views count on from
-    /// those of the list for each further size that slots' images have, in the order of the slots.
-    Stimulus in_slot(const PlacedStimulus& placed) const;
+    /// The stimulus as its slot shows it to an eye: what frames, maps and cameras are found by. Views count
+    /// on from those of the list for each further size that slots' images have, in the order of the slots,
+    /// and then, where the eyes have pictures of their own, for the right eye.
+    Stimulus in_slot(const PlacedStimulus& placed, Eye eye) const;
+    /// To the eye that is analysed.
+    Stimulus in_slot(const PlacedStimulus& placed) const { return in_slot(placed, tracker.eye); }
+
+    /// How many views there are at all sizes: as many cameras each eye has before an object.
+    std::size_t views_of_an_eye() const;
 
     /// The screen with an image of the size that belongs to such a view (in_slot).
     ScreenGeometry screen_of_view(int view) const;
@@ -246,6 +256,11 @@ struct SessionHeader {
 /// What the maps of a presentation show: the trial's stimulus in its slot.
 inline ViewedObject viewed_in(const SessionHeader& header, const Trial& trial) {
     return viewed(header.in_slot(trial.shown(0)));
+}
+
+/// The same as an eye sees it.
+inline ViewedObject viewed_in(const SessionHeader& header, const Trial& trial, Eye eye) {
+    return viewed(header.in_slot(trial.shown(0), eye));
 }
 
 /// Where the entries of each of `stimulus_lists` are, in their order.

@@ -39,7 +39,8 @@ CREATE TABLE animation_frame (motion INTEGER NOT NULL DEFAULT 0, frame INTEGER N
                               light_deg REAL NOT NULL DEFAULT 0, PRIMARY KEY (motion, frame)) STRICT, WITHOUT ROWID;
 CREATE TABLE camera (object INTEGER NOT NULL, view INTEGER NOT NULL, x REAL NOT NULL, y REAL NOT NULL,
                      z REAL NOT NULL, target_x REAL NOT NULL, target_y REAL NOT NULL, target_z REAL NOT NULL,
-                     vertical_fov_deg REAL NOT NULL, PRIMARY KEY (object, view)) STRICT, WITHOUT ROWID;
+                     vertical_fov_deg REAL NOT NULL, aside REAL NOT NULL DEFAULT 0,
+                     PRIMARY KEY (object, view)) STRICT, WITHOUT ROWID;
 CREATE TABLE map (object INTEGER NOT NULL, view INTEGER NOT NULL DEFAULT 0, pose INTEGER NOT NULL,
                   file TEXT NOT NULL, sha256 TEXT NOT NULL,
                   made TEXT NOT NULL CHECK (made IN ('prepared', 'live')),

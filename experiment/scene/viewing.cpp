@@ -30,6 +30,11 @@ double half_height_at_unit_distance(const Camera& camera) {
     return std::tan(0.5 * to_radians(camera.vertical_fov).value);
 }
 
+/// How far the image of a camera aside is shifted, seen at distance 1.
+double slant_of(const Camera& camera) {
+    return camera.aside == 0.0 ? 0.0 : camera.aside / glm::distance(camera.position, camera.target);
+}
+
 } // namespace
 
 glm::dmat4 TurntablePose::world_from_object() const {
@@ -42,27 +47,50 @@ glm::dmat4 TurntablePose::world_from_object() const {
            from_axis;
 }
 
-glm::dmat4 View::view_from_world() const { return glm::lookAt(camera.position, camera.target, up); }
+glm::dvec3 Camera::eye() const { return aside == 0.0 ? position : position + aside * axes_of(*this).right; }
+
+glm::dmat4 View::view_from_world() const {
+    const glm::dmat4 from_middle = glm::lookAt(camera.position, camera.target, up);
+    return camera.aside == 0.0
+               ? from_middle
+               : glm::translate(glm::dmat4(1.0), glm::dvec3(-camera.aside, 0.0, 0.0)) * from_middle;
+}
+
+double View::px_at_unit_depth() const { return image_px.y / (2.0 * half_height_at_unit_distance(camera)); }
+
+glm::dvec2 View::straight_ahead_px() const {
+    const glm::dvec2 middle = 0.5 * glm::dvec2(image_px);
+    return camera.aside == 0.0 ? middle : middle + glm::dvec2(px_at_unit_depth() * slant_of(camera), 0.0);
+}
 
 glm::dmat4 View::clip_from_view(double near, double far) const {
     const double aspect = static_cast<double>(image_px.x) / image_px.y;
-    return glm::perspective(to_radians(camera.vertical_fov).value, aspect, near, far);
+    glm::dmat4 clip = glm::perspective(to_radians(camera.vertical_fov).value, aspect, near, far);
+    if (camera.aside != 0.0)
+        clip[2][0] = -clip[0][0] * slant_of(camera);
+    return clip;
 }
 
 Ray View::ray_through(glm::dvec2 image_point_px) const {
     const CameraAxes axes = axes_of(camera);
     const double scale = 2.0 * half_height_at_unit_distance(camera) / image_px.y;
-    const glm::dvec2 offset = (image_point_px - 0.5 * glm::dvec2(image_px)) * scale;
-    return {camera.position, glm::normalize(axes.forward + offset.x * axes.right - offset.y * axes.upward)};
+    const glm::dvec2 offset = (image_point_px - straight_ahead_px()) * scale;
+    return {camera.eye(), glm::normalize(axes.forward + offset.x * axes.right - offset.y * axes.upward)};
 }
 
 glm::dvec2 View::project(glm::dvec3 world_point) const {
     const CameraAxes axes = axes_of(camera);
-    const glm::dvec3 from_camera = world_point - camera.position;
+    const glm::dvec3 from_camera = world_point - camera.eye();
     const double depth = glm::dot(from_camera, axes.forward);
     const double scale = image_px.y / (2.0 * half_height_at_unit_distance(camera) * depth);
-    return 0.5 * glm::dvec2(image_px) +
+    return straight_ahead_px() +
            scale * glm::dvec2(glm::dot(from_camera, axes.right), -glm::dot(from_camera, axes.upward));
+}
+
+double View::other_eye_right_px(glm::dvec3 world_point) const {
+    return camera.aside == 0.0
+               ? 0.0
+               : 2.0 * px_at_unit_depth() * (camera.aside / depth_of(world_point) - slant_of(camera));
 }
 
 double View::depth_of(glm::dvec3 world_point) const {
@@ -121,7 +149,7 @@ DepthRange depth_range(const Bounds& bounds, const View& view, const ObjectPose&
     const glm::dvec3 centre = bounds.centre() + object.shift;
     const double depth = view.depth_of(centre);
     const double near = depth - radius, far = depth + radius;
-    const glm::dvec3 from_axis = view.camera.position - centre;
+    const glm::dvec3 from_axis = view.camera.eye() - centre;
     const bool inside_cylinder =
         std::hypot(from_axis.x, from_axis.y) <= std::hypot(half.x, half.y) && std::abs(from_axis.z) <= half.z;
     const bool inside_sweep = object.is_turn() ? inside_cylinder : glm::length(from_axis) <= radius;

@@ -14,11 +14,19 @@
 
 namespace overt {
 
-/// A pinhole camera with square pixels; up is +z.
+/// A pinhole camera with square pixels; up is +z. Of a pair for two eyes each stands aside of `position` and
+/// looks straight ahead past `target` as the other does; its image is shifted until `target` is in the middle
+/// of both. What lies in the plane of the target, across the line of sight, so has no disparity: it is seen
+/// in the plane of the screen.
 struct Camera {
     glm::dvec3 position{0.0, -1.0, 0.0};
     glm::dvec3 target{0.0};
     Degrees vertical_fov{12.0}; ///< full angle over the image's height
+    double aside = 0.0;         ///< how far the eye stands to the right of `position`; of the left eye < 0
+
+    /// Where the rays meet.
+    glm::dvec3 eye() const;
+    bool operator==(const Camera&) const = default;
 };
 
 /// How an object stands, turned and tilted about `axis_point`.
@@ -50,6 +58,17 @@ struct View {
 
     /// Image point of a world point in front of the camera.
     glm::dvec2 project(glm::dvec3 world_point) const;
+
+    /// Pixels of the image that a unit of length takes in a depth of one.
+    double px_at_unit_depth() const;
+
+    /// Image point to which the camera looks straight ahead: the middle, unless the camera stands aside.
+    glm::dvec2 straight_ahead_px() const;
+
+    /// How much farther to the right the other eye of a pair has a world point in its image than this one; 0
+    /// without a pair. Between left and right eye it is the point's disparity: of the left eye's view > 0
+    /// beyond the target, < 0 before it.
+    double other_eye_right_px(glm::dvec3 world_point) const;
 
     /// Distance along the viewing direction; positive in front of the camera.
     double depth_of(glm::dvec3 world_point) const;

@@ -72,8 +72,9 @@ void ShownProbes::begin_show(const PlannedStep& step, int number, std::span<cons
             marks_[mark_count_] = probe.mark;
             marks_[mark_count_++].count = 0;
         }
+    others_ = marks_;
     if (mark_count_ > 0 || has_marked_)
-        ports_.presenter.mark_stimuli({marks_.data(), mark_count_});
+        show_marks();
     has_marked_ = mark_count_ > 0;
 }
 
@@ -88,12 +89,26 @@ void ShownProbes::add_gauge(const Answering& gauge) noexcept {
         set.is_known = probe.frame.value >= 0;
         if (!set.is_known || !probe.seen.is_visible || mark_count_ == marks_.size())
             continue;
-        StimulusMark& mark = marks_[mark_count_++];
-        mark = gauge_mark(*probe.view, probe.seen, *attitude, gauge.settings().size_deg * px_per_deg_,
-                          probe.settings->line_deg * px_per_deg_);
-        mark.light = probe.mark.light;
-        mark.rim_px = probe.mark.rim_px;
+        const auto seen_by = [&](bool of_other_eye) {
+            StimulusMark mark =
+                gauge_mark(*probe.view, probe.seen, *attitude, gauge.settings().size_deg * px_per_deg_,
+                           probe.settings->line_deg * px_per_deg_, of_other_eye);
+            mark.light = probe.mark.light;
+            mark.rim_px = probe.mark.rim_px;
+            return mark;
+        };
+        add_mark(seen_by(false), protocol_.stereo.is_on() ? seen_by(true) : StimulusMark());
     }
+}
+
+void ShownProbes::add_mark(const StimulusMark& mark, const StimulusMark& of_other_eye) noexcept {
+    marks_[mark_count_] = mark;
+    others_[mark_count_++] = of_other_eye;
+}
+
+void ShownProbes::show_marks() const noexcept {
+    ports_.presenter.mark_stimuli({marks_.data(), mark_count_},
+                                  {others_.data(), protocol_.stereo.is_on() ? mark_count_ : 0});
 }
 
 void ShownProbes::before_flip(std::span<const AnimationFrameIndex> frames, const Answering* gauge,
@@ -117,12 +132,13 @@ void ShownProbes::before_flip(std::span<const AnimationFrameIndex> frames, const
         ++row.visible_refreshes;
         if (probe.mark.count == 0 || mark_count_ == marks_.size())
             continue;
-        marks_[mark_count_++] = moved_to(probe.mark, at);
+        add_mark(moved_to(probe.mark, at),
+                 moved_to(probe.mark, probe.view->in_other_eye(probe.seen.position)));
     }
     if (gauge)
         add_gauge(*gauge);
     has_marked_ = true;
-    ports_.presenter.mark_stimuli({marks_.data(), mark_count_});
+    show_marks();
 }
 
 const ShownProbes::Probe* ShownProbes::find(std::string_view id) const noexcept {

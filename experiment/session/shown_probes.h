@@ -63,13 +63,15 @@ class ShownProbes {
     const Probe* find(std::string_view id) const noexcept;
     void see(Probe& probe, std::span<const AnimationFrameIndex> frames) const noexcept;
     void add_gauge(const Answering& gauge) noexcept;
+    void add_mark(const StimulusMark& mark, const StimulusMark& of_other_eye) noexcept;
+    void show_marks() const noexcept;
 
     const Protocol& protocol_;
     const SessionPorts& ports_;
     double px_per_deg_;
     std::vector<Probe> probes_;
-    std::vector<SetGauge> gauges_; ///< of all gauges of the task
-    std::array<StimulusMark, Presenter::most_marks> marks_{};
+    std::vector<SetGauge> gauges_;                                       ///< of all gauges of the task
+    std::array<StimulusMark, Presenter::most_marks> marks_{}, others_{}; ///< as each eye has them
     std::size_t mark_count_ = 0;
     bool has_marked_ = false; ///< the presenter has marks
 };

@@ -27,14 +27,16 @@ ScreenColumns changed_columns(const DisplaySettings& display, int left_px, int w
 }
 
 double page_bytes(const Protocol& protocol) {
+    const DisplaySettings display = display_of_field(protocol);
+    const double eyes = protocol.stereo.is_on() ? 2.0 : 1.0;
     int columns = 0, rows = 0;
     for (const Slot& slot : protocol.slots) {
         const ScreenGeometry at = slot_geometry(protocol, slot);
-        const ScreenColumns changed = changed_columns(protocol.display, at.image_origin_px.x, at.image_px.x);
+        const ScreenColumns changed = changed_columns(display, at.image_origin_px.x, at.image_px.x);
         columns = std::max(columns, changed.end - changed.begin);
         rows = std::max(rows, at.image_px.y);
     }
-    return static_cast<double>(columns) * rows * (keeps_16_bits(protocol.display) ? 8.0 : 4.0);
+    return eyes * static_cast<double>(columns) * rows * (keeps_16_bits(display) ? 8.0 : 4.0);
 }
 
 int pages_of(const Protocol& protocol, const Stimulus& stimulus) {

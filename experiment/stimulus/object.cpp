@@ -312,6 +312,11 @@ Object place_object(const ObjectSettings& settings, const Protocol& protocol, co
         scene.bounds = object.mesh->bounds();
         scene.view.camera = settings.is_flat() ? camera_before_picture(settings, protocol)
                                                : camera_of(view, protocol, object.mesh, object.origin);
+        // The target is seen in the plane of the screen: there a unit of length is as long as the eyes'
+        // distance is measured in.
+        Camera& camera = scene.view.camera;
+        camera.aside = view.aside_mm * glm::distance(camera.position, camera.target) /
+                       protocol.display.viewing_distance_mm;
         try {
             depth_range(scene.bounds, scene.view);
         } catch (const InputError& error) {

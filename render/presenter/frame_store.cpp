@@ -20,8 +20,8 @@ int staged_pages() { return std::min(processors() + 1, 8); }
 } // namespace
 
 FrameStore::FrameStore(const GlContext& context, const FrameSource& source, const DisplayEncoder& encoder,
-                       std::vector<ImageBox> slots, std::size_t budget_bytes)
-    : context_(&context), source_(&source), encoder_(&encoder), slots_(std::move(slots)),
+                       std::vector<ImageBox> slots, std::size_t budget_bytes, Eye eye)
+    : context_(&context), source_(&source), eye_(eye), encoder_(&encoder), slots_(std::move(slots)),
       budget_bytes_(budget_bytes) {
     OVERT_EXPECTS(!slots_.empty());
     for (const ImageBox& slot : slots_) {
@@ -46,7 +46,7 @@ std::vector<SlotPicture> FrameStore::pictures_of(std::span<const PlacedStimulus>
     std::vector<SlotPicture> pictures;
     for (const PlacedStimulus& placed : shown) {
         OVERT_EXPECTS(placed.slot >= 0 && static_cast<std::size_t>(placed.slot) < slots_.size());
-        const SlotPicture picture{source_->in_slot(placed), placed.slot};
+        const SlotPicture picture{source_->in_slot(placed, eye_), placed.slot};
         if (std::ranges::none_of(pictures, [&](const SlotPicture& had) { return is_same(had, picture); }))
             pictures.push_back(picture);
     }
@@ -54,7 +54,7 @@ std::vector<SlotPicture> FrameStore::pictures_of(std::span<const PlacedStimulus>
 }
 
 std::size_t FrameStore::picture_of(const StoredStimuli& stored, const PlacedStimulus& placed) const {
-    const SlotPicture wanted{source_->in_slot(placed), placed.slot};
+    const SlotPicture wanted{source_->in_slot(placed, eye_), placed.slot};
     const auto found =
         std::ranges::find_if(stored.pictures, [&](const SlotPicture& had) { return is_same(had, wanted); });
     OVERT_EXPECTS(found != stored.pictures.end());

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "experiment/gaze.h"
 #include "experiment/screen_geometry.h"
 #include "experiment/trial.h"
 #include "render/image/linear_image.h"
@@ -25,9 +26,9 @@ class FrameSource {
     virtual std::vector<int> page_of_frame(const Stimulus& stimulus) const = 0;
     /// The picture for one page. May be called from several threads at once. Throws InputError.
     virtual LinearImage page(const Stimulus& stimulus, int page) const = 0;
-    /// The stimulus whose pages a slot shows: where pictures depend on the size of the slot, one that says
-    /// so.
-    virtual Stimulus in_slot(const PlacedStimulus& placed) const { return placed.stimulus; }
+    /// The stimulus whose pages a slot shows to an eye: where pictures depend on the size of the slot, or on
+    /// the eye, one that says so.
+    virtual Stimulus in_slot(const PlacedStimulus& placed, Eye /*eye*/) const { return placed.stimulus; }
     /// The same for those who read many: put into `room`, whose memory is used again, or the source's own
     /// picture if it keeps one.
     virtual const LinearImage& read_page(const Stimulus& stimulus, int page, LinearImage& room) const {
@@ -61,9 +62,9 @@ class FrameStore {
     /// `context`, `source` and `encoder` must outlive the store. `slots`: where pictures stand on the screen,
     /// at least one; all columns are odd, or all even, so that pairs of pixels lie alike in pictures of one
     /// size. `budget_bytes`: what stimuli may take on the card, those of both trials together; each page
-    /// takes what the largest slot needs.
+    /// takes what the largest slot needs. `eye`: whose pictures the source is asked for.
     FrameStore(const GlContext& context, const FrameSource& source, const DisplayEncoder& encoder,
-               std::vector<ImageBox> slots, std::size_t budget_bytes);
+               std::vector<ImageBox> slots, std::size_t budget_bytes, Eye eye = Eye::left);
     ~FrameStore();
 
     /// What of the screen a page covers in a slot.
@@ -110,6 +111,7 @@ class FrameStore {
 
     const GlContext* context_;
     const FrameSource* source_;
+    Eye eye_; ///< whose pictures it is asked for
     const DisplayEncoder* encoder_;
     std::vector<ImageBox> slots_;
     std::size_t budget_bytes_;

@@ -42,13 +42,13 @@ bool has_colour_table(OutputMode mode) { return row_of(mode).shows == ShownLight
 
 PagePresenter::PagePresenter(const GlContext& context, DisplaySurface& surface, const FrameSource& frames,
                              const ScreenGeometry& geometry, const DisplaySettings& display,
-                             ScreenSettings screens, std::vector<ImageBox> slots)
+                             ScreenSettings screens, std::vector<ImageBox> slots, Eye eye)
     : context_(&context), surface_(&surface), geometry_(geometry),
       display_(of_size(display, geometry.screen_px)), screens_(std::move(screens)), encoder_(display_),
       background_(context, geometry.screen_px, encoder_.format()),
       picture_(context, geometry.screen_px, encoder_.format()),
       store_(context, frames, encoder_, slots.empty() ? std::vector{geometry.image_box()} : slots,
-             static_cast<std::size_t>(display.frame_store_mb * 1e6)),
+             static_cast<std::size_t>(display.frame_store_mb * 1e6), eye),
       page_target_(context), slots_(std::move(slots)) {
     if (slots_.empty())
         slots_.push_back(geometry.image_box());
@@ -177,7 +177,8 @@ void PagePresenter::put_marks(InSlot& slot) noexcept {
     }
 }
 
-void PagePresenter::mark_stimuli(std::span<const StimulusMark> marks) noexcept {
+void PagePresenter::mark_stimuli(std::span<const StimulusMark> marks,
+                                 std::span<const StimulusMark> /*of_other_eye*/) noexcept {
     try {
         if (!mark_pass_ && !marks.empty())
             mark_pass_.emplace(*context_, display_);

@@ -26,11 +26,12 @@ inline constexpr std::string_view interrupted_reason = "interrupted by a signal"
 class PagePresenter final : public Presenter {
   public:
     /// All references must outlive the presenter. `slots`: where each slot's image stands, all in even or all
-    /// in odd columns; none: there is one, where `geometry` has the image. Throws GraphicsError,
-    /// also if the display's framebuffer has other bits per channel than the output mode sends.
+    /// in odd columns; none: there is one, where `geometry` has the image. `eye`: whose pictures `frames` is
+    /// asked for. Throws GraphicsError, also if the display's framebuffer has other bits per channel than the
+    /// output mode sends.
     PagePresenter(const GlContext& context, DisplaySurface& surface, const FrameSource& frames,
                   const ScreenGeometry& geometry, const DisplaySettings& display, ScreenSettings screens,
-                  std::vector<ImageBox> slots = {});
+                  std::vector<ImageBox> slots = {}, Eye eye = Eye::left);
 
     DisplayTiming timing() const override { return surface_->timing(); }
     void load_slots(std::span<const PlacedStimulus> shown) override;
@@ -43,7 +44,9 @@ class PagePresenter final : public Presenter {
                            0.5 * glm::dvec2(geometry_.screen_px) + glm::dvec2(right_px, down_px));
     }
     void show_level(const LevelBar& bar) override;
-    void mark_stimuli(std::span<const StimulusMark> marks) noexcept override;
+    using Presenter::mark_stimuli;
+    void mark_stimuli(std::span<const StimulusMark> marks,
+                      std::span<const StimulusMark> of_other_eye) noexcept override;
     FlipReport flip_slots(std::span<const AnimationFrameIndex> frames) noexcept override;
     void raise_with_next_flip(std::uint16_t outputs, double pulse_ms) noexcept override {
         if (has_t_lock(display_.output))

@@ -112,6 +112,8 @@ ImageAttributes describe_stimulus(const Protocol& protocol, std::span<const Obje
         {"overt:camera_vertical_fov_deg", fmt::format("{}", camera.vertical_fov.value)},
         {"overt:light", name_of_light(light)},
         {"overt:light_rotation_deg", fmt::format("{}", light.rotation_deg + pose.light.value)}};
+    if (camera.aside != 0.0)
+        words.emplace_back("overt:camera_aside", fmt::format("{}", camera.aside));
     if (light.has_sources())
         words.emplace_back("overt:light_sources", text_of_sources(light));
     if (material.is_of_file() && object.appearance)

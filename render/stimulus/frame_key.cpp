@@ -30,10 +30,13 @@ template <class Whole, class... Values> constexpr int value_count() {
 void add_to(ContentHasher& hasher, const SceneView& scene) {
     // The bounds are the mesh's.
     const auto& [camera, image_px] = scene.view;
-    const auto& [position, target, fov] = camera;
+    const auto& [position, target, fov, aside] = camera;
     for (const glm::dvec3& vector : {position, target})
         hasher.add(vector.x).add(vector.y).add(vector.z);
     hasher.add(fov.value).add(image_px.x).add(image_px.y);
+    // What one eye sees keeps its names.
+    if (aside != 0.0)
+        hasher.add(std::string_view("aside")).add(aside);
 }
 
 void add_to(ContentHasher& hasher, const MaterialSettings& material) {

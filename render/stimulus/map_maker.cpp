@@ -65,14 +65,15 @@ bool MapMaker::draw_missing_map(const ViewedObject& viewed, PoseIndex pose) {
             figure.id, angle.angle.value, section_of_view(cache_->protocol(), viewed.view)));
     }
     const Camera& camera = figure.scene(viewed.view).view.camera;
-    write_triangle_map(
-        file, map,
-        {{"mesh_sha256", figure.mesh_hash},
-         {"angle_deg", fmt::format("{}", angle.angle.value)},
-         {"camera_position",
-          fmt::format("{} {} {}", camera.position.x, camera.position.y, camera.position.z)},
-         {"camera_target", fmt::format("{} {} {}", camera.target.x, camera.target.y, camera.target.z)},
-         {"camera_vertical_fov_deg", fmt::format("{}", camera.vertical_fov.value)}});
+    MapAttributes words{
+        {"mesh_sha256", figure.mesh_hash},
+        {"angle_deg", fmt::format("{}", angle.angle.value)},
+        {"camera_position", fmt::format("{} {} {}", camera.position.x, camera.position.y, camera.position.z)},
+        {"camera_target", fmt::format("{} {} {}", camera.target.x, camera.target.y, camera.target.z)},
+        {"camera_vertical_fov_deg", fmt::format("{}", camera.vertical_fov.value)}};
+    if (camera.aside != 0.0)
+        words.emplace_back("camera_aside", fmt::format("{}", camera.aside));
+    write_triangle_map(file, map, words);
     return true;
 }
 

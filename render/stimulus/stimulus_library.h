@@ -46,7 +46,9 @@ class StimulusLibrary final : public FrameSource {
     /// The frames that page() gives of a stimulus that is not ready-made.
     const FrameQuality& quality_of_frames(const Stimulus& stimulus) const;
 
-    Stimulus in_slot(const PlacedStimulus& placed) const override { return protocol_->in_slot(placed); }
+    Stimulus in_slot(const PlacedStimulus& placed, Eye eye) const override {
+        return protocol_->in_slot(placed, eye);
+    }
     std::vector<int> page_of_frame(const Stimulus& stimulus) const override;
     /// Before the stimulus's background, opaque; where that is the display's own, with alpha.
     LinearImage page(const Stimulus& stimulus, int page) const override;

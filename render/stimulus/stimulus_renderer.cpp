@@ -155,7 +155,7 @@ LinearImage StimulusRenderer::draw(const MeshBuffers& mesh, const SceneView& sce
     program_.use();
     program_.set("clip_from_object", clip_from_centred_object(scene, pose.object));
     program_.set("world_from_object", glm::mat4(about_centre.world_from_object()));
-    program_.set("camera_position", glm::vec3(scene.view.camera.position - scene.bounds.centre()));
+    program_.set("camera_position", glm::vec3(scene.view.camera.eye() - scene.bounds.centre()));
     program_.set("mirrored", 0);
     program_.set("sharp", 1);
     program_.set("soft", 2);

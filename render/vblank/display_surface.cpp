@@ -113,11 +113,29 @@ FlipReport WindowDisplay::present_dark() noexcept {
     return flips_.swap(requested);
 }
 
+FlipReport WindowDisplay::present_pair(const Framebuffer& left, const Framebuffer& right) noexcept {
+    const SessionTime requested = clock_->now();
+    if (!virtual_time_)
+        flips_.begin();
+    const GladGLContext& gl = window_->gl();
+    for (const auto& [canvas, buffer] : {std::pair(&left, GL_BACK_LEFT), std::pair(&right, GL_BACK_RIGHT)}) {
+        gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+        gl.DrawBuffer(static_cast<GLenum>(buffer));
+        draw_into_window(*canvas);
+    }
+    gl.DrawBuffer(GL_BACK);
+    return swapped(requested);
+}
+
 FlipReport WindowDisplay::present(const Framebuffer& canvas) noexcept {
     const SessionTime requested = clock_->now();
     if (!virtual_time_)
         flips_.begin();
     draw_into_window(canvas);
+    return swapped(requested);
+}
+
+FlipReport WindowDisplay::swapped(SessionTime requested) noexcept {
     if (!virtual_time_)
         return flips_.swap(requested);
     window_->swap_buffers();

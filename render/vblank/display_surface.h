@@ -18,6 +18,10 @@ class DisplaySurface {
     /// Makes the canvas visible at the next refresh and returns when that has begun. Allocates and throws
     /// nothing.
     virtual FlipReport present(const Framebuffer& canvas) noexcept = 0;
+    /// The same of a canvas for each eye, through shutters.
+    virtual FlipReport present_pair(const Framebuffer& left, const Framebuffer& /*right*/) noexcept {
+        return present(left);
+    }
     virtual bool closed() const noexcept = 0;
 
     /// Whether the mouse's pointer is seen, where there is one that would be hidden.
@@ -71,6 +75,8 @@ class WindowDisplay final : public DisplaySurface {
                   DisplayFaults faults = {}, VblankChoice vblanks = {});
     DisplayTiming timing() const override;
     FlipReport present(const Framebuffer& canvas) noexcept override;
+    /// Into the buffers of a window that was opened for two eyes.
+    FlipReport present_pair(const Framebuffer& left, const Framebuffer& right) noexcept override;
     /// A black screen, in real time, for what is measured with it.
     FlipReport present_dark() noexcept;
     /// Of the source of times in real time: whether its blanks are real ones, and which better ones were
@@ -93,6 +99,7 @@ class WindowDisplay final : public DisplaySurface {
 
   private:
     void draw_into_window(const Framebuffer& canvas) noexcept;
+    FlipReport swapped(SessionTime requested) noexcept;
 
     WindowContext* window_;
     Clock* clock_;

@@ -178,6 +178,7 @@ WindowContext::WindowContext(const WindowRequest& request) : state_(std::make_un
         glfwWindowHint(channel, request.bits_per_channel);
     glfwWindowHint(GLFW_ALPHA_BITS, request.bits_per_channel == 10 ? 2 : 8);
     glfwWindowHint(GLFW_DEPTH_BITS, 0);
+    glfwWindowHint(GLFW_STEREO, request.has_two_eyes ? GLFW_TRUE : GLFW_FALSE);
     glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_FALSE);
     // An operator who clicks on another screen must not make the observer's vanish.
     glfwWindowHint(GLFW_AUTO_ICONIFY, GLFW_FALSE);
@@ -192,6 +193,12 @@ WindowContext::WindowContext(const WindowRequest& request) : state_(std::make_un
         glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
     state_->window =
         glfwCreateWindow(request.size_px.x, request.size_px.y, request.title.c_str(), monitor, nullptr);
+    if (!state_->window && request.has_two_eyes)
+        throw GraphicsError(
+            fmt::format("a window with a buffer for each eye (quad buffers) cannot be opened ({}): few "
+                        "graphics cards and "
+                        "drivers offer one. Use a stereoscope, with kind = \"mirrors\" under [stereo]",
+                        last_glfw_error()));
     if (!state_->window)
         throw GraphicsError(fmt::format(
             "a window of {} x {} pixels cannot be opened ({}): it needs OpenGL 3.3 and {} bits per "

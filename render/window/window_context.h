@@ -28,6 +28,7 @@ struct WindowRequest {
     std::string monitor = {};
     /// Tells monitors of one resolution apart. The window asks for no other rate than the monitor has now.
     std::optional<double> refresh_hz = {};
+    bool has_two_eyes = false; ///< with a buffer for each eye, which few graphics cards offer
 };
 
 /// Keys that a window reports. f1 to f12 lie together.

@@ -181,8 +181,9 @@ std::optional<ObserverInput> WindowResponsePanel::next_input() noexcept {
         if (is_key)
             input.key = key_name_of(told.glfw_key, told.code);
         input.character = told.character;
-        input.right_px = told.from_middle_px.x;
-        input.down_px = told.from_middle_px.y;
+        const glm::dvec2 place = place_ ? place_(told.from_middle_px) : told.from_middle_px;
+        input.right_px = place.x;
+        input.down_px = place.y;
         input.button = told.button;
         input.steps = told.steps;
         return input;

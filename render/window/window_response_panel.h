@@ -31,6 +31,12 @@ class WindowResponsePanel final : public ResponsePanel {
     WindowResponsePanel(WindowContext& window, const Clock& clock, const OperatorSettings& operators,
                         const ConsentSettings& consent, ResponsePanel* answering = nullptr);
 
+    /// Has places of the pointer told as this makes them of those from the middle of the window: where what
+    /// is shown does not count from there. It must not throw.
+    void take_places_by(std::function<glm::dvec2(glm::dvec2 from_middle_px)> place) {
+        place_ = std::move(place);
+    }
+
     void await(Awaited what, SessionTime since, const Trial* trial) override;
     void offer(const std::vector<AnswerOffer>& answers) override {
         if (answering_)
@@ -96,7 +102,8 @@ class WindowResponsePanel final : public ResponsePanel {
     };
     std::array<FocusChange, 16> focus_changes_{};
     std::size_t focus_change_count_ = 0;
-    bool is_focus_lost_ = false; ///< by the last of them
+    bool is_focus_lost_ = false;                  ///< by the last of them
+    std::function<glm::dvec2(glm::dvec2)> place_; ///< empty: as they are
     // Keys that were pressed, with room for those of a presentation.
     PressedOn pressed_on_;
     std::array<Noted, 256> noted_{};

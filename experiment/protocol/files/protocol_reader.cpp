@@ -100,6 +100,7 @@ void complete(Protocol& protocol) {
     }
     protocol.slots = written_out(protocol.slot_entries);
     fit_views_to_slots(protocol);
+    add_views_of_eyes(protocol);
     // What is set to match stands in the only slot, if the task has only one.
     for (std::size_t task = 0; task < protocol.tasks.size(); ++task)
         if (const std::vector<int> slots = slots_of_task(protocol, static_cast<int>(task)); slots.size() == 1)

@@ -9,7 +9,7 @@
 namespace overt::key_rows {
 
 // What the experiment runs on (rig_keys.cpp).
-std::vector<Key> display(), tracker(), further_tracker(), calibration(), events(), screens();
+std::vector<Key> display(), stereo(), tracker(), further_tracker(), calibration(), events(), screens();
 // What is shown (stimulus_keys.cpp).
 std::vector<Key> view(), light(), lamp(), background(), motion(), object(), area(), material();
 // Where on the screen (slot_keys.cpp).

@@ -12,6 +12,12 @@ const KeyTable& protocol_keys() {
             {"display", &Protocol::display, display(),
              "The screen in front of the observer. The defaults are those of a Cambridge Research Systems "
              "Display++ at 1.75 m."},
+            {"stereo", &Protocol::stereo, stereo(),
+             "Each eye has a picture of its own, from where it is: for a stereoscope, or for shutter "
+             "glasses. "
+             "All that is shown is shown to both eyes. Places and angles, in the protocol and in the record, "
+             "are those of one eye's field; each eye's gaze is looked up in what that eye saw. See "
+             "[stereo.md](stereo.md)."},
             {"tracker", &Protocol::tracker, tracker(),
              "The eye tracker, and how a simulated one differs from a perfect one."},
             {"further_tracker", &Protocol::further_trackers, further_tracker(),
@@ -187,7 +193,8 @@ const KeyTable& protocol_keys() {
             {"material", &Protocol::materials, material(),
              "What every object is made of in turn. At least one, but for a protocol of pictures."},
             {"points", &Protocol::point_lists, points(),
-             "A list of places on the surface of objects, for probes and as landmarks: spread evenly, or given "
+             "A list of places on the surface of objects, for probes and as landmarks: spread evenly, or "
+             "given "
              "one by one. Lists of one id, each of another object, correspond by their numbers. They are in "
              "the record with triangle, millimetres and part; see [points.md](points.md)."},
             {"slot", &Protocol::slot_entries, slot(),

@@ -140,6 +140,31 @@ std::vector<Key> display() {
     };
 }
 
+std::vector<Key> stereo() {
+    using S = StereoSettings;
+    return {
+        {"kind", &S::kind, required(),
+         "`mirrors`: each eye has half of the screen, seen through a stereoscope. `frame-sequential`: both "
+         "have the whole screen in turn, through shutter glasses that the graphics card drives (quad "
+         "buffers). `none`: both see the same."},
+        {"interocular_mm", &S::interocular_mm, range(20, 90, "mm"),
+         "Between the middles of the observer's pupils: so far apart stand the two cameras."},
+        {"swapped", &S::swapped, "Of `mirrors`: the right eye sees the left half."},
+        {"mirrored", &S::mirrored,
+         "Left and right are exchanged in each half, for a stereoscope with one mirror to an eye. Only in "
+         "outputs that do not join pixels in pairs."},
+        {"left_eye_right_px", &S::left_eye_right_px, range(-4000, 4000, "px"),
+         "Of `mirrors`: how far the left eye's picture stands to the right of its place in its half. "
+         "`overt display stereo` finds these four."},
+        {"left_eye_down_px", &S::left_eye_down_px, range(-4000, 4000, "px"), "And how far below it."},
+        {"right_eye_right_px", &S::right_eye_right_px, range(-4000, 4000, "px"),
+         "The same of the right eye's picture."},
+        {"right_eye_down_px", &S::right_eye_down_px, range(-4000, 4000, "px"), "And how far below it."},
+        {"largest_disparity_arcmin", &S::largest_disparity_arcmin, range(1, 1200, "arcmin"),
+         "Beyond it `check` warns. A degree is a rule of thumb for what most people fuse with ease."},
+    };
+}
+
 std::vector<Key> tracker() {
     using T = TrackerSettings;
     std::vector<Key> keys = tracker_keys<T>();

@@ -79,6 +79,11 @@ std::vector<Key> view() {
              "Where the camera stands, in the unit of the mesh."},
             {"camera_target", &V::camera_target, left_out("the middle of the bounding box"),
              "What the camera looks at."},
+            {"two_eyes", &V::two_eyes,
+             "With `[stereo]`, whether each eye sees the object from its own place; `false`: both see it "
+             "from "
+             "the middle, as a picture in the plane of the screen. Of two views, one of each kind, stereo is "
+             "a factor."},
         },
         true);
 }

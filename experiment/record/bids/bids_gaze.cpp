@@ -141,6 +141,11 @@ EyeFiles& file_of(const std::vector<std::unique_ptr<EyeFiles>>& files, Eye eye, 
     return **of_eye;
 }
 
+/// With what each eye saw.
+SampleJoin join_of(const SessionRecord& record, const TrialRecord& trial, const LookupFor& lookup_for) {
+    return {record, trial, lookups_in(record.header(), trial.trial, lookup_for)};
+}
+
 /// The samples of a trial that shows several stimuli, each with the one whose slot it lies in.
 void write_presentations(const SessionRecord& record, const TrialRecord& trial, const LookupFor& lookup_for,
                          const std::vector<std::unique_ptr<EyeFiles>>& files) {
@@ -152,7 +157,7 @@ void write_presentations(const SessionRecord& record, const TrialRecord& trial, 
         const TrialRecord seen = trial.seen_in(place);
         const int object = seen.trial.stimulus.object;
         parts.push_back(part_cells_of(record.header(), object, TableFormat::tsv));
-        SampleJoin(record, seen, lookup_for(viewed_in(record.header(), seen.trial))).join(samples, in_slot);
+        join_of(record, seen, lookup_for).join(samples, in_slot);
         for (std::size_t i = 0; i < samples.size(); ++i) {
             // Of two slots at one place, the one that was lit then.
             const bool is_here = !in_slot[i].is_elsewhere && in_slot[i].image_px;
@@ -207,8 +212,8 @@ BidsGazeCounts write_bids_gaze(const SessionRecord& record, int run, const Looku
             continue;
         }
         const int object = trial.trial.stimulus.object;
-        const SampleJoin join(record, trial,
-                              has_places ? lookup_for(viewed_in(record.header(), trial.trial)) : nullptr);
+        const SampleJoin join =
+            has_places ? join_of(record, trial, lookup_for) : SampleJoin(record, trial, {});
         const std::vector<std::string> parts = part_cells_of(record.header(), object, TableFormat::tsv);
         const std::string_view slot = record.header().slots[static_cast<std::size_t>(trial.trial.slot)].id;
         const auto take = [&](std::span<const GazeSample> samples) {

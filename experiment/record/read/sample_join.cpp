@@ -15,17 +15,17 @@ constexpr std::size_t batch = 256;
 
 } // namespace
 
-SampleJoin::SampleJoin(const SessionRecord& record, const TrialRecord& trial, const SurfaceLookup* lookup)
-    : SampleJoin(record, trial, record.ledger(trial), lookup) {}
+SampleJoin::SampleJoin(const SessionRecord& record, const TrialRecord& trial, const LookupsOfEyes& lookups)
+    : SampleJoin(record, trial, record.ledger(trial), lookups) {}
 
 SampleJoin::SampleJoin(const SessionRecord& record, const TrialRecord& trial,
-                       const std::optional<TrialLedger>& ledger, const SurfaceLookup* lookup)
+                       const std::optional<TrialLedger>& ledger, const LookupsOfEyes& lookups)
     : SampleJoin(record.header().screen_of_slot(trial.trial.slot), record.clock_map(trial),
-                 record.flip_history(trial, ledger), lookup, !trial.trial.beside.empty()) {}
+                 record.flip_history(trial, ledger), lookups, !trial.trial.beside.empty()) {}
 
 SampleJoin::SampleJoin(const ScreenGeometry& screen, std::optional<ClockMap> clock_map, FlipHistory history,
-                       const SurfaceLookup* lookup, bool has_other_slots)
-    : screen_(screen), clock_map_(std::move(clock_map)), flip_history_(std::move(history)), lookup_(lookup),
+                       const LookupsOfEyes& lookups, bool has_other_slots)
+    : screen_(screen), clock_map_(std::move(clock_map)), flip_history_(std::move(history)), lookups_(lookups),
       has_other_slots_(has_other_slots) {}
 
 // Into `joined` field by field: it is large, and copying it would take longer than all of this.
@@ -55,19 +55,20 @@ void SampleJoin::join_time_and_frame(const GazeSample& sample, JoinedSample& joi
     joined.off_plan = lighting.off_plan;
 }
 
-void SampleJoin::join_surfaces(std::span<const GazeSample> samples, std::span<JoinedSample> joined) const {
+void SampleJoin::join_surfaces(std::span<const GazeSample> samples, std::span<JoinedSample> joined,
+                               Eye eye) const {
     std::array<ImagePlace, batch> places;
     std::array<Sight*, batch> sights;
     std::array<std::size_t, batch> sample_of;
     std::size_t count = 0;
     for (std::size_t i = 0; i < joined.size(); ++i) {
-        if (!joined[i].shown)
+        if (!joined[i].shown || samples[i].eye != eye)
             continue;
         sights[count] = &joined[i].sight;
         places[count] = {joined[i].shown->pose, *joined[i].image_px};
         sample_of[count++] = i;
     }
-    lookup_->look(std::span(places).first(count), std::span(sights).first(count));
+    lookups_.of(eye)->look(std::span(places).first(count), std::span(sights).first(count));
     for (std::size_t k = 0; k < count; ++k) {
         JoinedSample& sample = joined[sample_of[k]];
         if (sample.sight.outline_px) {
@@ -85,8 +86,9 @@ void SampleJoin::join(std::span<const GazeSample> samples, std::span<JoinedSampl
         const auto into = joined.subspan(begin, of_batch.size());
         for (std::size_t i = 0; i < of_batch.size(); ++i)
             join_time_and_frame(of_batch[i], into[i]);
-        if (lookup_)
-            join_surfaces(of_batch, into);
+        for (const Eye eye : {Eye::left, Eye::right})
+            if (lookups_.of(eye))
+                join_surfaces(of_batch, into, eye);
     }
 }
 

@@ -34,17 +34,17 @@ struct JoinedSample {
 /// used from any thread.
 class SampleJoin {
   public:
-    /// `lookup` answers for the trial's object and outlives this; null if there is none. Throws
+    /// `lookups` answer for the trial's object and outlive this; null if there is none. Throws
     /// RecordError.
-    SampleJoin(const SessionRecord& record, const TrialRecord& trial, const SurfaceLookup* lookup);
+    SampleJoin(const SessionRecord& record, const TrialRecord& trial, const LookupsOfEyes& lookups);
 
     /// The same with the trial's ledger, where that was read already.
     SampleJoin(const SessionRecord& record, const TrialRecord& trial,
-               const std::optional<TrialLedger>& ledger, const SurfaceLookup* lookup);
+               const std::optional<TrialLedger>& ledger, const LookupsOfEyes& lookups);
 
     /// The same from its parts: without a clock map no sample has a time.
     SampleJoin(const ScreenGeometry& screen, std::optional<ClockMap> clock_map, FlipHistory history,
-               const SurfaceLookup* lookup, bool has_other_slots = false);
+               const LookupsOfEyes& lookups, bool has_other_slots = false);
 
     /// Joins each sample; both spans are equally long. Faster than one by one.
     void join(std::span<const GazeSample> samples, std::span<JoinedSample> joined) const;
@@ -53,12 +53,12 @@ class SampleJoin {
 
   private:
     void join_time_and_frame(const GazeSample& sample, JoinedSample& joined) const;
-    void join_surfaces(std::span<const GazeSample> samples, std::span<JoinedSample> joined) const;
+    void join_surfaces(std::span<const GazeSample> samples, std::span<JoinedSample> joined, Eye eye) const;
 
     ScreenGeometry screen_;
     std::optional<ClockMap> clock_map_;
     FlipHistory flip_history_;
-    const SurfaceLookup* lookup_;
+    LookupsOfEyes lookups_;
     bool has_other_slots_;
 };
 

@@ -80,19 +80,19 @@ SampleRows::SampleRows(const RowLayout<SampleCells>& layout, const SessionRecord
 }
 
 SampleCounts SampleRows::write(TableWriter& to, const TrialRecord& trial,
-                               const std::optional<TrialLedger>& ledger, const SurfaceLookup* lookup,
+                               const std::optional<TrialLedger>& ledger, const LookupsOfEyes& lookups,
                                PassingFixations& fixations) {
-    return write_all(to, trial, SampleJoin(record_, trial, ledger, lookup), lookup, &fixations);
+    return write_all(to, trial, SampleJoin(record_, trial, ledger, lookups), lookups, &fixations);
 }
 
 SampleCounts SampleRows::write_after(TableWriter& to, const TrialRecord& trial) {
     const SampleJoin join(header_.display.screen, record_.clock_map(trial),
-                          record_.flip_history(trial, std::nullopt), nullptr);
-    return write_all(to, trial, join, nullptr, nullptr);
+                          record_.flip_history(trial, std::nullopt), {});
+    return write_all(to, trial, join, {}, nullptr);
 }
 
 SampleCounts SampleRows::write_all(TableWriter& to, const TrialRecord& trial, const SampleJoin& join,
-                                   const SurfaceLookup* lookup, PassingFixations* fixations) const {
+                                   const LookupsOfEyes& lookups, PassingFixations* fixations) const {
     constexpr std::size_t batch = 1024;
     const bool is_after = !fixations;
     const Stimulus stimulus = trial.trial.stimulus;
@@ -117,7 +117,7 @@ SampleCounts SampleRows::write_all(TableWriter& to, const TrialRecord& trial, co
             texts[i] = std::make_unique<TableText>(layout_.table(), format_);
             of_batch[i] = write_batch(
                 *texts[i], placed[i],
-                {piece, number, join, lookup, task, slot, shown, cone, parts, own_parts, fixations});
+                {piece, number, join, lookups, task, slot, shown, cone, parts, own_parts, fixations});
         });
         for (std::size_t i = 0; i < batches; ++i) {
             to.take(*texts[i]);
@@ -161,13 +161,13 @@ SampleCounts SampleRows::write_batch(TableText& to, std::vector<PlacedSample>& p
 /// Of each sample that fell on a lit frame; the others' shares are empty.
 std::vector<GazeCone::Shares> SampleRows::cone_shares(const Piece& piece,
                                                       std::span<const JoinedSample> joined) {
-    if (!piece.cone || !piece.lookup)
+    if (!piece.cone || (!piece.lookups.left && !piece.lookups.right))
         return {};
     std::vector<GazeCone::Shares> shares(joined.size());
     for (std::size_t i = 0; i < joined.size(); ++i)
         if (joined[i].shown)
-            shares[i] = piece.cone->shares(*piece.lookup, joined[i].shown->pose, *piece.samples[i].gaze,
-                                           piece.own_parts.size());
+            shares[i] = piece.cone->shares(*piece.lookups.of(piece.samples[i].eye), joined[i].shown->pose,
+                                           *piece.samples[i].gaze, piece.own_parts.size());
     return shares;
 }
 

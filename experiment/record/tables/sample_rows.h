@@ -38,10 +38,10 @@ class SampleRows {
                std::optional<Degrees> cone_accuracy);
 
     /// Writes the samples of a trial as the presentation in its slot has them (TrialRecord::seen_in), made on
-    /// all processors; `lookup` is null if its object has no surface. They pass by `fixations`, too. Throws
-    /// RecordError.
+    /// all processors; `lookups`, by eye, are null if its object has no surface. They pass by `fixations`,
+    /// too. Throws RecordError.
     SampleCounts write(TableWriter& to, const TrialRecord& trial, const std::optional<TrialLedger>& ledger,
-                       const SurfaceLookup* lookup, PassingFixations& fixations);
+                       const LookupsOfEyes& lookups, PassingFixations& fixations);
     /// The same of those between the trial's result and the next trial, which are of none.
     SampleCounts write_after(TableWriter& to, const TrialRecord& trial);
 
@@ -50,7 +50,7 @@ class SampleRows {
         std::span<const GazeSample> samples;
         std::optional<int> trial; ///< from 1; nothing: of none
         const SampleJoin& join;
-        const SurfaceLookup* lookup;
+        const LookupsOfEyes& lookups;
         const std::string &task, &slot;           ///< as cells
         const std::vector<std::string>& stimulus; ///< a cell for each of their columns
         const GazeCone* cone;                     ///< null: none
@@ -59,7 +59,7 @@ class SampleRows {
     };
     SampleCounts write_batch(TableText& to, std::vector<PlacedSample>& placed, const Piece& piece) const;
     SampleCounts write_all(TableWriter& to, const TrialRecord& trial, const SampleJoin& join,
-                           const SurfaceLookup* lookup, PassingFixations* fixations) const;
+                           const LookupsOfEyes& lookups, PassingFixations* fixations) const;
     static std::vector<GazeCone::Shares> cone_shares(const Piece& piece,
                                                      std::span<const JoinedSample> joined);
 

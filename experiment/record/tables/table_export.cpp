@@ -49,7 +49,7 @@ class TableExport {
     }
 
     /// What the samples of presentations of the object in a view are to be joined with.
-    void begin_object(const ViewedObject& viewed, const SurfaceLookup* lookup);
+    void begin_object(const ViewedObject& viewed, const LookupsOfEyes& lookups);
     /// Puts the samples and events of a presentation aside: those of one object come one after another.
     void join_samples(const TrialRecord& trial);
     /// With what was put aside.
@@ -125,20 +125,22 @@ class TableExport {
     Eye eye_of_unnamed(std::span<const GazeEvent> events, int sitting) const;
 
     /// The object's whose trials are joined now.
-    const SurfaceLookup* lookup_ = nullptr;
+    LookupsOfEyes lookups_;
+    const SurfaceLookup* lookup_ = nullptr; ///< of the eye that is analysed
     std::optional<ObjectScale> scale_;
     std::optional<SurfaceWays> ways_;
     const StudyOptions analysis_; ///< the rules of `overt analyze` without options
     const std::vector<RecordedAccuracy> validations_;
 };
 
-void TableExport::begin_object(const ViewedObject& viewed, const SurfaceLookup* lookup) {
+void TableExport::begin_object(const ViewedObject& viewed, const LookupsOfEyes& lookups) {
     const RecordedObject& recorded = item(header_.objects, viewed.object);
-    lookup_ = lookup;
+    lookups_ = lookups;
+    lookup_ = lookups.of(header_.tracker.eye);
     scale_ = object_scale(recorded.camera(viewed.view), recorded.axis_point,
                           header_.screen_of_view(viewed.view), recorded.unit);
     ways_.reset();
-    const auto* maps = dynamic_cast<const CoordinateMaps*>(lookup);
+    const auto* maps = dynamic_cast<const CoordinateMaps*>(lookup_);
     if (maps && scale_)
         ways_.emplace(maps->mesh(), *scale_);
 }
@@ -202,9 +204,11 @@ void TableExport::join_samples(const TrialRecord& trial) {
                                         : std::nullopt);
     PassingFixations fixations(context, events, eye_of_unnamed(events, trial.sitting),
                                Degrees{presentation.validation ? presentation.validation->mean_deg : 0.0});
+    for (const Eye eye : {Eye::left, Eye::right})
+        fixations.look_up(eye, lookups_.of(eye));
     Aside& aside = aside_[{trial.id, trial.place}];
     TableWriter samples = aside_writer(tables_.samples.table(), trial);
-    aside.samples = sample_rows_.write(samples, trial, ledger, lookup_, fixations);
+    aside.samples = sample_rows_.write(samples, trial, ledger, lookups_, fixations);
     samples.close();
     TableWriter rows = aside_writer(tables_.gaze_events.table(), trial);
     write_gaze_events(rows, tables_.gaze_events, record_, trial, events, fixations.finish());
@@ -389,6 +393,13 @@ std::vector<std::string> file_names(const SessionHeader& header, TableFormat for
 
 } // namespace
 
+LookupsOfEyes lookups_in(const SessionHeader& header, const Trial& trial, const LookupFor& lookup_for) {
+    const ViewedObject left = viewed_in(header, trial, Eye::left),
+                       right = viewed_in(header, trial, Eye::right);
+    const SurfaceLookup* const of_left = lookup_for(left);
+    return {of_left, right == left ? of_left : lookup_for(right)};
+}
+
 TableExportCounts export_tables(const SessionRecord& record, const LookupFor& lookup_for,
                                 const fs::path& directory, const TableExportOptions& options) {
     const std::vector<std::string> names = file_names(record.header(), options.format);
@@ -405,10 +416,12 @@ TableExportCounts export_tables(const SessionRecord& record, const LookupFor& lo
         if (trial.counts)
             seen.insert(viewed_in(record.header(), trial.trial));
     for (const ViewedObject& object : seen) {
-        tables.begin_object(object, lookup_for(object));
+        bool is_begun = false;
         for (const TrialRecord& trial : presentations) {
             if (!trial.counts || viewed_in(record.header(), trial.trial) != object)
                 continue;
+            if (!std::exchange(is_begun, true))
+                tables.begin_object(object, lookups_in(record.header(), trial.trial, lookup_for));
             tables.join_samples(trial);
             if (options.progress && trial.place == 0)
                 options.progress(++done, all);

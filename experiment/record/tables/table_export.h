@@ -36,6 +36,9 @@ struct TableExportCounts {
 /// call: tables ask once for each, other exports for each trial.
 using LookupFor = std::function<const SurfaceLookup*(const ViewedObject& viewed)>;
 
+/// What each eye saw of a trial's stimulus: the same, unless the eyes had pictures of their own.
+LookupsOfEyes lookups_in(const SessionHeader& header, const Trial& trial, const LookupFor& lookup_for);
+
 /// Writes trials, flips, samples, the tracker's own events, events, responses and stimuli with a
 /// dictionary.json that explains each column. The same session gives the same bytes, on every machine and at
 /// any time: nothing of the wall clock is in them. Flips, samples and responses are those of completed

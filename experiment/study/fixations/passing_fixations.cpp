@@ -10,13 +10,16 @@ PassingFixations::PassingFixations(const FixationContext& context, std::span<con
     for (std::size_t i = 0; i < events.size(); ++i)
         if (events[i].kind == GazeEvent::Kind::fixation)
             eyes_[static_cast<std::size_t>(events[i].eye.value_or(unnamed))].events.push_back(i);
-    for (OfEye& eye : eyes_)
+    for (OfEye& eye : eyes_) {
+        eye.lookup = context.lookup;
         std::stable_sort(eye.events.begin(), eye.events.end(),
                          [&](std::size_t a, std::size_t b) { return events[a].start < events[b].start; });
+    }
 }
 
 PlacedSample PassingFixations::place(const GazeSample& sample, const JoinedSample& joined) const {
-    return placed_sample(sample, joined, context_.lookup, context_.onset, reach_);
+    return placed_sample(sample, joined, eyes_[static_cast<std::size_t>(sample.eye)].lookup, context_.onset,
+                         reach_);
 }
 
 void PassingFixations::take(Eye of, const PlacedSample& sample) {
@@ -37,6 +40,7 @@ std::vector<std::optional<StudyFixation>> PassingFixations::finish() {
 void PassingFixations::settle(OfEye& eye) {
     FixationContext context = context_;
     context.samples = eye.samples;
+    context.lookup = eye.lookup;
     const std::size_t event = eye.events[eye.next++];
     found_[event] = surface_fixation(events_[event], context);
     const auto from =

@@ -19,6 +19,11 @@ class PassingFixations {
     PassingFixations(const FixationContext& context, std::span<const GazeEvent> events, Eye unnamed,
                      Degrees reach);
 
+    /// From now on this eye's gaze is looked up here, where it had a picture of its own.
+    void look_up(Eye eye, const SurfaceLookup* lookup) {
+        eyes_[static_cast<std::size_t>(eye)].lookup = lookup;
+    }
+
     /// What take() is to be given. May be called from any thread.
     PlacedSample place(const GazeSample& sample, const JoinedSample& joined) const;
 
@@ -30,6 +35,7 @@ class PassingFixations {
 
   private:
     struct OfEye {
+        const SurfaceLookup* lookup = nullptr;
         std::vector<std::size_t> events;   ///< indices of its fixations, by begin
         std::size_t next = 0;              ///< of these: the first that is not settled
         std::vector<PlacedSample> samples; ///< from its begin on

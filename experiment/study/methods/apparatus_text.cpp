@@ -78,6 +78,17 @@ std::string timing_clause(const StudySession& session) {
     return delay + ", and what proves the times of pictures is not on record";
 }
 
+std::string stereo_clause(const StudySession& session) {
+    const DisplaySetup& display = session.setup.display;
+    if (display.stereo.empty())
+        return {};
+    return fmt::format("each eye saw a picture of its own, {}, from eyes {} mm apart, and its gaze is "
+                       "looked up in that picture; the screen is an eye's field of it",
+                       display.stereo == "mirrors" ? "side by side through a stereoscope"
+                                                   : "in turn through shutters",
+                       as_set(display.interocular_mm));
+}
+
 std::string rate_words(const GazeSetup& gaze) {
     return gaze.rate_hz > 0.0 ? fmt::format("at {} Hz", as_set(gaze.rate_hz))
                               : "at a rate that is not on record";
@@ -128,6 +139,7 @@ std::string program_clause(const StudySession& session) {
 std::string apparatus_text(const StudyResults& results) {
     std::string text;
     add_over_sessions(text, results, display_clause);
+    add_over_sessions(text, results, stereo_clause);
     add_over_sessions(text, results, light_clause);
     add_over_sessions(text, results, timing_clause);
     add_over_sessions(text, results, gaze_clause);

@@ -137,8 +137,7 @@ bool is_same_object(const SessionHeader& a, const ViewedObject& in_a, const Sess
     // Maps are looked up by the number of the pose.
     return a.poses.angles == b.poses.angles && one.id == other.id &&
            one.mesh_file.empty() == other.mesh_file.empty() && one.mesh_sha256 == other.mesh_sha256 &&
-           camera.position == other_camera.position && camera.target == other_camera.target &&
-           camera.vertical_fov == other_camera.vertical_fov && screen.image_px == other_screen.image_px &&
+           camera == other_camera && screen.image_px == other_screen.image_px &&
            screen.screen_px == other_screen.screen_px && screen.screen_mm == other_screen.screen_mm &&
            screen.viewing_distance_mm == other_screen.viewing_distance_mm &&
            (!one.mesh_file.empty() || maps_of(a, in_a) == maps_of(b, in_b));
@@ -154,7 +153,11 @@ StudyObject describe_object(const SessionHeader& header, const ViewedObject& vie
                       view = static_cast<std::size_t>(viewed.view);
     if (views > 1)
         object.title += ", " + header.views[view % views].title;
-    if (recorded.cameras.size() > views)
+    if (!header.display.stereo.empty())
+        object.title += recorded.camera(viewed.view).aside < 0.0 ? ", left eye" : ", right eye";
+    if (std::ranges::any_of(header.slots, [&](const RecordedSlot& slot) {
+            return slot.size_px != header.slots.front().size_px;
+        }))
         object.title += fmt::format(", at {} px", header.screen_of_view(viewed.view).image_px.y);
     object.part_names = recorded.part_names;
     object.areas = Areas(recorded.part_names);

@@ -91,6 +91,8 @@ DisplaySetup display_of(const SessionHeader& header) {
     display.refresh_hz = recorded.refresh_hz;
     display.latency_ms = 1e3 * to_seconds(recorded.latency);
     display.timing = recorded.timing;
+    display.stereo = recorded.stereo;
+    display.interocular_mm = recorded.interocular_mm;
     if (header.characterisation)
         display.light = {header.characterisation->white_cd_m2(), header.characterisation->instrument,
                          header.characterisation->date};

@@ -133,8 +133,14 @@ class StudyReader {
         if (header.slots.size() > 1)
             take_levels("slot", header.slots, id_of);
         for (int object = 0; object < static_cast<int>(header.objects.size()); ++object) {
-            const std::size_t views = header.objects[static_cast<std::size_t>(object)].cameras.size();
-            for (int view = 0; view < static_cast<int>(views); ++view)
+            // Where each eye had its picture, those of the eye that is analysed.
+            const auto views =
+                static_cast<int>(header.objects[static_cast<std::size_t>(object)].cameras.size());
+            const int first = header.in_slot({}).view,
+                      end = header.display.stereo.empty()
+                                ? views
+                                : first + static_cast<int>(header.views_of_an_eye());
+            for (int view = first; view < end; ++view)
                 open_[index].objects[{object, view}] = object_of(index, {object, view});
         }
         results().sessions.push_back(describe_session(open_[index], path));
@@ -238,7 +244,8 @@ class StudyReader {
                 LightKey key = light_key(header, stimulus);
                 const auto pictures = static_cast<int>(key.second.size());
                 const std::filesystem::path file = record.directory() / light_file(header, stimulus.stimulus);
-                if (open_[session].objects.at(viewed(stimulus.stimulus)) != index || light.contains(key) ||
+                const auto own = open_[session].objects.find(viewed(stimulus.stimulus));
+                if (own == open_[session].objects.end() || own->second != index || light.contains(key) ||
                     !is_file_inside(record.directory(), light_file(header, stimulus.stimulus)))
                     continue;
                 try {

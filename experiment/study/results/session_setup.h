@@ -54,6 +54,8 @@ struct DisplaySetup {
     double refresh_hz = 0.0;
     double latency_ms = 0.0; ///< from the vertical blank to the first row's light
     std::string timing;      ///< RecordedDisplay::timing
+    std::string stereo;      ///< RecordedDisplay::stereo
+    double interocular_mm = 0.0;
     /// Nothing: it was not characterised.
     struct Light {
         double white_cd_m2 = 0.0;

@@ -172,8 +172,9 @@ TEST_CASE("a new protocol passes the check at once, and is not written over anot
     CHECK(nlohmann::json::parse(schema.out)["title"] == "overt protocol");
 }
 
-TEST_CASE("lights, a series and columns go from the protocol through order, record and tables to the analysis",
-          "[session]") {
+TEST_CASE(
+    "lights, a series and columns go from the protocol through order, record and tables to the analysis",
+    "[session]") {
     std::string text(small_protocol);
     const std::size_t view = text.find("[view]");
     text.insert(view, "[[light]]\nid = \"sky\"\n[[light]]\nid = \"hall\"\nprobe = \"gallery\"\n");
@@ -193,15 +194,16 @@ TEST_CASE("lights, a series and columns go from the protocol through order, reco
     CHECK(record.trials()[0].trial.stimulus.light == record.trials()[3].trial.stimulus.light);
     CHECK(record.trials()[0].trial.stimulus.light != record.trials()[4].trial.stimulus.light);
 
-    const ProgramRun exported = experiment.overt({"export", experiment.session().string(), "--format", "tsv"});
+    const ProgramRun exported =
+        experiment.overt({"export", experiment.session().string(), "--format", "tsv"});
     INFO(exported.err);
     REQUIRE(exported.exit_code == 0);
     const ProgramRun shown = experiment.overt({"show", experiment.session().string(), "--order"});
     CHECK(shown.exit_code == 0);
     CHECK_THAT(shown.out, Contains("hall") && Contains("the same"));
     const auto out = experiment.folder().path() / "analysis";
-    const ProgramRun analyzed = experiment.overt({"analyze", experiment.session().string(), "--by", "light,look",
-                                                    "--compare", "light", "--out", out.string()});
+    const ProgramRun analyzed = experiment.overt({"analyze", experiment.session().string(), "--by",
+                                                  "light,look", "--compare", "light", "--out", out.string()});
     INFO(analyzed.err);
     CHECK(analyzed.exit_code == 0);
     const ProgramRun refused = experiment.overt(

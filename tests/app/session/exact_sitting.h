@@ -13,7 +13,7 @@
 #include "experiment/record/write/session_store.h"
 #include "experiment/session/session.h"
 #include "render/gl/headless_context.h"
-#include "render/presenter/page_presenter.h"
+#include "render/presenter/stereo_presenter.h"
 #include "render/vblank/display_surface.h"
 #include "tests/app/small_experiment.h"
 
@@ -47,14 +47,20 @@ class ExactSitting {
     ScreenGeometry geometry = screen_geometry_of(protocol);
     VirtualClock clock;
     VirtualDisplay display{*context, clock, protocol.display.refresh_hz};
-    PagePresenter presenter{
-        *context, display, library, geometry, protocol.display, protocol.screens, slot_places(protocol)};
+    std::unique_ptr<Presenter> presenter = make_presenter();
     SimulatedObserver observer{make_observed_scene(protocol, experiment.objects, geometry), 3, steady_eyes()};
     SimulatedEyeTracker tracker{clock, observer, 3, without_errors(protocol.tracker)};
     SimulatedAnswers answers{protocol, 3};
     SimulatedResponsePanel panel{clock, observer, {}, &answers};
 
     std::filesystem::path folder; ///< of the session, once it has run
+
+    std::unique_ptr<Presenter> make_presenter() {
+        if (protocol.stereo.is_on())
+            return std::make_unique<StereoPresenter>(*context, display, library, protocol);
+        return std::make_unique<PagePresenter>(*context, display, library, geometry, protocol.display,
+                                               protocol.screens, slot_places(protocol));
+    }
 
     /// Runs all trials and exports them; gives the export's folder.
     std::filesystem::path run() {
@@ -71,7 +77,7 @@ class ExactSitting {
                             .started_utc = header.started_utc,
                             .detection = SittingDetection{protocol.events, geometry}});
         Session sitting(protocol, schedule, geometry.centre(),
-                        {clock, presenter, tracker, panel, store, {&observer}});
+                        {clock, *presenter, tracker, panel, store, {&observer}});
         sitting.run({});
         store.close();
 

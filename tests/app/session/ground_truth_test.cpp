@@ -9,6 +9,7 @@
 #include "experiment/events/event_detector.h"
 #include "experiment/record/read/observer_turns.h"
 #include "tests/app/session/exact_sitting.h"
+#include "tests/app/two_eyed_experiment.h"
 #include "tests/experiment/events/detected_events.h"
 #include "tests/support/tsv_file.h"
 
@@ -111,6 +112,25 @@ TEST_CASE("gaze meets the surface in the pose that the observer had turned the o
             CHECK(input.id == sitting.protocol.motions.front().id);
     }
     CHECK(turned > static_cast<int>(record.trials().size()) / 2);
+}
+
+TEST_CASE("gaze meets the surface that its own eye's picture shows", "[session]") {
+    for (const char* const eye : {"left", "right"}) {
+        CAPTURE(eye);
+        ExactSitting sitting(two_eyed(eye));
+        check_places(sitting, 10000, 5000);
+        const SessionHeader& header = SessionRecord(sitting.folder).header();
+        CHECK(header.display.screen.screen_px == glm::ivec2(272, 192));
+        CHECK(header.display.screen.screen_mm.x == Approx(136.0));
+        CHECK(header.display.stereo == "mirrors");
+        CHECK(header.display.interocular_mm == 70.0);
+        CHECK(header.maps.size() == 2 * 2 * header.poses.angles.size());
+        for (const RecordedObject& object : header.objects) {
+            REQUIRE(object.cameras.size() == 2);
+            CHECK(object.cameras[0].aside < -1.0);
+            CHECK(object.cameras[1].aside == -object.cameras[0].aside);
+        }
+    }
 }
 
 TEST_CASE("gaze meets the surface in the pose and the view of its trial", "[session]") {

@@ -75,8 +75,7 @@ TEST_CASE("four stimuli of two sizes are shown, recorded, resumed, replayed, exp
 
     // Each slot is an interest area for as long as it was lit.
     const std::filesystem::path asc = experiment.folder().path() / "asc";
-    REQUIRE(
-        experiment.overt({"export", session, "--format", "asc", "--out", asc.string()}).exit_code == 0);
+    REQUIRE(experiment.overt({"export", session, "--format", "asc", "--out", asc.string()}).exit_code == 0);
     std::string messages;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(asc))
         if (entry.path().extension() == ".asc")

@@ -164,6 +164,14 @@ TEST_CASE("what a header counts off is in the list that it counts", "[unit]") {
             h.schedule.trials[2].stimulus.view = 1;
             h.objects[0].cameras.resize(of);
         });
+    // Where the eyes have pictures of their own, each has its cameras.
+    for (const std::size_t cameras : {1u, 2u, 3u})
+        changes(cameras, cameras > 1, "the two eyes' cameras before object \"bust\"",
+                [](SessionHeader& h, std::size_t of) {
+                    h.display.stereo = "mirrors";
+                    for (RecordedObject& object : h.objects)
+                        object.cameras.resize(of);
+                });
     changes(1, false, trial, [](SessionHeader& h, int of) {
         h.motions = {{"sway", ""}, {"still", ""}};
         h.schedule.trials[2].stimulus.motion = of;

@@ -68,8 +68,10 @@ class PlainPresenter final : public Presenter {
         return next();
     }
     void veil(bool is_on) override { is_veiled = is_on; }
-    void mark_stimuli(std::span<const StimulusMark> given) noexcept override {
+    void mark_stimuli(std::span<const StimulusMark> given,
+                      std::span<const StimulusMark> of_other_eye) noexcept override {
         marks.assign(given.begin(), given.end());
+        others_marks.assign(of_other_eye.begin(), of_other_eye.end());
         all_marks.push_back(marks);
     }
     bool closed() const noexcept override { return is_closed && is_closed(); }
@@ -86,6 +88,7 @@ class PlainPresenter final : public Presenter {
     bool is_veiled = false;
     std::vector<int> seen_frames, veiled_frames; ///< of flips
     std::function<bool()> is_closed;
+    std::vector<StimulusMark> others_marks;           ///< of the other eye, given last
     std::vector<std::vector<StimulusMark>> all_marks; ///< that were ever given
     std::vector<StimulusMark> marks;                  ///< that stand over stimuli now
     std::function<int(int flip)> passes; ///< how many refreshes go by before a flip of stimuli, from 0

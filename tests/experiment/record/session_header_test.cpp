@@ -17,6 +17,13 @@ TEST_CASE("a session's header comes back from the disk in every field", "[unit]"
     in.objects[0].origin = {565400.0, 5934200.25, -35.5};
     in.objects[0].surface_sha256 = std::string(64, 'c');
     in.objects[0].surface_files = "bust.glb; skin.png";
+    in.display.stereo = "mirrors";
+    in.display.interocular_mm = 61.5;
+    for (RecordedObject& object : in.objects) {
+        object.cameras.resize(2 * in.views_of_an_eye(), object.cameras.front());
+        object.cameras.front().aside = -30.75;
+        object.cameras.back().aside = 30.75;
+    }
     const SessionRecord record(make_session(root.path(), in));
     const SessionHeader& out = record.header();
 
@@ -51,6 +58,11 @@ TEST_CASE("a session's header comes back from the disk in every field", "[unit]"
     CHECK(out.display.latency == in.display.latency);
     CHECK(out.display.output_mode == in.display.output_mode);
     CHECK(out.display.background == in.display.background);
+    CHECK(out.display.stereo == in.display.stereo);
+    CHECK(out.display.interocular_mm == in.display.interocular_mm);
+    REQUIRE(out.objects.size() == in.objects.size());
+    for (std::size_t i = 0; i < in.objects.size(); ++i)
+        CHECK(out.objects[i].cameras == in.objects[i].cameras);
     CHECK(out.animations[0].frame_count == in.animations[0].frame_count);
     CHECK(out.animations[0].frame_rate_hz == in.animations[0].frame_rate_hz);
     CHECK(out.animations[0].amplitude == in.animations[0].amplitude);

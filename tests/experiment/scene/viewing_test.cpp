@@ -19,6 +19,13 @@ Camera random_camera(RandomStream& random) {
             {random.uniform(5.0, 60.0)}};
 }
 
+/// Of every third the camera of one of two eyes.
+Camera random_eye(RandomStream& random, int i) {
+    Camera camera = random_camera(random);
+    camera.aside = i % 3 == 0 ? random.uniform(-60.0, 60.0) : 0.0;
+    return camera;
+}
+
 glm::dvec3 random_point(RandomStream& random, double reach) {
     return {random.uniform(-reach, reach), random.uniform(-reach, reach), random.uniform(-reach, reach)};
 }
@@ -39,10 +46,42 @@ glm::dvec2 largest_extent(const Mesh& mesh, const View& view, Degrees amplitude)
 
 } // namespace
 
+TEST_CASE("two eyes' cameras have their target in the middle, and what is beyond it farther apart",
+          "[unit]") {
+    RandomStream random(14, "viewing");
+    for (int i = 0; i < 1000; ++i) {
+        const View middle{random_camera(random), {1024, 600 + i}};
+        View left = middle, right = middle;
+        left.camera.aside = -random.uniform(5.0, 60.0);
+        right.camera.aside = -left.camera.aside;
+        const glm::dvec2 centre = 0.5 * glm::dvec2(middle.image_px);
+        CHECK(glm::length(left.project(left.camera.target) - centre) < 1e-8);
+        CHECK(glm::length(right.project(right.camera.target) - centre) < 1e-8);
+        // The eyes stand level beside the middle, as far apart as is said, the right one to the right.
+        const glm::dvec3 between = right.camera.eye() - left.camera.eye();
+        CHECK(glm::length(between) == Approx(2.0 * right.camera.aside).epsilon(1e-12));
+        CHECK(std::abs(between.z) < 1e-9);
+        CHECK(glm::length(0.5 * (right.camera.eye() + left.camera.eye()) - middle.camera.position) < 1e-9);
+        CHECK(middle.project(middle.camera.target + between).x > centre.x);
+        const glm::dvec3 point = random_point(random, 150.0);
+        const glm::dvec2 of_left = left.project(point), of_right = right.project(point);
+        CHECK(of_left.y == Approx(of_right.y).margin(1e-8));
+        CHECK(left.other_eye_right_px(point) == Approx(of_right.x - of_left.x).margin(1e-8));
+        CHECK(right.other_eye_right_px(point) == Approx(of_left.x - of_right.x).margin(1e-8));
+        CHECK(middle.other_eye_right_px(point) == 0.0);
+        const double target_depth = middle.depth_of(middle.camera.target);
+        CHECK((left.other_eye_right_px(point) > 0.0) == (left.depth_of(point) > target_depth));
+        // By triangles: the eye's distance times what is missing of the depth.
+        const double by_hand = 2.0 * right.camera.aside * middle.px_at_unit_depth() *
+                               (1.0 / target_depth - 1.0 / middle.depth_of(point));
+        CHECK(left.other_eye_right_px(point) == Approx(by_hand).margin(1e-8));
+    }
+}
+
 TEST_CASE("a place of the image is where its own ray is seen", "[unit]") {
     RandomStream random(11, "viewing");
     for (int i = 0; i < 1000; ++i) {
-        const View view{random_camera(random), {1024 + i, 768}};
+        const View view{random_eye(random, i), {1024 + i, 768}};
         const glm::dvec2 place(random.uniform(-100.0, 1200.0), random.uniform(-100.0, 900.0));
         const Ray ray = view.ray_through(place);
         CHECK(glm::length(ray.direction) == Approx(1.0).epsilon(1e-14));
@@ -54,7 +93,7 @@ TEST_CASE("a place of the image is where its own ray is seen", "[unit]") {
 TEST_CASE("the matrices for the graphics card put points where the projection does", "[unit]") {
     RandomStream random(12, "viewing");
     for (int i = 0; i < 1000; ++i) {
-        const View view{random_camera(random), {1024, 600 + i}};
+        const View view{random_eye(random, i), {1024, 600 + i}};
         const glm::dvec3 point = random_point(random, 150.0);
         const glm::dvec4 clip =
             view.clip_from_view(10.0, 10000.0) * view.view_from_world() * glm::dvec4(point, 1.0);

@@ -96,6 +96,58 @@ TEST_CASE("a probe is drawn at its place in each frame, and not where that is hi
     CHECK(sitting.presenter.marks.empty());
 }
 
+TEST_CASE("where each eye has its picture, a mark and a gauge stand in each where that eye sees the place",
+          "[unit]") {
+    Protocol protocol =
+        probed("{ show = \"centre\", frame = 4, until = \"answer\" }", "mark = \"disc\"\n" + a_lean);
+    for (const bool has_two_pictures : {false, true}) {
+        CAPTURE(has_two_pictures);
+        protocol.stereo.kind = has_two_pictures ? StereoKind::mirrors : StereoKind::none;
+        GoingPlace place;
+        place.aside = 0.03;
+        place.target_depth = 4.0;
+        Sitting sitting(protocol);
+        sitting.probe_of = [&](const PlacedStimulus&, const std::string&) {
+            return std::make_shared<GoingPlace>(place);
+        };
+        bool has_both = false;
+        sitting.panel.tell = [&](ScriptedPanel&) -> std::optional<ResponsePress> {
+            const std::vector<StimulusMark>&own = sitting.presenter.marks,
+                  &other = sitting.presenter.others_marks;
+            if (own.empty())
+                return std::nullopt;
+            if (!has_two_pictures) {
+                CHECK(other.empty());
+                return std::nullopt;
+            }
+            REQUIRE(own.size() == other.size());
+            for (std::size_t i = 0; i < own.size(); ++i) {
+                CHECK(own[i].light == other[i].light);
+                CHECK(own[i].rim_px == other[i].rim_px);
+                for (std::size_t line = 0; line < own[i].count; ++line) {
+                    REQUIRE(own[i].lines[line].count == other[i].lines[line].count);
+                    // 1000 px at a depth of 1: 2 * 1000 * 0.03 * (1 / 5 - 1 / 4) = -3 px at the place itself.
+                    const double apart =
+                        other[i].lines[line].points[0].x_px - own[i].lines[line].points[0].x_px;
+                    if (own[i].count == 1 || line == 1) {
+                        CHECK(apart == Approx(-3.0).margin(1e-9));
+                        has_both = has_both || own[i].count == 2;
+                    }
+                    CHECK(other[i].lines[line].points[0].y_px == own[i].lines[line].points[0].y_px);
+                }
+            }
+            return std::nullopt;
+        };
+        using Kind = ObserverInput::Kind;
+        sitting.panel.does = doing({{100, mouse_at(Kind::pointer_down, 0, 0)},
+                                    {120, mouse_at(Kind::pointer_moved, 10, -20)},
+                                    {140, mouse_at(Kind::pointer_up, 10, -20)},
+                                    {300, key_at("space")}});
+        CHECK(sitting.run().completed_trials == 3);
+        CHECK(has_both == has_two_pictures);
+    }
+}
+
 TEST_CASE("a mark stands where its place is, and only in the steps that name it", "[unit]") {
     Sitting sitting(probed("{ show = \"centre\", for_s = 0.1, frame = 4 }, "
                            "{ show = \"centre\", for_s = 0.1, frame = 4, probes = [] }"));
