@@ -112,6 +112,7 @@ struct BakeOutcome {
     std::size_t units = 0, kept = 0, rendered = 0;
     std::size_t waiting = 0; ///< to be added up of frames that other shards render
     double seconds = 0.0, rays = 0.0;
+    double given_up = 0.0; ///< of the frame that has most: SpectralFrame
     bool interrupted = false;
     ClippedPixels clipped;
 };
@@ -161,6 +162,7 @@ void render(const std::vector<BakeUnit>& missing, const BakeJob& job, StimulusLi
             return;
         }
         outcome.rays += frame.rays;
+        outcome.given_up = std::max(outcome.given_up, frame.given_up);
         done += unit.cost;
         ++outcome.rendered;
         writing = std::async(std::launch::async, [&, unit, frame = std::move(frame)] {
@@ -246,6 +248,7 @@ void say_outcome(const BakeOptions& options, const BakeJob& job, const BakeOutco
                                           {"rendered", outcome.rendered},
                                           {"seconds", outcome.seconds},
                                           {"rays", outcome.rays},
+                                          {"light_given_up", outcome.given_up},
                                           {"complete", !outcome.interrupted},
                                           {"out", options.out.string()}};
         fmt::print("{}\n", json.dump(2));
@@ -253,6 +256,10 @@ void say_outcome(const BakeOptions& options, const BakeJob& job, const BakeOutco
     }
     fmt::print("{} of {} are there, {} rendered now\n", outcome.kept + outcome.rendered,
                counted(outcome.units, "frame"), outcome.rendered);
+    if (outcome.given_up > 0.0)
+        fmt::print("of a frame's light up to {:.2g} % was given up inside a translucent body, after a million "
+                   "scatterings: so much of it is missing\n",
+                   100.0 * outcome.given_up);
     if (outcome.waiting > 0)
         fmt::print(
             "{} to be added up of frames of other shards: run `overt bake` once more when all are there\n",

@@ -17,15 +17,23 @@ namespace overt {
 
 namespace {
 
-constexpr int probe_px = 96;
-constexpr int probe_samples = 8;
+/// A small picture to measure the time of paths by.
+struct ProbeSize {
+    int px = 96, samples = 8;
+};
+/// Paths through what is translucent are some hundred times as long, and so many fewer tell their time.
+constexpr ProbeSize usual_probe, translucent_probe{48, 2};
+
+/// Whether its paths take the longer the larger the object is.
+bool is_by_size(const MaterialSettings& material) { return material.kind == MaterialKind::translucent; }
+
 /// For compressing and writing a pixel, on one processor of 2.5 GHz.
 constexpr double writing_s_per_px = 0.15e-6;
 
-SceneView small_view(const SceneView& scene) {
+SceneView small_view(const SceneView& scene, const ProbeSize& size) {
     SceneView small = scene;
     const int longer = std::max(scene.view.image_px.x, scene.view.image_px.y);
-    small.view.image_px = glm::max(scene.view.image_px * std::min(probe_px, longer) / longer, glm::ivec2(1));
+    small.view.image_px = glm::max(scene.view.image_px * std::min(size.px, longer) / longer, glm::ivec2(1));
     return small;
 }
 
@@ -35,9 +43,9 @@ double share_of(const std::vector<std::uint8_t>& covered) {
 }
 
 double seconds_per_path(const BakeScene& scene, const SpectralLight& light, const SceneView& view,
-                        const std::vector<std::uint8_t>& covered) {
+                        const std::vector<std::uint8_t>& covered, const ProbeSize& size) {
     BakeSettings settings;
-    settings.samples = probe_samples;
+    settings.samples = size.samples;
     const auto begin = std::chrono::steady_clock::now();
     const SpectralFrame frame = bake_frame(scene, light, view, {{0.0}}, covered, settings);
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
@@ -50,29 +58,34 @@ double seconds_per_path(const BakeScene& scene, const SpectralLight& light, cons
 } // namespace
 
 PathProbe::PathProbe(const Protocol& protocol, std::span<const Object> objects)
-    : protocol_(&protocol), seconds_per_path_(protocol.materials.size(), 0.0),
-      traced_share_(objects.size(), 0.0) {
+    : protocol_(&protocol),
+      seconds_per_path_(objects.size() * protocol.materials.size(), 0.0), traced_share_(objects.size(), 0.0) {
     const LightSettings& first = protocol.lights.front();
     const SpectralLight light(first.parts.empty() ? first : first.parts.front());
-    bool measured = false;
+    std::vector<double> seconds(protocol.materials.size(), 0.0); // of the first object, and so of all
+    bool is_first = true;
     for (std::size_t i = 0; i < objects.size(); ++i) {
         const Object& object = objects[i];
         if (!object.has_mesh())
             continue;
-        const SceneView view = small_view(object.scene());
-        std::vector<std::uint8_t> covered;
+        bool is_covered = false;
         for (std::size_t material = 0; material < protocol.materials.size(); ++material) {
-            if (!covered.empty() && measured)
-                break;
+            const bool is_own_time = is_by_size(protocol.materials[material]);
+            if (is_covered && !is_first && !is_own_time)
+                continue;
             const BakeScene scene(object.mesh, protocol.materials[material], object.appearance);
-            if (covered.empty()) {
-                covered = covered_pixels(scene, view, {{0.0}});
+            const ProbeSize& size = is_own_time ? translucent_probe : usual_probe;
+            const SceneView view = small_view(object.scene(), size);
+            const std::vector<std::uint8_t> covered = covered_pixels(scene, view, {{0.0}});
+            if (!is_covered)
                 traced_share_[i] = share_of(covered);
-            }
-            if (!measured)
-                seconds_per_path_[material] = seconds_per_path(scene, light, view, covered);
+            is_covered = true;
+            if (is_first || is_own_time)
+                seconds[material] = seconds_per_path(scene, light, view, covered, size);
         }
-        measured = true;
+        std::ranges::copy(seconds, seconds_per_path_.begin() +
+                                       static_cast<std::ptrdiff_t>(i * protocol.materials.size()));
+        is_first = false;
     }
 }
 
@@ -86,7 +99,8 @@ double PathProbe::seconds_of_frame(const Stimulus& stimulus, const FrameQuality&
                          settings.samples / (settings.pixel_step * settings.pixel_step);
     if (!protocol_->light_of(stimulus).sum.empty())
         return pixels * writing_s_per_px; // added up
-    return paths * seconds_per_path_[material] + pixels * writing_s_per_px;
+    const std::size_t of = static_cast<std::size_t>(stimulus.object) * protocol_->materials.size() + material;
+    return paths * seconds_per_path_[of] + pixels * writing_s_per_px;
 }
 
 BakeEstimate bake_estimate(const Experiment& experiment, const StimulusLibrary& library) {
@@ -201,6 +215,10 @@ std::string needs_of_person(const BakeEstimate& estimate, const Protocol& protoc
         text += "  Of an object's own surface it shows colours and what is metal at their places, roughness "
                 "in the "
                 "mean of each of the file's materials, and no bumps.\n";
+    if (std::ranges::find(protocol.materials, MaterialKind::translucent, &MaterialSettings::kind) !=
+        protocol.materials.end())
+        text += "  A translucent body it shows as a matt one under its border, of the colour that a thick one "
+                "has: light that comes through, or out beside where it went in, is missing.\n";
     return text +
            fmt::format(
                "  Times are estimated from small pictures that were traced just now, on {}, if nothing "

@@ -26,7 +26,8 @@ struct BakeEstimate {
     BakeQuality wanted_by_simulated = BakeQuality::preview;
 };
 
-/// How long paths take on this machine: traces a small picture of one object in each material.
+/// How long paths take on this machine: traces a small picture of one object in each material, and
+/// of each object where the material is translucent.
 class PathProbe {
   public:
     /// Takes a second or two. The objects need a mesh to count.
@@ -37,7 +38,7 @@ class PathProbe {
 
   private:
     const Protocol* protocol_;
-    std::vector<double> seconds_per_path_; ///< of each material
+    std::vector<double> seconds_per_path_; ///< of each object in each material
     std::vector<double> traced_share_;     ///< of the picture, for each object
 };
 

@@ -15,7 +15,7 @@ struct LiveDifference {
     MaterialKind kind = MaterialKind::smooth_conductor;
     double median = 0.0, most = 0.0;
 };
-inline constexpr std::array<LiveDifference, 8> live_differences{{
+inline constexpr std::array<LiveDifference, 9> live_differences{{
     {MaterialKind::smooth_conductor, 4.0, 16.0},
     {MaterialKind::rough_conductor, 2.4, 12.0},
     {MaterialKind::coated_conductor, 7.5, 22.0},
@@ -24,6 +24,7 @@ inline constexpr std::array<LiveDifference, 8> live_differences{{
     {MaterialKind::metallic_roughness, 1.1, 5.0},
     {MaterialKind::own, 2.0, 8.0},
     {MaterialKind::glass, 4.5, 25.0},
+    {MaterialKind::translucent, 4.5, 25.0},
 }};
 
 /// In a sentence for each kind of material that the protocol has, what is known of its live frames.

@@ -363,6 +363,29 @@ void check_backgrounds(ProtocolExamination& examination) {
     }
 }
 
+namespace {
+
+/// What is by the millimetre needs millimetres, and what is lit through needs light that can be met.
+void check_translucent(ProtocolExamination& examination, std::size_t index) {
+    const Protocol& protocol = examination.protocol;
+    const std::string kind = entry_path("material", index, "kind");
+    for (std::size_t i = 0; i < protocol.objects.size(); ++i)
+        if (protocol.objects[i].unit == "own")
+            examination.warning({kind, entry_path("object", i, "unit")},
+                                "what is scattered and absorbed \"per_mm\" is by one of the mesh's own units, "
+                                "which are not known",
+                                "give the object's \"unit\"");
+    for (std::size_t i = 0; i < protocol.lights.size(); ++i)
+        if (protocol.lights[i].has_sources())
+            examination.warning({kind, entry_path("light", i, "sun_lux"), entry_path("light", i, "lamps"),
+                                 entry_path("light", i)},
+                                "a sun or lamp is met by chance alone where light leaves a translucent body: "
+                                "the smaller it is, the more noise",
+                                "take large lamps or a probe, or more paths: [bake] target_error_de");
+}
+
+} // namespace
+
 void check_materials(ProtocolExamination& examination) {
     std::set<std::string_view> keys;
     for (const MaterialKindRow& row : material_kinds)
@@ -394,9 +417,12 @@ void check_materials(ProtocolExamination& examination) {
                 {entry_path("material", i, "anisotropy"), entry_path("material", i, "clear_coat")},
                 "a brushed metal has no clear coat", "take one of the two lines out");
         if (!(materials[i].clear_coat > 0.0) &&
+            !examination.faulty.contains(entry_path("material", i, "clear_coat")) &&
             examination.is_written(entry_path("material", i, "clear_coat_roughness")))
             examination.warning({entry_path("material", i, "clear_coat_roughness")},
                                 "\"clear_coat_roughness\" has no effect without \"clear_coat\"");
+        if (materials[i].kind == MaterialKind::translucent)
+            check_translucent(examination, i);
         if (!materials[i].film_nm && examination.is_written(entry_path("material", i, "film_ior")))
             examination.warning({entry_path("material", i, "film_ior")},
                                 "\"film_ior\" has no effect without \"film_nm\"");

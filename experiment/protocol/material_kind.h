@@ -18,6 +18,7 @@ enum class MaterialKind : std::uint8_t {
     metallic_roughness,
     own,
     glass,
+    translucent,
 };
 
 struct MaterialKindRow {
@@ -64,6 +65,11 @@ inline constexpr auto material_kinds = std::to_array<MaterialKindRow>({
      "glass",
      "glass, polished or rough, clear or coloured",
      {"ior", "roughness", "roughness_as", "abbe", "absorbance"}},
+    {MaterialKind::translucent,
+     "translucent",
+     "a body that light goes into, is scattered in and leaves at other places, as wax, marble and skin",
+     {"ior", "roughness", "roughness_as", "scattering_per_mm", "absorption_per_mm", "scattering_anisotropy",
+      "density"}},
 });
 
 constexpr const MaterialKindRow& row_of(MaterialKind kind) {

@@ -361,7 +361,7 @@ struct MaterialSettings : ListEntry {
     MaterialKind kind = MaterialKind::smooth_conductor;
     std::string metal =
         "Au"; ///< "Au", "Ag", or a file (metal_table.h), resolved against the protocol's folder
-    /// See alpha(). Left out: of `own` the file's, of glass none, of all else 0.13.
+    /// See alpha(). Left out: of `own` the file's, of glass and translucent none, of all else 0.13.
     std::optional<double> roughness;
     double coat_ior = 1.4;
     std::array<double, 3> coat_absorbance{0.0, 0.10,
@@ -375,7 +375,7 @@ struct MaterialSettings : ListEntry {
     std::optional<glm::dvec3> reflectance;
     RoughnessAs roughness_as = RoughnessAs::alpha; ///< of plastic; of metallic_roughness it is the root
     bool multiple_scattering = false;      ///< of rough_conductor: light of several micro-mirrors, too
-    double ior = 1.5;                      ///< of plastic and metallic_roughness
+    double ior = 1.5;                      ///< of plastic, metallic_roughness, glass and translucent
     PlasticBody body = PlasticBody::light; ///< of plastic
     // Of metallic_roughness.
     std::optional<double> metallic;          ///< share of metal; left out: none, and of `own` the file's
@@ -388,6 +388,11 @@ struct MaterialSettings : ListEntry {
     // Of glass.
     std::optional<double> abbe;                      ///< its Abbe number; left out: no dispersion
     std::array<double, 3> absorbance{0.0, 0.0, 0.0}; ///< red, green, blue, over half the object's height
+    // Of translucent: red, green, blue, by the millimetre; those of marble (Jensen et al. 2001).
+    std::array<double, 3> scattering_per_mm{2.19, 2.62, 3.0};
+    std::array<double, 3> absorption_per_mm{0.0021, 0.0041, 0.0071};
+    double scattering_anisotropy = 0.0; ///< mean cosine of the angle that a scattering turns light by
+    double density = 1.0;               ///< factor on both coefficients
     // Of rough_conductor.
     double anisotropy = 0.0; ///< 0: alike in all directions
     BrushedAlong brushed = BrushedAlong::around;

@@ -12,6 +12,7 @@
 #include "render/bake/layered_surface.h"
 #include "render/bake/light_colour.h"
 #include "render/bake/material_model.h"
+#include "render/bake/medium.h"
 #include "render/bake/own_surface.h"
 #include "render/bake/thin_film.h"
 
@@ -27,8 +28,9 @@ constexpr double open_share = 1e-3;
 constexpr double crease_deg = 50.0;
 
 /// Throws InputError if a coat cannot be put around the mesh, or it cannot be of glass. `what`: "a coat",
-/// `instead`: "a material without a coat".
-void expect_body(const EdgeCounts& edges, double volume, std::string_view what, std::string_view instead) {
+/// `lies`: "outside", `instead`: "a material without a coat".
+void expect_body(const EdgeCounts& edges, double volume, std::string_view what, std::string_view lies,
+                 std::string_view instead) {
     const std::size_t faulty = edges.boundary + edges.non_manifold + edges.conflicting;
     if (static_cast<double>(faulty) > open_share * static_cast<double>(edges.edges)) {
         throw InputError(fmt::format(
@@ -40,8 +42,25 @@ void expect_body(const EdgeCounts& edges, double volume, std::string_view what, 
         throw InputError(
             fmt::format("{} lies {}, but the mesh's fronts face inwards: turn its faces round, or "
                         "use {}",
-                        what, what == "glass" ? "inside" : "outside", instead));
+                        what, lies, instead));
     }
+}
+
+/// Throws InputError if flights in a medium are too short for numbers as coarse as positions on the body.
+void expect_flights(const Medium& medium, float radius, float step_off) {
+    constexpr float least_steps = 20.0f;
+    if (medium.most_scattering() * least_steps * step_off > 1.0f)
+        throw InputError(fmt::format(
+            "light of a translucent body is scattered every {:.3g} mm, which is too often for a body of {:.3g} "
+            "mm across: at least {:.3g} mm are needed between two scatterings; take less `scattering_per_mm` "
+            "or `density`, or a plastic, which gives light back where it comes in",
+            1.0f / medium.most_scattering(), 2.0f * radius, least_steps * step_off));
+}
+
+/// A translucent body's border is that of glass without dispersion.
+MaterialSettings border_of(MaterialSettings material) {
+    material.abbe.reset();
+    return material;
 }
 
 CoatShape coat_shape(const MaterialSettings& material, double half_height) {
@@ -79,12 +98,19 @@ BakeScene::BakeScene(const Mesh& mesh, const MaterialSettings& material,
             Bins::of(reflectance_of({material.given_reflectance().x, material.given_reflectance().y,
                                      material.given_reflectance().z}));
     if (has_coat())
-        expect_body(edges, volume, "a coat", "a material without a coat");
+        expect_body(edges, volume, "a coat", "outside", "a material without a coat");
     if (material.kind == MaterialKind::glass) {
-        expect_body(edges, volume, "glass", "a material that lets no light through");
+        expect_body(edges, volume, "glass", "inside", "a material that lets no light through");
         absorbance_ = Bins::of(absorbance_of(material.absorbance));
         scale(absorbance_, static_cast<float>(1.0 / half_height));
         glass_ = std::make_unique<Glass>(material_);
+    }
+    if (material.kind == MaterialKind::translucent) {
+        expect_body(edges, volume, "a translucent body", "inside", "a material that lets no light through");
+        medium_ = std::make_unique<Medium>(material_);
+        expect_flights(*medium_, radius_, step_off());
+        absorbance_ = medium_->absorption();
+        glass_ = std::make_unique<Glass>(border_of(material_));
     }
     if (row.has_key("metal"))
         metal_ = metal_table(material);

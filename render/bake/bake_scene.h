@@ -15,6 +15,7 @@ namespace overt {
 class Bumps;
 class Glass;
 class LayeredSurface;
+class Medium;
 class OwnSurface;
 struct MaterialModel;
 
@@ -52,8 +53,9 @@ class BakeScene {
     const OwnSurface* own() const { return own_.get(); } ///< only of a material that is of the file's surface
     bool has_coat() const { return material_.kind == MaterialKind::coated_conductor; }
     const Glass* glass() const { return glass_.get(); }    ///< null: light does not go through
+    const Medium* medium() const { return medium_.get(); } ///< null: nothing that scatters is inside
     const Bumps* bumps() const { return bumps_.get(); }    ///< null: the surface is as smooth as its mesh
-    const Bins& absorbance() const { return absorbance_; } ///< of coat or glass, per unit of length
+    const Bins& absorbance() const { return absorbance_; } ///< of what is inside, per unit of length
 
   private:
     MaterialSettings material_;
@@ -68,7 +70,8 @@ class BakeScene {
     std::unique_ptr<LayeredSurface> layers_;
     std::unique_ptr<OwnSurface> own_;
     std::unique_ptr<Bumps> bumps_;
-    std::unique_ptr<Glass> glass_;
+    std::unique_ptr<Glass> glass_; ///< or the border of a translucent body
+    std::unique_ptr<Medium> medium_;
 };
 
 } // namespace overt

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <mutex>
 #include <numeric>
 #include <optional>
@@ -117,6 +118,8 @@ SpectralFrame bake_frame(const BakeScene& scene, const SpectralLight& light, con
         light.sources_at(object)};
     ProgressReport report(progress, static_cast<double>(film.count()) * settings.samples);
     std::atomic<std::uint64_t> rays{0};
+    // In whole millionths, whose sum does not hang on the order.
+    std::atomic<std::uint64_t> given_up{0}, paths{0};
     std::vector<std::uint32_t> active(film.count());
     std::iota(active.begin(), active.end(), 0u);
     std::uint32_t first = 0;
@@ -136,6 +139,8 @@ SpectralFrame bake_frame(const BakeScene& scene, const SpectralLight& light, con
                 for (std::size_t i = begin; i < end; ++i)
                     work.sample(tracer, film, active[i], first, last);
                 rays += tracer.rays();
+                given_up += static_cast<std::uint64_t>(std::llround(1e6 * tracer.given_up()));
+                paths += static_cast<std::uint64_t>(end - begin) * (last - first);
                 report.add(static_cast<double>(end - begin) * (last - first));
             },
             settings.most_threads);
@@ -147,6 +152,8 @@ SpectralFrame bake_frame(const BakeScene& scene, const SpectralLight& light, con
     }
     SpectralFrame frame = film.develop(covered);
     frame.rays = static_cast<double>(rays.load());
+    if (paths > 0)
+        frame.given_up = 1e-6 * static_cast<double>(given_up.load()) / static_cast<double>(paths.load());
     frame.is_complete = true;
     return frame;
 }

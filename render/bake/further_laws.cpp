@@ -6,6 +6,7 @@
 
 #include "render/bake/conductor.h"
 #include "render/bake/glass.h"
+#include "render/bake/medium.h"
 #include "render/bake/microfacets.h"
 #include "render/bake/thin_film.h"
 
@@ -174,6 +175,68 @@ void add_glass(std::vector<SurfaceLaw>& laws) {
     }
 }
 
+/// Share of light from everywhere that a half space of a medium without a border sends to an eye at a cosine,
+/// of a band: by walks as the path tracer has them.
+double half_space_by_walks(const Medium& medium, double cosine, std::size_t bin) {
+    double back = 0.0;
+    for (std::uint32_t walk = 0; walk < law_paths; ++walk) {
+        SampleSequence sequence(13, {1, 2}, walk);
+        MediumPath path;
+        medium.enter(path, sequence.next(), walk);
+        Bins carried = Bins::filled(1.0f);
+        glm::vec3 along = -eye_at(cosine);
+        float height = 0.0f;
+        while (carried.value[bin] > 1e-4f) {
+            const float flight = medium.free_path(path.band, path.numbers.next());
+            if (height + flight * along.z > 0.0f) {
+                const float left = -height / along.z;
+                medium.fly(left, path, carried);
+                absorb(carried, medium.absorption(), left);
+                back += static_cast<double>(carried.value[bin]) / law_paths;
+                break;
+            }
+            height += flight * along.z;
+            medium.scatter_after(flight, path, carried);
+            along = medium.onward(along, glm::vec2{path.numbers.next(), path.numbers.next()});
+        }
+    }
+    return back;
+}
+
+/// Plane albedos of isotropic scattering by Chandrasekhar's H function (1950, "Radiative Transfer").
+void add_media(std::vector<SurfaceLaw>& laws) {
+    struct Known {
+        double albedo, cosine, share;
+    };
+    for (const auto& [albedo, cosine, share] :
+         {Known{0.5, 1.0, .11523}, Known{0.5, 0.2, .21266}, Known{0.9, 1.0, .41495}, Known{0.9, 0.5, .50794},
+          Known{0.9, 0.05, .65225}, Known{0.99, 1.0, .75272}}) {
+        MaterialSettings material;
+        material.kind = MaterialKind::translucent;
+        material.scattering_per_mm.fill(3.0 * albedo);
+        material.absorption_per_mm.fill(3.0 * (1.0 - albedo));
+        laws.push_back({fmt::format("translucent half space, albedo {}, cosine {}: given back", albedo, cosine),
+                        half_space_by_walks(Medium(material), cosine, 0), share, 6e-3});
+        // A band of its own among others that scatter twice as much and half as much.
+        material.scattering_per_mm = {6.0 * albedo, 3.0 * albedo, 1.5 * albedo};
+        laws.push_back(
+            {fmt::format("the same as the green of a coloured medium, albedo {}, cosine {}", albedo, cosine),
+             half_space_by_walks(Medium(material), cosine, 14), share, 2e-2});
+    }
+    for (const double g : {-0.5, 0.5, 0.9}) {
+        MaterialSettings material;
+        material.kind = MaterialKind::translucent;
+        material.scattering_anisotropy = g;
+        const Medium medium(material);
+        double mean = 0.0;
+        for (std::uint32_t path = 0; path < law_paths; ++path) {
+            SampleSequence sequence(14, {1, 2}, path);
+            mean += static_cast<double>(medium.onward(upright, sequence.next_two()).z) / law_paths;
+        }
+        laws.push_back({fmt::format("mean cosine of scattering with an anisotropy of {}", g), mean, g, 2e-3});
+    }
+}
+
 } // namespace
 
 std::vector<SurfaceLaw> further_laws() {
@@ -182,6 +245,7 @@ std::vector<SurfaceLaw> further_laws() {
     add_brushed(laws);
     add_glass(laws);
     add_shadowings(laws);
+    add_media(laws);
     return laws;
 }
 

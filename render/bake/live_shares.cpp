@@ -4,6 +4,7 @@
 
 #include "render/bake/layered_surface.h"
 #include "render/bake/light_colour.h"
+#include "render/bake/medium.h"
 #include "render/bake/thin_film.h"
 
 namespace overt {
@@ -41,6 +42,24 @@ float mean_reflectance(const ConductorTable& mirror, double cosine) {
     return mean;
 }
 
+/// A matt body under the same border, of the colour that a half space of the medium has: light that leaves
+/// far from where it came in, or on the other side, is not in it.
+LayeredSurface as_if_thick(MaterialSettings material) {
+    Bins given_back;
+    const Medium medium(material);
+    for (std::size_t bin = 0; bin < spectral_bins; ++bin) {
+        const auto scattered = static_cast<double>(medium.scattering().value[bin]),
+                   absorbed = static_cast<double>(medium.absorption().value[bin]);
+        if (scattered > 0.0)
+            given_back.value[bin] = static_cast<float>(
+                half_space_albedo(scattered / (scattered + absorbed), material.scattering_anisotropy));
+    }
+    material.body = PlasticBody::pigment; // what its border throws back goes in again
+    if (!material.roughness)
+        material.roughness = 0.001;
+    return plastic_surface(material, given_back);
+}
+
 /// The mirrors of what is no layered surface: metal as rough as it is in the mean, or glass.
 LayeredSurface mirrors_alone(const MaterialSettings& material) {
     LayeredSurface surface;
@@ -75,7 +94,8 @@ LiveShares live_shares(const MaterialSettings& material) {
     const glm::dvec3 of =
         row_of(material.kind).has_key("reflectance") ? material.given_reflectance() : glm::dvec3(0.0);
     const LayeredSurface surface =
-        model.layers
+        material.kind == MaterialKind::translucent ? as_if_thick(material)
+        : model.layers
             ? model.layers(material, Bins::of(reflectance_of({of.x, of.y, of.z})),
                            row_of(material.kind).has_key("metal") ? metal_table(material) : ConductorTable())
             : mirrors_alone(material);

@@ -22,7 +22,7 @@ struct LiveShares {
 
 /// Of metals, polished or rough, with or without all their light, of plastics and mixtures: the shares that
 /// their paths have (LayeredSurface, LobeAlbedo). Of glass what its surface mirrors, and what goes through
-/// its middle. Throws InputError for an unknown metal.
+/// its middle; of a translucent body what a thick one gives back. Throws InputError for an unknown metal.
 LiveShares live_shares(const MaterialSettings& material);
 
 } // namespace overt

@@ -33,7 +33,7 @@ struct LiveApproximation {
 struct MaterialModel {
     /// Gives the direction in which a path goes on from a surface, and takes from `carried` what the surface
     /// does not send on; (0, 0, 0) ends the path. Null: the
-    /// path goes into what is met, a coat or glass (PathTracer).
+    /// path goes into what is met, a coat, glass or what is translucent (PathTracer).
     glm::vec3 (*scatter)(const BakeScene& scene, const SurfaceEvent& event, SampleSequence& sequence,
                          Bins& carried);
 

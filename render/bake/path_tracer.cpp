@@ -221,10 +221,16 @@ void PathTracer::follow_coated(CoatedPath& path, SampleSequence sequence, Bins& 
 
 void PathTracer::follow_glass(GlassPath& path, SurfaceHit hit, SampleSequence sequence, Bins& sum) {
     const Glass& glass = *scene_->glass();
+    const bool scatters = scene_->medium() && scene_->medium()->scatters();
     for (int event = 0; event < most_events; ++event) {
         if (event > 0 || path.has_split) {
-            ++rays_;
-            hit = scene_->tree().first_hit(path.ray, no_limit, false);
+            if (scatters && path.is_inside) {
+                if (!walk(path, hit, sequence))
+                    return;
+            } else {
+                ++rays_;
+                hit = scene_->tree().first_hit(path.ray, no_limit, false);
+            }
             if (!sources_.empty())
                 add_met_sources(path.ray, hit.surface < 0 ? no_limit : hit.distance, 0.0f, path.carried, sum);
             if (hit.surface < 0) {
@@ -246,6 +252,7 @@ void PathTracer::follow_glass(GlassPath& path, SurfaceHit hit, SampleSequence se
             if (way.band != along.band) // one colour stands for all from here on
                 along.set_out *= static_cast<float>(spectral_bins);
             along.band = way.band;
+            along.is_inside = way.goes_through == enters;
         };
         if (!path.has_split) {
             // Both ways once, at the first meeting, as for a coat.

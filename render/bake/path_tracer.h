@@ -5,6 +5,7 @@
 #include <span>
 
 #include "render/bake/bake_scene.h"
+#include "render/bake/medium.h"
 #include "render/bake/sample_sequence.h"
 #include "render/bake/spectral_light.h"
 
@@ -34,6 +35,8 @@ class PathTracer {
 
     /// Rays cast so far.
     std::uint64_t rays() const { return rays_; }
+    /// Paths of which each 1 is one whole path's light, that were given up after very many scatterings.
+    double given_up() const { return given_up_; }
 
   private:
     /// What a path through a coat is about.
@@ -45,13 +48,15 @@ class PathTracer {
         bool has_split = false;
     };
 
-    /// What a path through glass is about.
+    /// What a path through glass is about, or through a translucent body.
     struct GlassPath {
         PathRay ray;
         Bins carried;
         float set_out = 1.0f; ///< as of CoatedPath
         int band = -1;        ///< the only one that it still carries, once colours have parted
         bool has_split = false;
+        bool is_inside = false; ///< of the body, in its medium
+        MediumPath medium{};
     };
 
     /// Light from a surface that scatters towards the eye, by way of a source that is aimed at.
@@ -67,6 +72,9 @@ class PathTracer {
     void follow_coated(CoatedPath& path, SampleSequence sequence, Bins& sum);
     /// `hit`: where the path is at first; of one that has split already, where that was.
     void follow_glass(GlassPath& path, SurfaceHit hit, SampleSequence sequence, Bins& sum);
+    /// From scattering to scattering through the body's medium until the path meets its border: false: it has
+    /// ended inside. No surface is met where the mesh has a hole.
+    bool walk(GlassPath& path, SurfaceHit& hit, SampleSequence& sequence);
     bool meet_coat(CoatedPath& path, const SurfaceHit& hit, SampleSequence& sequence, Bins& sum);
 
     /// A direction of the object's as the light has it.
@@ -81,6 +89,7 @@ class PathTracer {
     const glm::mat3* world_from_object_;
     std::span<const LightSource> sources_;
     std::uint64_t rays_ = 0;
+    double given_up_ = 0.0;
 };
 
 } // namespace overt

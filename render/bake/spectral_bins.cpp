@@ -37,6 +37,13 @@ OVERT_PROCESSOR_CLONES("avx2", "avx512f") void scale(Bins& bins, float factor) {
         bins.value[i] *= factor;
 }
 
+OVERT_PROCESSOR_CLONES("avx2", "avx512f") void scale_or_drop(Bins& bins, float factor) {
+    for (std::size_t i = 0; i < Bins::padded; ++i) {
+        const float scaled = bins.value[i] * factor;
+        bins.value[i] = scaled < 1e-30f ? 0.0f : scaled;
+    }
+}
+
 OVERT_PROCESSOR_CLONES("avx2", "avx512f") void multiply(Bins& bins, const Bins& by) {
     for (std::size_t i = 0; i < Bins::padded; ++i)
         bins.value[i] *= by.value[i];

@@ -35,6 +35,8 @@ struct alignas(64) Bins {
 using RgbBasis = std::array<Bins, 3>;
 
 void scale(Bins& bins, float factor);
+/// Likewise, and what is below 1e-30 is nothing: numbers near the least that there is are slow.
+void scale_or_drop(Bins& bins, float factor);
 void multiply(Bins& bins, const Bins& by);
 /// Times `from`, or `to`, or what lies between them at `share`.
 void multiply_mixed(Bins& bins, const Bins& from, const Bins& to, float share);

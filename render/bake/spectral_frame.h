@@ -24,6 +24,9 @@ struct SpectralFrame {
     std::vector<float> error_de;        ///< estimated Delta-E ab of each pixel; empty without target_error_de
     std::size_t alphas_moved = 0;       ///< pixels whose alpha was moved as said
     double rays = 0.0;                  ///< cast for it
+    /// Share of its paths' light that was given up inside a translucent body, after very many scatterings: as
+    /// much is missing in the mean, in light of 1 from everywhere.
+    double given_up = 0.0;
     bool is_complete = false;           ///< false: it was stopped, and its content is of no use
 };
 

@@ -17,7 +17,8 @@ std::string text_of(glm::dvec3 vector) { return fmt::format("{} {} {}", vector.x
 /// The value of a key of a material, as its file has it; empty where the key is left out and nothing stands
 /// in its place.
 std::string text_of(const Key& key, const MaterialSettings& material) {
-    const bool has_usual = material.kind != MaterialKind::own && material.kind != MaterialKind::glass;
+    const bool has_usual = material.kind != MaterialKind::own && material.kind != MaterialKind::glass &&
+                           material.kind != MaterialKind::translucent;
     if (key.rule.name == "roughness")
         return material.roughness || has_usual ? fmt::format("{}", material.given_roughness()) : "";
     if (key.rule.name == "metallic")

@@ -4,6 +4,7 @@
 #include "render/bake/frame_baker.h"
 #include "render/bake/glass.h"
 #include "render/bake/light_sources.h"
+#include "render/bake/medium.h"
 #include "render/bake/own_surface.h"
 #include "render/bake/thin_film.h"
 #include "render/image/gallery_probe.h"
@@ -40,7 +41,7 @@ void add_to(ContentHasher& hasher, const SceneView& scene) {
 }
 
 void add_to(ContentHasher& hasher, const MaterialSettings& material) {
-    static_assert(value_count<MaterialSettings>() == 27, "what was added counts here, or is of no light");
+    static_assert(value_count<MaterialSettings>() == 31, "what was added counts here, or is of no light");
     const MaterialSettings& m = material;
     hasher.add(static_cast<int>(m.kind))
         .add(std::string_view(is_metal_file(m.metal) ? hash_of_file(m.metal) : m.metal));
@@ -85,6 +86,13 @@ void add_to(ContentHasher& hasher, const MaterialSettings& material) {
         hasher.add(glass_version).add(m.roughness.has_value() ? 1 : 0).add(m.abbe.value_or(0.0));
         for (const double number : m.absorbance)
             hasher.add(number);
+    }
+    if (m.kind == MaterialKind::translucent) {
+        hasher.add(medium_version).add(glass_version).add(m.roughness.has_value() ? 1 : 0);
+        for (const auto& coefficients : {m.scattering_per_mm, m.absorption_per_mm})
+            for (const double number : coefficients)
+                hasher.add(number);
+        hasher.add(m.scattering_anisotropy).add(m.density);
     }
 }
 

@@ -56,7 +56,9 @@ StimulusRenderer::Prepared StimulusRenderer::prepared(const MaterialSettings& ma
                                                       const PaintedSurface::Piece* piece) const {
     Prepared made{material, &model_of(material.kind).live, nullptr, std::nullopt, glm::dvec3(0.0)};
     const bool coated = made.live->shading == LiveApproximation::Shading::coated_metal;
-    made.reflectance = material.kind == MaterialKind::glass ? glm::dvec3(0.0)
+    const bool lets_through =
+        material.kind == MaterialKind::glass || material.kind == MaterialKind::translucent;
+    made.reflectance = lets_through ? glm::dvec3(0.0)
                        : row_of(material.kind).has_key("reflectance")
                            ? material.given_reflectance()
                            : linear_rec709_of(normal_reflectance(load_metal(material.metal),

@@ -360,12 +360,12 @@ std::vector<Key> material() {
          "\"Au\" for gold, \"Ag\" for silver, or a table of another conductor: a CSV file with the columns "
          "wavelength_nm, n and k, by its path from the protocol's folder."},
         {"roughness", &M::roughness,
-         range(0.001, 1).left_out("0.13; of `own` as the object's file has it, and of glass none"),
-         "GGX alpha of a rough metal, plastic or glass; of `metallic-roughness` and `own` its square root, "
+         range(0.001, 1).left_out("0.13; of `own` as the object's file has it, and of glass and translucent bodies none"),
+         "GGX alpha of a rough metal, plastic or glass, or of the surface of a translucent body; of `metallic-roughness` and `own` its square root, "
          "as "
          "other programs have it. Of `own` it stands everywhere in place of what the file says."},
         {"roughness_as", &M::roughness_as,
-         "Whether the `roughness` of a plastic or glass is the GGX alpha, or its root."},
+         "Whether the `roughness` of a plastic, glass or translucent body is the GGX alpha, or its root."},
         {"anisotropy", &M::anisotropy, range(0, 1),
          "Of a rough metal: how much rougher it is across its scratches than along them, as glTF has it: "
          "alpha along is that of `roughness`, across it that + (1 - that) times the square of this."},
@@ -377,9 +377,8 @@ std::vector<Key> material() {
          "Of a rough metal: whether the light counts that leaves by several micro-mirrors, too. Without it "
          "rough metals are too dark: by 4 % at a roughness of 0.13, by 38 % at 0.6."},
         {"ior", &M::ior, range(1.01, 3),
-         "Index of refraction of the clear surface of a plastic, of what is no metal, and of glass, there "
-         "for "
-         "the yellow light of 587.6 nm."},
+         "Index of refraction of the clear surface of a plastic, of what is no metal, of translucent "
+         "bodies, and of glass, there for the yellow light of 587.6 nm."},
         {"body", &M::body,
          "What `reflectance` is of: of the light that comes out of a plastic, as a colour measured on it is, "
          "or "
@@ -423,6 +422,19 @@ std::vector<Key> material() {
          "flint."},
         {"absorbance", &M::absorbance, range(0, 100),
          "Optical depth of glass in red, green and blue, over half the object's height."},
+        {"scattering_per_mm", &M::scattering_per_mm, range(0, 1000),
+         "How often red, green and blue light is scattered inside a translucent body, in a millimetre of its "
+         "way; of an object with `unit = \"own\"` in one of its units. 1 by it is the mean length of a free "
+         "flight. The default is marble."},
+        {"absorption_per_mm", &M::absorption_per_mm, range(0, 1000),
+         "How much of red, green and blue light is absorbed there, by Beer and Lambert's law. The share of "
+         "light that a scattering leaves, the albedo, is scattering / (scattering + absorption)."},
+        {"scattering_anisotropy", &M::scattering_anisotropy, range(-0.95, 0.95),
+         "Mean cosine of the angle that a scattering turns light by (g of Henyey and Greenstein): 0 to all "
+         "sides alike, 0.8 forward as in skin and milk, below 0 backward."},
+        {"density", &M::density, range(1e-6, 1e6),
+         "Factor on both `scattering_per_mm` and `absorption_per_mm`: how dense the medium is, in one number, "
+         "which may be a series."},
     });
 }
 

@@ -153,6 +153,32 @@ TEST_CASE("whatever makes a traced frame changes its key, and nothing else does"
              i.material.kind = MaterialKind::glass;
              i.material.absorbance[1] = 0.2;
          }},
+        {"translucent", [](Inputs& i) { i.material.kind = MaterialKind::translucent; }},
+        {"translucent under a rough surface",
+         [](Inputs& i) {
+             i.material.kind = MaterialKind::translucent;
+             i.material.roughness = 0.13;
+         }},
+        {"translucent, scattering more",
+         [](Inputs& i) {
+             i.material.kind = MaterialKind::translucent;
+             i.material.scattering_per_mm[0] *= 1.001;
+         }},
+        {"translucent, absorbing more",
+         [](Inputs& i) {
+             i.material.kind = MaterialKind::translucent;
+             i.material.absorption_per_mm[2] *= 1.001;
+         }},
+        {"translucent, scattering forward",
+         [](Inputs& i) {
+             i.material.kind = MaterialKind::translucent;
+             i.material.scattering_anisotropy = 0.5;
+         }},
+        {"translucent and denser",
+         [](Inputs& i) {
+             i.material.kind = MaterialKind::translucent;
+             i.material.density = 1.001;
+         }},
         {"film", [](Inputs& i) { i.material.film_nm = 300.0; }},
         {"index of the film",
          [](Inputs& i) {
