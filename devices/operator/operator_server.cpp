@@ -41,6 +41,12 @@ constexpr std::chrono::milliseconds longest_silence{500};
 /// A view greets as soon as it is connected; who has not by then is none.
 constexpr std::chrono::seconds longest_until_greeting{3};
 
+} // namespace
+
+void check_socket_place(const std::filesystem::path& socket) { const SocketAddress address(socket); }
+
+namespace {
+
 /// Refuses a place that is taken; a socket that nobody serves is not.
 void check_is_free(const std::filesystem::path& file) {
     struct stat there {};
@@ -77,10 +83,11 @@ void remove_unserved(const std::filesystem::path& file) {
 /// Whoever finds the file can connect: it gets its name when all is ready. Nothing that lies there is
 /// replaced.
 OwnedSocket open_listener(const std::filesystem::path& file) {
+    check_socket_place(file);
     check_is_free(file);
     static std::atomic<int> number{0};
     const std::filesystem::path unready =
-        file.parent_path() / fmt::format(".{:.40}.{}-{}", file.filename().string(), ::getpid(), number++);
+        file.parent_path() / fmt::format(".operator.{}-{}", ::getpid(), number++);
     const SocketAddress address(unready);
     OwnedSocket opened{::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0)};
     struct stat made {};
@@ -152,8 +159,6 @@ struct OperatorServer::View {
     SteadyClock::time_point state_told{};
     SteadyClock::time_point came = SteadyClock::now();
 };
-
-void check_socket_place(const std::filesystem::path& socket) { const SocketAddress address(socket); }
 
 OperatorServer::OperatorServer(Options options)
     : options_(std::move(options)), woken_(open_counter()), news_(options_.ring_capacity),

@@ -11,18 +11,25 @@
 
 namespace overt {
 
+namespace {
+
+/// What stands beside it is the folder's descriptor, whose number may have ten digits at whoever connects.
+constexpr std::size_t longest_name = sizeof(sockaddr_un::sun_path) - sizeof "/proc/self/fd/2147483647/";
+
+} // namespace
+
 SocketAddress::SocketAddress(const std::filesystem::path& socket) {
+    const std::string own_name = socket.filename().string();
+    if (own_name.empty() || own_name.size() > longest_name)
+        throw InputError(
+            fmt::format("{}: no socket can be called so: give it a shorter name, of {} bytes at most",
+                        socket.string(), longest_name));
     const std::filesystem::path folder = socket.has_parent_path() ? socket.parent_path() : ".";
     folder_ = ::open(folder.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC);
     if (folder_ < 0)
         throw InputError(fmt::format("{}: no socket can be there: {}: name a folder that exists",
                                      socket.string(), std::strerror(errno)));
-    const std::string name = fmt::format("/proc/self/fd/{}/{}", folder_, socket.filename().string());
-    if (!socket.has_filename() || name.size() >= sizeof address_.sun_path) {
-        ::close(folder_);
-        throw InputError(
-            fmt::format("{}: no socket can be called so: give it a short name", socket.string()));
-    }
+    const std::string name = fmt::format("/proc/self/fd/{}/{}", folder_, own_name);
     address_.sun_family = AF_UNIX;
     std::memcpy(address_.sun_path, name.c_str(), name.size() + 1);
 }

@@ -12,7 +12,8 @@ namespace overt {
 /// by a descriptor that stays open as long as this lives.
 class SocketAddress {
   public:
-    /// Throws InputError if the folder cannot be entered or the file's own name is too long.
+    /// Throws InputError if the folder cannot be entered or the file's own name is too long:
+    /// what one program can open every other one can reach.
     explicit SocketAddress(const std::filesystem::path& socket);
     ~SocketAddress();
     SocketAddress(const SocketAddress&) = delete;

@@ -414,3 +414,54 @@ TEST_CASE("a session that speaks another version is told apart, and one that nev
     session = {};
     ::close(listener);
 }
+
+TEST_CASE("a socket's own name has 82 bytes at most, so that whoever looks for it can reach it", "[unit]") {
+    const TemporaryFolder folder;
+    const auto named = [&](std::size_t bytes) { return folder.path() / std::string(bytes, 's'); };
+    const auto serve = [](const std::filesystem::path& socket) {
+        OperatorServer::Options options;
+        options.socket = socket;
+        options.facts.protocol = "small";
+        return std::make_unique<OperatorServer>(std::move(options));
+    };
+    {
+        const auto server = serve(named(82));
+        CHECK(is_served(named(82)));
+        CHECK(OperatorClient(named(82)).facts().protocol == "small");
+    }
+    for (const std::size_t bytes : {83u, 107u, 200u}) {
+        const std::string words = "no socket can be called so: give it a shorter name, of 82 bytes at most";
+        CHECK_THROWS_WITH(serve(named(bytes)), Catch::EndsWith(words));
+        CHECK_THROWS_WITH(check_socket_place(named(bytes)), Catch::EndsWith(words));
+        CHECK_THROWS_WITH(OperatorClient(named(bytes)), Catch::EndsWith(words));
+        CHECK_THROWS_AS(serve(named(bytes)), InputError);
+    }
+    CHECK_THROWS_AS(check_socket_place(folder.path() / ""), InputError);
+    CHECK(std::filesystem::is_empty(folder.path()));
+    // The longest that "/proc/self/fd/" and any descriptor's number leave of a socket's address.
+    CHECK(std::string("/proc/self/fd/2147483647/").size() + 82 + 1 == sizeof(sockaddr_un::sun_path));
+}
+
+TEST_CASE("who sends more than the longest line without an end is no session", "[unit]") {
+    for (const std::size_t more : {0u, 1u}) {
+        const TemporaryFolder folder;
+        const SocketAddress address(folder.path() / "s");
+        const int listener = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+        REQUIRE(::bind(listener, address.address(), address.size()) == 0);
+        REQUIRE(::listen(listener, 1) == 0);
+        std::jthread sender([&] {
+            const int view = ::accept(listener, nullptr, nullptr);
+            char greeting[256];
+            static_cast<void>(::recv(view, greeting, sizeof greeting, 0));
+            const std::string line(longest_camera_line + more, 'x');
+            static_cast<void>(::send(view, line.data(), line.size(), MSG_NOSIGNAL));
+            ::close(view);
+        });
+        CHECK_THROWS_WITH(OperatorClient(folder.path() / "s"),
+                          Catch::EndsWith(more == 0 ? ": the session does not answer"
+                                                    : "the session sent a line without an end: this is no "
+                                                      "operator's socket of overt"));
+        sender.join();
+        ::close(listener);
+    }
+}
