@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <cstring>
 #include <deque>
+#include <initializer_list>
 #include <map>
 #include <string>
 #include <vector>
@@ -37,6 +39,13 @@ class DescriptorText {
     DescriptorText& unit(int unit, int exponent) { return item(0x64, unit, 2).item(0x54, exponent & 0xF, 1); }
     DescriptorText& input(int flags) { return item(0x80, flags); }
     DescriptorText& feature(int flags) { return item(0xB0, flags); }
+    /// A gaze point in tenths of a millimetre: 16 bits for each of its axes.
+    DescriptorText& gaze_point(std::initializer_list<int> axes = {0x21, 0x22}) {
+        unit(0x11, -2).logical(-10'000, 10'000).size(16, static_cast<int>(axes.size())).open(0x24, 0);
+        for (const int axis : axes)
+            usage(axis);
+        return input(0x02).close();
+    }
 
     std::vector<std::byte> bytes;
 
@@ -72,6 +81,17 @@ inline std::vector<std::byte> eye_tracker_descriptor(std::int64_t reach_um = 2'0
     text.open(0x14, 2).id(0x14).unit(0, 0).logical(0, 7).item(0x74, 8).usage(0x400).feature(0x82).close();
     text.close();
     return text.bytes;
+}
+
+/// What that tracker sends: the time, the gaze, and both eyes, of which the left one's distance matters.
+inline std::vector<std::byte> gaze_report(std::uint64_t us, std::int32_t x_um, std::int32_t y_um,
+                                          std::int32_t left_z_um = 600'000) {
+    std::vector<std::byte> report(53);
+    report[0] = std::byte{0x10};
+    const std::int32_t places[11] = {x_um, y_um, -30'000, 1'000, left_z_um, 30'000, 2'000, 610'000, 0, 0, 0};
+    std::memcpy(report.data() + 1, &us, 8);
+    std::memcpy(report.data() + 9, places, 44);
+    return report;
 }
 
 /// A keyboard with eight bytes a report: modifiers, one unused, six keys that are down (HID 1.11, appendix

@@ -401,3 +401,54 @@ TEST_CASE("the powers of ten of a unit go from -8 to 7, and its lengths are cent
     field.physical_minimum = -100; // to 0
     CHECK(hid_physical(field, 3) == Approx(-70.0));
 }
+
+TEST_CASE("what cannot be read of a descriptor is told with the byte at which its item begins", "[unit]") {
+    const auto refusal = [](std::initializer_list<int> bytes) -> std::string {
+        try {
+            parse_report_descriptor(bytes_of(bytes));
+        } catch (const DeviceError& error) {
+            const std::string said = error.what(), head = "The HID report descriptor cannot be read, byte ";
+            CHECK(said.starts_with(head));
+            return said.substr(head.size());
+        }
+        return "";
+    };
+    CHECK(refusal({}).empty());
+    CHECK(refusal({0xB4}) == "0: a pop has no push.");
+    CHECK(refusal({0x05, 0x01, 0xB4}) == "2: a pop has no push.");
+    CHECK(refusal({0xA4, 0xB4}).empty());
+    CHECK(refusal({0xA4}) == "0: a push has no pop.");
+    CHECK(refusal({0xC0}) == "0: a collection ends that was not begun.");
+    CHECK(refusal({0xA1, 0x01}) == "0: a collection is not ended.");
+    CHECK(refusal({0xA1, 0x01, 0xC0}).empty());
+    CHECK(refusal({0x05, 0x01, 0xA1, 0x01, 0xC0, 0xC0}) == "5: a collection ends that was not begun.");
+    CHECK(refusal({0x05}) == "0: the item is cut off.");
+    CHECK(refusal({0x05, 0x01, 0x06, 0x01}) == "2: the item is cut off.");
+    CHECK(refusal({0xFE, 0x02, 0x00, 0x01, 0x02, 0x05, 0x01}).empty()); // a long item
+    CHECK(refusal({0xFE, 0x02, 0x00, 0x01}) == "0: the item is cut off.");
+    CHECK(refusal({0xFE, 0x00, 0x00, 0xB4}) == "3: a pop has no push.");
+    CHECK(refusal({0x85, 0x00}) == "0: 0 is no report id.");
+    CHECK(refusal({0x85, 0xFF}).empty());
+    CHECK(refusal({0x86, 0x00, 0x01}) == "0: 256 is no report id.");
+    CHECK(refusal({0x75, 0x08, 0x95, 0x01, 0x09, 0x01, 0x81, 0x02, 0x85, 0x01}) ==
+          "8: some reports have an id and others have none.");
+    CHECK(refusal({0x19, 0x05, 0x29, 0x04}) == "2: a range of usages ends before it begins.");
+    CHECK(refusal({0x19, 0x05, 0x29, 0x05}).empty());
+    CHECK(refusal({0x29, 0x04}).empty()); // an end alone is none
+    CHECK(refusal({0x75, 0x41, 0x95, 0x01, 0x09, 0x01, 0x81, 0x02}) ==
+          "6: a field has 65 bits, and 64 are the most that can be read.");
+    CHECK(refusal({0x75, 0x40, 0x95, 0x01, 0x09, 0x01, 0x81, 0x02}).empty());
+    std::vector<std::byte> deep(65, std::byte{0xA4});
+    CHECK_THROWS_WITH(parse_report_descriptor(deep), Catch::EndsWith("byte 64: too many pushes."));
+    deep.back() = std::byte{0xB4};
+    deep.insert(deep.end(), 63, std::byte{0xB4});
+    CHECK_NOTHROW(parse_report_descriptor(deep));
+    std::vector<std::byte> within;
+    for (int i = 0; i < 64; ++i)
+        within.insert(within.end(), {std::byte{0xA1}, std::byte{0x00}});
+    within.insert(within.end(), 64, std::byte{0xC0});
+    CHECK(parse_report_descriptor(within).collections.size() == 64);
+    within.insert(within.begin(), {std::byte{0xA1}, std::byte{0x00}});
+    CHECK_THROWS_WITH(parse_report_descriptor(within),
+                      Catch::EndsWith("byte 128: too many collections within each other."));
+}
