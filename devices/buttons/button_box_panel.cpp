@@ -260,7 +260,7 @@ void ButtonBoxPanel::write_down(SessionLog& log) {
     }
     for (Change change; next_change(change);) {
         keep(change);
-        if (!change.change.is_turn() && recorded_.size() < recorded_.capacity())
+        if (!change.change.is_turn())
             recorded_.push_back(change);
     }
     if (!changes_.empty()) {

@@ -120,7 +120,7 @@ std::string hid_button_name(int button) {
 HidButtonBox::HidButtonBox(std::unique_ptr<HidLine> line, const HidDescriptor& descriptor, std::string model,
                            Clock& clock)
     : line_(std::move(line)), clock_(&clock), model_(std::move(model)), buttons_(descriptor),
-      report_(descriptor.longest_report_bytes(HidReportKind::input) + 64) {
+      report_(descriptor.longest_report_bytes(HidReportKind::input)) {
     if (!buttons_.has_any())
         throw DeviceError(fmt::format("{} has neither buttons nor keys.", line_->name()));
     held_.reserve(2048);

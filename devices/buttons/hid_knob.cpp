@@ -102,7 +102,7 @@ HidKnob::HidKnob(std::unique_ptr<HidLine> line, const HidDescriptor& descriptor,
       has_ids_(descriptor.has_report_ids),
       turns_(is_dial() ? dial_fields(descriptor) : knob_fields(descriptor, {rotation_z})),
       tilts_(is_dial() ? std::vector<HidField>() : knob_fields(descriptor, {rotation_x})),
-      buttons_(descriptor), report_(descriptor.longest_report_bytes(HidReportKind::input) + 64) {
+      buttons_(descriptor), report_(descriptor.longest_report_bytes(HidReportKind::input)) {
     if (turns_.empty())
         throw DeviceError(fmt::format("{} has no {}.", line_->name(),
                                       is_dial() ? "dial or wheel that tells turns"

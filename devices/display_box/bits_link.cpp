@@ -33,7 +33,7 @@ void BitsLink::note_noise(std::string_view text) noexcept {
 }
 
 void BitsLink::keep(const StatusSample& sample) noexcept {
-    if (last_number_ && sample.number > *last_number_ + 1)
+    if (last_number_ && sample.number > *last_number_)
         lost_samples_ += sample.number - *last_number_ - 1;
     last_number_ = sample.number;
     if (filled_ == ring_.size()) {

@@ -132,17 +132,18 @@ std::optional<std::string> recover_display(std::span<const SerialPortInfo> candi
     ports.insert(ports.begin(), SerialPortInfo{.path = record->port});
     std::string refusals;
     for (const SerialPortInfo& port : ports) {
-        for (const auto& box : ask_all({&port, 1}, open, clock, settings, refusals)) {
-            if (box->identity().serial_number != record->serial_number) {
-                refusals += fmt::format("\n  {}: another box, serial number {}", port.path,
-                                        box->identity().serial_number);
-                continue;
-            }
-            box->restore_desktop();
+        const Boxes answering = ask_all({&port, 1}, open, clock, settings, refusals);
+        if (answering.empty())
+            continue;
+        DisplayPlusPlus& box = *answering.front();
+        if (box.identity().serial_number == record->serial_number) {
+            box.restore_desktop();
             return fmt::format(
                 "{} on {} was left in {} mode by a run that did not end well; it is back in Bits++.",
-                box->identity().product, port.path, record->mode);
+                box.identity().product, port.path, record->mode);
         }
+        refusals +=
+            fmt::format("\n  {}: another box, serial number {}", port.path, box.identity().serial_number);
     }
     throw DeviceError(fmt::format("the display box {} was left in {} mode by a run that did not end well, or "
                                   "is still at it; it could not be switched back: plug it in, or wait until "

@@ -258,8 +258,6 @@ bool EyelinkDriver::is_recording_as_agreed(std::string& problem) {
 
 void EyelinkDriver::start() {
     ended_at_start_.reset();
-    decoder_.reset();
-    last_arrival_ = clock_->now();
     if (settings_.is_dummy)
         return;
     library_->set_offline_mode();

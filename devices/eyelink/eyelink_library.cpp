@@ -60,7 +60,6 @@ void find_optional(const SharedLibrary& library, EyelinkFunctions& of) {
     find(of.receive_data_file_feedback, "receive_data_file_feedback");
     find(of.eyelink_tracker_double_usec, "eyelink_tracker_double_usec");
     find(of.eyelink_mode_data, "eyelink_mode_data");
-    find(of.eyelink_data_status, "eyelink_data_status");
 }
 
 } // namespace

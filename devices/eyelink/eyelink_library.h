@@ -97,7 +97,6 @@ struct EyelinkFunctions {
                                                void (*progress)(unsigned size, unsigned received)) = nullptr;
     double (*eyelink_tracker_double_usec)() = nullptr;
     i16 (*eyelink_mode_data)(i16* rate, i16* mode, i16* file_filter, i16* link_filter) = nullptr;
-    void* (*eyelink_data_status)() = nullptr;
 };
 
 /// The library, loaded.

@@ -27,75 +27,69 @@ std::string utf8_of(const char* text) {
     return is_utf8(bytes) ? std::string(bytes) : utf8_of_latin1(bytes);
 }
 
+/// What a hook does for the set-up that is under way; without one, nothing.
+template <class Call> std::int16_t in_setup(const Call& call) {
+    return active_setup ? call(*active_setup) : std::int16_t{0};
+}
+
 extern "C" {
-std::int16_t overt_el1_set_up() { return active_setup ? active_setup->set_up() : std::int16_t{0}; }
+std::int16_t overt_el1_set_up() {
+    return in_setup([](EyelinkSetup& setup) { return setup.set_up(); });
+}
 void overt_el1_clear() {
-    if (active_setup)
-        active_setup->clear();
+    in_setup([](EyelinkSetup& setup) { return setup.clear(); });
 }
 void overt_el1_nothing() {}
 std::int16_t overt_el1_set_up_image(std::int16_t, std::int16_t) { return 0; }
 void overt_el1_image_title(std::int16_t threshold, char* name) {
-    if (active_setup)
-        active_setup->image_title(threshold < 0 ? utf8_of(name)
-                                                : fmt::format("{}, threshold {}", utf8_of(name), threshold));
+    in_setup([&](EyelinkSetup& setup) {
+        return setup.image_title(threshold < 0 ? utf8_of(name)
+                                               : fmt::format("{}, threshold {}", utf8_of(name), threshold));
+    });
 }
 void overt_el1_image_line(std::int16_t width, std::int16_t line, std::int16_t lines, std::uint8_t* indices) {
-    if (active_setup)
-        active_setup->image_line(width, line, lines, indices);
+    in_setup([&](EyelinkSetup& setup) { return setup.image_line(width, line, lines, indices); });
 }
 void overt_el1_palette(std::int16_t colours, std::uint8_t* red, std::uint8_t* green, std::uint8_t* blue) {
-    if (!active_setup || colours <= 0)
-        return;
-    const auto count = static_cast<std::size_t>(colours);
-    active_setup->image_palette({red, count}, {green, count}, {blue, count});
+    const auto count = static_cast<std::size_t>(std::max<std::int16_t>(colours, 0));
+    in_setup([&](EyelinkSetup& setup) {
+        return setup.image_palette({red, count}, {green, count}, {blue, count});
+    });
 }
 void overt_el1_draw_target(std::int16_t x, std::int16_t y) {
-    if (active_setup)
-        active_setup->draw_target(x, y);
+    in_setup([&](EyelinkSetup& setup) { return setup.draw_target(x, y); });
 }
-void overt_el1_target_beep() {
-    if (active_setup)
-        active_setup->beep(1);
+std::int16_t overt_el2_beep(void*, std::int32_t which) {
+    return in_setup([&](EyelinkSetup& setup) { return setup.beep(which); });
 }
-void overt_el1_calibration_beep(std::int16_t error) {
-    if (active_setup)
-        active_setup->beep(error ? -1 : 0);
-}
-void overt_el1_drift_beep(std::int16_t error) {
-    if (active_setup)
-        active_setup->beep(error ? -2 : 2);
-}
-void overt_el1_drift_target_beep() {
-    if (active_setup)
-        active_setup->beep(3);
-}
+void overt_el1_target_beep() { overt_el2_beep(nullptr, 1); }
+void overt_el1_calibration_beep(std::int16_t error) { overt_el2_beep(nullptr, error ? -1 : 0); }
+void overt_el1_drift_beep(std::int16_t error) { overt_el2_beep(nullptr, error ? -2 : 2); }
+void overt_el1_drift_target_beep() { overt_el2_beep(nullptr, 3); }
 std::int16_t overt_el1_input_key(void* event) {
-    return active_setup ? active_setup->input_key(event) : std::int16_t{0};
+    return in_setup([&](EyelinkSetup& setup) { return setup.input_key(event); });
 }
 void overt_el1_alert(const char* text) {
-    if (active_setup)
-        active_setup->alert(utf8_of(text));
+    in_setup([&](EyelinkSetup& setup) { return setup.alert(utf8_of(text)); });
 }
 
 std::int16_t overt_el2_set_up(void*) { return overt_el1_set_up(); }
-std::int16_t overt_el2_clear(void*) { return active_setup ? active_setup->clear() : std::int16_t{0}; }
+std::int16_t overt_el2_clear(void*) {
+    return in_setup([](EyelinkSetup& setup) { return setup.clear(); });
+}
 std::int16_t overt_el2_set_up_image(void*, std::int16_t, std::int16_t) { return 0; }
 std::int16_t overt_el2_image_title(void*, char* title) {
-    return active_setup ? active_setup->image_title(utf8_of(title)) : std::int16_t{0};
+    return in_setup([&](EyelinkSetup& setup) { return setup.image_title(utf8_of(title)); });
 }
 std::int16_t overt_el2_image(void*, std::int16_t width, std::int16_t height, std::uint8_t* rgba) {
-    return active_setup ? active_setup->image(width, height, rgba) : std::int16_t{0};
+    return in_setup([&](EyelinkSetup& setup) { return setup.image(width, height, rgba); });
 }
 std::int16_t overt_el2_draw_target(void*, float x, float y) {
-    return active_setup ? active_setup->draw_target(x, y) : std::int16_t{0};
-}
-std::int16_t overt_el2_beep(void*, std::int32_t which) {
-    return active_setup ? active_setup->beep(which) : std::int16_t{0};
+    return in_setup([&](EyelinkSetup& setup) { return setup.draw_target(x, y); });
 }
 std::int16_t overt_el2_input_key(void*, void* event) { return overt_el1_input_key(event); }
 std::int16_t overt_el2_alert(void*, const char* text) {
-    return active_setup ? active_setup->alert(utf8_of(text)) : std::int16_t{0};
+    return in_setup([&](EyelinkSetup& setup) { return setup.alert(utf8_of(text)); });
 }
 }
 

@@ -96,8 +96,7 @@ TrackerDescription HidDriver::connect(const TrackerWish& wish) {
     if (!layout_)
         throw DeviceError(fmt::format("{} cannot be used as an eye tracker: {}.", describe(device), why));
     line_ = system_.open(device.path, *clock_);
-    // Room for more than the longest, so that none is cut.
-    report_.assign(descriptor.longest_report_bytes(HidReportKind::input) + 64, std::byte{0});
+    report_.assign(descriptor.longest_report_bytes(HidReportKind::input), std::byte{0});
     wait_until_ready(descriptor);
     const auto screen_mm = layout_->screen_mm(feature(descriptor, layout_->configuration_report()));
     const glm::dvec2 size_mm = screen_mm.value_or(wish.screen.screen_mm);

@@ -18,7 +18,7 @@ std::vector<std::string> loaded; ///< for as long as the program runs, as the li
 
 void note_loaded(void* handle) {
     link_map* entry = nullptr;
-    if (dlinfo(handle, RTLD_DI_LINKMAP, &entry) != 0 || !entry || !entry->l_name)
+    if (dlinfo(handle, RTLD_DI_LINKMAP, &entry) != 0)
         return;
     std::error_code unknown;
     const std::filesystem::path file = std::filesystem::canonical(entry->l_name, unknown);

@@ -66,7 +66,7 @@ TrackerDescription LslInlet::connect(const TrackerWish& wish) {
     inlet_ = {library_->create_inlet(found.get(), buffered_s, 0, 0), LslRelease{library_.get()}};
     if (!inlet_)
         throw DeviceError(fmt::format("The stream {} cannot be connected to.", name_));
-    std::int32_t error = 0;
+    std::int32_t error{};
     const LslOwned<LslStreamInfo> info(
         library_->get_fullinfo(inlet_.get(), to_seconds(settings_.patience), &error),
         LslRelease{library_.get()});
@@ -128,7 +128,7 @@ double LslInlet::measure_rate() {
 }
 
 std::optional<TrackerTime> LslInlet::pull(double timeout_s) noexcept {
-    std::int32_t error = 0;
+    std::int32_t error{};
     const double time_s = library_->pull_sample_d(
         inlet_.get(), values_.data(), static_cast<std::int32_t>(values_.size()), timeout_s, &error);
     is_lost_ = is_lost_ || error == lsl_lost;
@@ -170,8 +170,8 @@ RecordingState LslInlet::read(TrackerItemSink& sink, SessionTime deadline) noexc
 }
 
 std::optional<ClockPair> LslInlet::read_clocks() noexcept {
-    std::int32_t error = 0;
-    double remote_s = 0.0, uncertainty_s = untold_uncertainty_s;
+    std::int32_t error{};
+    double remote_s{}, uncertainty_s = untold_uncertainty_s;
     const double correction_s =
         library_->time_correction_ex
             ? library_->time_correction_ex(inlet_.get(), &remote_s, &uncertainty_s, 0.5, &error)

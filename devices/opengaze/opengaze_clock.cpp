@@ -8,7 +8,7 @@ namespace overt {
 
 std::optional<double> proven_tick_hz(std::optional<double> told_hz, const OpenGazeRecord& earlier,
                                      const OpenGazeRecord& later) noexcept {
-    if (!told_hz || *told_hz <= 0.0 || !earlier.ticks || !later.ticks || !earlier.time_s || !later.time_s)
+    if (!(told_hz > 0.0) || !earlier.ticks || !later.ticks || !earlier.time_s || !later.time_s)
         return std::nullopt;
     const double by_time = *later.time_s - *earlier.time_s;
     const double by_ticks =

@@ -41,10 +41,14 @@ std::string text_of(const std::optional<OpenGazeAnswer>& answer, std::string_vie
 }
 
 /// Records in a second, by the median interval; 0 for fewer than three.
-double rate_of(std::vector<double> times_s) {
+double rate_of(const std::vector<double>& times_s) {
     std::vector<double> intervals;
-    for (std::size_t i = 1; i < times_s.size(); ++i)
-        intervals.push_back(times_s[i] - times_s[i - 1]);
+    std::optional<double> before_s;
+    for (const double time_s : times_s) {
+        if (before_s)
+            intervals.push_back(time_s - *before_s);
+        before_s = time_s;
+    }
     if (intervals.size() < 2)
         return 0.0;
     const auto middle = intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2);

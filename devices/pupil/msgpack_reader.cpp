@@ -23,14 +23,16 @@ MsgpackReader::Head MsgpackReader::content(Kind kind, std::uint64_t length) noex
     }
     const std::string_view bytes = rest_.substr(0, length);
     rest_.remove_prefix(length);
-    return {kind, 0.0, 0, bytes};
+    return {.kind = kind, .content = bytes};
 }
 
 MsgpackReader::Head MsgpackReader::head_of(std::uint8_t byte) noexcept {
     const auto counted = [](Kind kind, std::uint64_t count) {
-        return Head{kind, 0.0, static_cast<std::uint32_t>(count), {}};
+        return Head{.kind = kind, .count = static_cast<std::uint32_t>(count)};
     };
-    const auto whole = [](auto value) { return Head{Kind::number, static_cast<double>(value), 0, {}}; };
+    const auto whole = [](auto value) {
+        return Head{.kind = Kind::number, .number = static_cast<double>(value)};
+    };
     if (byte <= 0x7f)
         return whole(byte);
     if (byte <= 0x8f)
@@ -43,10 +45,10 @@ MsgpackReader::Head MsgpackReader::head_of(std::uint8_t byte) noexcept {
         return whole(static_cast<std::int8_t>(byte));
     switch (byte) {
     case 0xc0:
-        return {Kind::nil, 0.0, 0, {}};
+        return {.kind = Kind::nil};
     case 0xc2:
     case 0xc3:
-        return {Kind::boolean, byte == 0xc3 ? 1.0 : 0.0, 0, {}};
+        return {.kind = Kind::boolean, .number = byte == 0xc3 ? 1.0 : 0.0};
     case 0xc4:
     case 0xc5:
     case 0xc6:

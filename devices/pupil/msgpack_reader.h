@@ -38,7 +38,7 @@ class MsgpackReader {
         Kind kind = Kind::nothing;
         double number = 0.0;     ///< of a number; of a boolean 0 or 1
         std::uint32_t count = 0; ///< of elements or pairs
-        std::string_view content;
+        std::string_view content = {};
     };
     Head next() noexcept;
     Head head_of(std::uint8_t byte) noexcept;

@@ -41,11 +41,9 @@ glm::dvec2 FixationalMotion::displacement_deg(SessionTime time) const noexcept {
     const double t = to_seconds(time);
     glm::dvec2 sum(0.0);
     for (int axis = 0; axis < 2; ++axis) {
-        for (const Wave& wave : waves_[static_cast<std::size_t>(axis)]) {
-            if (wave.amplitude_deg != 0.0)
-                sum[axis] += wave.amplitude_deg *
-                             std::sin(2.0 * std::numbers::pi * wave.frequency_hz * t + wave.phase_rad);
-        }
+        for (const Wave& wave : waves_[static_cast<std::size_t>(axis)])
+            sum[axis] += wave.amplitude_deg *
+                         std::sin(2.0 * std::numbers::pi * wave.frequency_hz * t + wave.phase_rad);
     }
     return sum;
 }

@@ -9,10 +9,11 @@
 namespace overt {
 
 void favour_area(GazePlan& plan, const GazeFavour& favour) noexcept {
-    const auto area = static_cast<std::size_t>(favour.area);
-    if (favour.area < 0 || area >= plan.area_count)
-        return;
-    const double before = plan.shares[area], all = 1.0 - before + before * favour.odds;
+    const auto area = static_cast<std::size_t>(favour.area); // -1: beyond all
+    double all = 1.0;
+    for (std::size_t i = 0; i < plan.area_count; ++i)
+        if (i == area)
+            all = 1.0 - plan.shares[i] + plan.shares[i] * favour.odds;
     for (std::size_t i = 0; i < plan.area_count; ++i)
         plan.shares[i] *= (i == area ? favour.odds : 1.0) / all;
 }

@@ -132,7 +132,7 @@ struct Composer {
             all += one.weight;
             is_alike = is_alike && one.weight == shown.front().weight;
         }
-        if (is_alike || !(all > 0.0))
+        if (is_alike)
             return which.below(static_cast<std::uint32_t>(shown.size()));
         double chance = all * which.uniform();
         std::size_t chosen = 0;
@@ -152,8 +152,7 @@ struct Composer {
 
     ScriptedFixation next_fixation(const ScriptedFixation& last) {
         ScriptedFixation next;
-        if (shown.size() > 1)
-            next.shown = choose_shown();
+        next.shown = choose_shown();
         const auto& [targets, screen, plan, turn, seen, slot, weight] = shown[next.shown];
         const Departure before = departure_of(last, shown[next.shown]);
         const double duration_s =

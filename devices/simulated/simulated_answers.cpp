@@ -156,7 +156,7 @@ double SimulatedAnswers::more_time_s(const Trial& trial, const AnswerTruth& trut
 int SimulatedAnswers::choose(const AnswerOffer& offer, const std::vector<std::string>& values,
                              const Trial& trial, const AnswerTruth& truth, RandomStream& random) const {
     const int count = static_cast<int>(values.size());
-    const int by_chance = static_cast<int>(random.below(static_cast<std::uint32_t>(std::max(1, count))));
+    const int by_chance = static_cast<int>(random.below(static_cast<std::uint32_t>(count)));
     if (random.uniform() < truth.lapses)
         return by_chance;
     const Judged means = judged(offer, values, trial, truth);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
@@ -25,12 +26,12 @@ std::optional<ObserverInput> SimulatedKeys::release_due(const std::vector<Planne
                                                         std::size_t next,
                                                         const std::optional<SessionTime>& since) noexcept {
     using Kind = ObserverInput::Kind;
-    if (!since || next == 0 || next >= from.size())
+    // Nothing begins by letting go: where that is next, something was told already.
+    const std::span<const PlannedInput> left = std::span(from).subspan(next);
+    if (left.empty() || (left[0].input.kind != Kind::key_up && left[0].input.kind != Kind::pointer_up))
         return std::nullopt;
-    ObserverInput input = from[next].input;
-    if (input.kind != Kind::key_up && input.kind != Kind::pointer_up)
-        return std::nullopt;
-    input.at = *since + from[next].after;
+    ObserverInput input = left[0].input;
+    input.at = *since + left[0].after;
     return input;
 }
 
@@ -193,9 +194,11 @@ void SimulatedKeys::plan(const SimulatedAnswers& answers, const std::vector<Answ
 std::optional<ObserverInput> SimulatedKeys::next(SessionTime now) noexcept {
     const auto take = [&](std::vector<PlannedInput>& from, std::size_t& next,
                           const std::optional<SessionTime>& since) -> std::optional<ObserverInput> {
-        if (!since || next >= from.size() || *since + from[next].after > now)
+        const std::span<const PlannedInput> left = std::span(from).subspan(next);
+        if (!since || left.empty() || *since + left[0].after > now)
             return std::nullopt;
-        const PlannedInput& planned = from[next++];
+        ++next;
+        const PlannedInput& planned = left[0];
         ObserverInput input = planned.input;
         input.at = *since + planned.after;
         if (planned.is_from_gaze && gaze_px_) {

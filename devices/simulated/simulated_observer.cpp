@@ -17,9 +17,9 @@ ScreenPoint between(ScreenPoint from, ScreenPoint to, double share) {
     return {from.x_px + share * (to.x_px - from.x_px), from.y_px + share * (to.y_px - from.y_px)};
 }
 
-/// Of a slot among so many that are lit.
+/// Of a slot among so many that are lit; of one alone it makes no difference.
 double weight_of(int slot, const GazeFavour& favour, std::size_t count) {
-    if (favour.slot < 0 || count < 2)
+    if (favour.slot < 0)
         return 1.0;
     return slot == favour.slot ? favour.share : (1.0 - favour.share) / static_cast<double>(count - 1);
 }
@@ -101,8 +101,7 @@ void SimulatedObserver::slot_flipped(const SlotFlip& flip) noexcept {
     Presentation& presentation = *presentations_[begun_ - 1];
     const std::size_t expected = (presentation.flips.size() - 1) * (presentation.shown.size() - 1);
     // Flips that there was no room for have none of their own.
-    if (presentation.beside.size() - expected < presentation.shown.size() - 1 &&
-        presentation.beside.size() < presentation.beside.capacity())
+    if (presentation.beside.size() - expected < presentation.shown.size() - 1)
         presentation.beside.push_back(flip.shown);
 }
 

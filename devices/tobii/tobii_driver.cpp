@@ -56,10 +56,8 @@ TobiiDriver::TobiiDriver(TobiiSettings settings, Clock& clock)
 TobiiDriver::~TobiiDriver() { disconnect(); }
 
 void TobiiDriver::disconnect() noexcept {
-    if (tracker_)
-        inbox_->close(*library_, tracker_);
-    tracker_ = nullptr;
-    is_recording_ = false;
+    if (TobiiEyeTracker* const connected = std::exchange(tracker_, nullptr))
+        inbox_->close(*library_, connected);
 }
 
 TobiiEyeTracker* TobiiDriver::find_tracker() const {
@@ -196,14 +194,12 @@ void TobiiDriver::start() {
     if (const TobiiStatus status = inbox_->begin_gaze(*library_, tracker_); status != tobii_ok)
         throw DeviceError(
             fmt::format("The eye tracker does not begin to send gaze ({}).", describe_tobii_status(status)));
-    is_recording_ = true;
     last_arrival_ = bound_due_ = clock_.now();
 }
 
 void TobiiDriver::stop() noexcept {
-    if (is_recording_)
+    if (tracker_)
         inbox_->end_gaze(*library_, tracker_);
-    is_recording_ = false;
 }
 
 void TobiiDriver::deliver(const TobiiMeasurement& measured, TrackerItemSink& sink) noexcept {

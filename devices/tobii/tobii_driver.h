@@ -68,7 +68,7 @@ class TobiiDriver final : public TrackerDriver {
     TobiiEyeTracker* tracker_ = nullptr;
     TrackerWish wish_;
     TrackerDescription description_;
-    bool is_recording_ = false, has_been_asked_for_time_ = false;
+    bool has_been_asked_for_time_ = false;
     SessionTime last_arrival_, bound_due_;
     std::int64_t last_us_ = 0;   ///< of the recording's last measurement; 0: there was none
     bool is_clock_back_ = false; ///< times are earlier than that

@@ -105,7 +105,7 @@ std::pair<std::uint16_t, std::string> parse_address(const std::string& address) 
     if (address.starts_with(prefix)) {
         const char *const begin = address.data() + prefix.size(), *const end =
                                                                       address.data() + address.size();
-        const auto [after, error] = std::from_chars(begin, std::min(begin + 4, end), product, 16);
+        const auto [after, error] = std::from_chars(begin, end, product, 16);
         if (error == std::errc() && after == begin + 4 && (after == end || *after == ':'))
             return {product, after == end ? "" : std::string(after + 1, end)};
     }

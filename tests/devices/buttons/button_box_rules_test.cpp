@@ -3,6 +3,7 @@
 #include <deque>
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
 #include "devices/buttons/button_box_panel.h"
 #include "experiment/base/error.h"
@@ -272,4 +273,41 @@ TEST_CASE("a box that is gone, and changes that found no room, are said in the e
     CHECK(held.log.all.size() == 4096);
     CHECK(held.panel.closing_warnings().at(1) ==
           "response boxes: 3 changes could not be recorded: too many in one presentation");
+}
+
+TEST_CASE("of a knob's turns both axes wait as long as there is room, and nothing is written beyond it",
+          "[unit]") {
+    HeldBoxes held;
+    for (const int before : {0, 1}) {
+        held.panel.await(Awaited::answer, held.clock.time, nullptr);
+        for (int i = 0; i < before; ++i)
+            held.pad.waiting.push_back(HeldBoxes::change_of(2, held.clock.time));
+        for (int i = 1; i <= 70; ++i) {
+            ButtonChange turn = HeldBoxes::change_of(-1, held.clock.time);
+            turn.turn_steps = i;
+            turn.tilt_steps = -i;
+            held.pad.waiting.push_back(turn);
+        }
+        CHECK_FALSE(held.panel.poll());
+        int count = 0;
+        while (const auto input = held.panel.next_input()) {
+            if (count >= before)
+                CHECK(input->steps == ((count - before) % 2 == 0 ? 1 : -1) * ((count - before) / 2 + 1));
+            ++count;
+        }
+        CHECK(count == 128);
+    }
+    // Before the question, of an operator's knob and without a step it is nothing.
+    held.panel.await(Awaited::answer, held.clock.time, nullptr);
+    ButtonChange turn = HeldBoxes::change_of(-1, held.clock.time - 1ns);
+    turn.turn_steps = 1;
+    held.pad.waiting.push_back(turn);
+    turn.at = held.clock.time;
+    held.desk.waiting.push_back(turn);
+    CHECK_FALSE(held.panel.poll());
+    CHECK_FALSE(held.panel.next_input());
+    held.panel.await(Awaited::key, held.clock.time, nullptr);
+    held.pad.waiting.push_back(turn);
+    CHECK_FALSE(held.panel.poll());
+    CHECK_FALSE(held.panel.next_input());
 }

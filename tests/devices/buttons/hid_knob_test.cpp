@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include "devices/buttons/box_times.h"
+#include "devices/buttons/button_box_device.h"
+#include "devices/buttons/hid_button_box.h"
 #include "experiment/base/error.h"
 #include "tests/devices/hid/hid_bytes.h"
 
@@ -311,4 +313,36 @@ TEST_CASE(
         for (std::size_t i = 0; i < changes.size(); ++i)
             CHECK((changes[i].button == 777) == (i >= room));
     }
+}
+
+TEST_CASE("what is no box of its kind is said with its path and what it lacks, and one that is gone, too",
+          "[unit]") {
+    VirtualClock clock;
+    HidFarEnd far(clock);
+    const auto knob = [&](std::vector<std::byte> descriptor, ButtonBoxKind kind) {
+        return HidKnob(std::make_unique<InMemoryHidLine>(far), parse_report_descriptor(descriptor), "",
+                       knob_settings(kind), clock);
+    };
+    CHECK_THROWS_WITH(knob(game_pad_descriptor(), dial_kind),
+                      "/dev/hidraw0 has no dial or wheel that tells turns.");
+    CHECK_THROWS_WITH(knob(dial_descriptor(), spacemouse_kind),
+                      "/dev/hidraw0 has no value of rotation about its own axis.");
+    const auto box = [&](std::vector<std::byte> descriptor) {
+        return HidButtonBox(std::make_unique<InMemoryHidLine>(far), parse_report_descriptor(descriptor), "",
+                            clock);
+    };
+    DescriptorText mute;
+    mute.page(0x01).open(0x02, 1).usage(0x38).logical(-127, 127).size(8, 1).input(0x06).close();
+    CHECK_THROWS_WITH(box(mute.bytes), "/dev/hidraw0 has neither buttons nor keys.");
+    // A thousand reports at most are read away when it begins.
+    for (int i = 0; i < 1003; ++i)
+        far.arriving.push_back({clock.now(), bytes_of({0, 0, 0, 0})});
+    box(game_pad_descriptor());
+    CHECK(far.arriving.size() == 3);
+    far.unplugged = true;
+    CHECK_THROWS_WITH(box(game_pad_descriptor()), "/dev/hidraw0 was unplugged.");
+    CHECK_THROWS_WITH(knob(dial_descriptor(), dial_kind), "/dev/hidraw0 was unplugged.");
+    // A CB6 is read through a box that a session may not have.
+    CHECK_THROWS_WITH(button_box_device_of<kind_called<ButtonBoxKind>("cb6")>().open({{}, clock, nullptr}),
+                      Catch::StartsWith("a CB6 is read through the Display++ or Bits#"));
 }

@@ -96,6 +96,19 @@ TEST_CASE("samples that are missing or that nobody fetched are counted", "[unit]
     while (display.poll_status(samples) == samples.size()) {
     }
     CHECK(display.lost_samples() == 5);
+    // A number that comes again, or is lower than the last, says nothing of samples that are lost.
+    for (const std::uint64_t back : {1u, 10u}) {
+        bench.box.model.next_sample -= back;
+        bench.clock.wait_until(bench.clock.now() + 40ms);
+        while (display.poll_status(samples) == samples.size()) {
+        }
+        CHECK(display.lost_samples() == 5);
+    }
+    bench.box.model.next_sample += 1;
+    bench.clock.wait_until(bench.clock.now() + 40ms);
+    while (display.poll_status(samples) == samples.size()) {
+    }
+    CHECK(display.lost_samples() == 6);
 }
 
 TEST_CASE("the box's clock is related to the session's to within the stated uncertainty", "[unit]") {

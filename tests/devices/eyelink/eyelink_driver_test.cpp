@@ -466,3 +466,60 @@ TEST_CASE("an EyeLink without a tracker records nothing and waits for nothing", 
     driver.stop();
     CHECK(driver.finish("/nowhere", {}).empty());
 }
+
+TEST_CASE("of an EyeLink's file nothing is told any more once its transfer is over", "[unit]") {
+    DriverBench bench;
+    const TemporaryFolder folder;
+    int told = 0;
+    const EyeTracker::FileProgress progress = [&](std::int64_t, std::int64_t) { ++told; };
+    EyelinkDriver driver(bench.settings, bench.clock);
+    driver.connect(bench.wish);
+    CHECK(driver.finish(folder.path().string(), progress).size() == 1);
+    CHECK(told == 10);
+    bench.library.ask("stand_in_progress");
+    CHECK(told == 10);
+}
+
+TEST_CASE("files of earlier sessions are told of, of the same host, in whatever folder this one's are",
+          "[unit]") {
+    DriverBench bench;
+    const TemporaryFolder folder, notes;
+    bench.settings.notes = notes.path();
+    const std::string host = bench.settings.address;
+    notes.file("eyelink-files.txt", "EARLIER1\t" + host + "\t" + folder.path().string() +
+                                        "\nno tab\none\ttab\nEARLIER2\t" + host +
+                                        "\t/else\twhere\nEARLIER3\t10.0.0.9\t/elsewhere\n");
+    const std::vector<LeftOnHost> left = read_left_on_host(notes.path());
+    REQUIRE(left.size() == 3);
+    CHECK(left[0] == LeftOnHost{"EARLIER1", host, folder.path()});
+    CHECK(left[1] == LeftOnHost{"EARLIER2", host, "/else\twhere"});
+    EyelinkDriver driver(bench.settings, bench.clock);
+    const auto check_told = [&](const std::string& model) {
+        CHECK_THAT(model, Catch::Contains("; still on its host, and brought by overt tracker fetch: "
+                                          "EARLIER1.EDF for " +
+                                          folder.path().string() + " EARLIER2.EDF for /else\twhere"));
+        CHECK_THAT(model, !Catch::Contains("EARLIER3"));
+        CHECK_THAT(model, Catch::EndsWith("/else\twhere"));
+    };
+    check_told(driver.connect(bench.wish).model);
+    driver.belongs_in(folder.path().string());
+    check_told(driver.connect(bench.wish).model); // and not its own, in the same folder
+    CHECK(read_left_on_host(notes.path()).size() == 5);
+}
+
+TEST_CASE("where the note of an EyeLink's files cannot be read or written, that is said beside the file",
+          "[unit]") {
+    for (const bool comes : {true, false}) {
+        DriverBench bench;
+        const TemporaryFolder folder, notes;
+        bench.settings.notes = notes.path();
+        EyelinkDriver driver(bench.settings, bench.clock);
+        driver.connect(bench.wish);
+        std::filesystem::create_directories(notes.path() / "eyelink-files.txt"); // a folder in its place
+        bench.library.set("transfer", comes ? 100'000 : -110);
+        const std::vector<std::string> said = driver.finish(folder.path().string(), {});
+        REQUIRE(said.size() == 2);
+        CHECK_THAT(said[0], Catch::Contains(comes ? "100000 bytes" : "could not be fetched"));
+        CHECK_THAT(said[1], Catch::Contains("eyelink-files.txt"));
+    }
+}

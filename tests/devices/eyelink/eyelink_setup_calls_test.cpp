@@ -228,3 +228,44 @@ TEST_CASE("a check of drift without a set-up screen draws nothing, gives no key 
     CHECK(asked_key(setup) == KeyEvent{1, 1, 0x1B, 0, 0x1B});
     CHECK(setup.is_out_of_time());
 }
+
+TEST_CASE("each hook of both forms does its part in an EyeLink's set-up, and nothing without one", "[unit]") {
+    for (const auto& [is_old, refuses] : {std::pair(false, false), {true, false}, {true, true}}) {
+        CAPTURE(is_old, refuses);
+        // One that has the second form and does not take it is given the first, as an older one is.
+        StandIn stand_in(is_old && !refuses ? OVERT_STAND_IN_EYELINK_OLD : OVERT_STAND_IN_EYELINK);
+        stand_in.set("refuses_second_form", refuses ? 1 : 0);
+        const EyelinkLibrary library(stand_in.path);
+        REQUIRE(library->open_eyelink_connection(0) == 0);
+        CountedClock clock;
+        DiarySetupScreen screen{clock};
+        {
+            EyelinkSetup setup(library, &screen, Degrees{0.5}, clock, SessionTime(110s));
+            CHECK(stand_in.ask("stand_in_hooks") == 0);
+            CHECK_NOTHROW(setup.check());
+        }
+        REQUIRE_FALSE(screen.diary.empty());
+        CHECK_THAT(screen.diary.front(), Catch::StartsWith("text Set-up of the EyeLink."));
+        screen.diary.erase(screen.diary.begin());
+        std::vector<std::string> known;
+        if (is_old)
+            known = {"camera 1x1 Left", "camera 1x1 Left, threshold 0", "camera 1x1 Left, threshold 80",
+                     "camera 1x1 Left, threshold 80", "target 3 4 of 0.5"};
+        else
+            known = {"camera 1x1 Left", "target 3 4.5 of 0.5"};
+        for (const Beep beep :
+             is_old ? std::vector{Beep::target_appears, Beep::calibration_good, Beep::calibration_bad,
+                                  Beep::drift_good, Beep::drift_bad, Beep::target_appears}
+                    : std::vector{Beep::drift_bad, Beep::calibration_bad, Beep::calibration_good,
+                                  Beep::target_appears, Beep::drift_good, Beep::target_appears})
+            known.push_back(fmt::format("beep {}", static_cast<int>(beep)));
+        known.insert(known.end(), {"text alert", "text "});
+        CHECK(screen.diary == known);
+        CHECK(screen.camera.rgba.front() == std::byte{is_old ? std::uint8_t{20} : std::uint8_t{1}});
+        CHECK(screen.cleared == 4);
+        screen.diary.clear();
+        CHECK(stand_in.ask("stand_in_hooks") == 0);
+        CHECK(screen.diary.empty());
+        CHECK(screen.cleared == 4);
+    }
+}

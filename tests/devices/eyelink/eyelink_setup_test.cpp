@@ -155,3 +155,13 @@ TEST_CASE("keys of the operator are those that the EyeLink's host knows", "[unit
     CHECK(eyelink_key({Kind::function, 10}) == 0x4400);
     CHECK(eyelink_key({Kind::function, 11}) == 0);
 }
+
+TEST_CASE("an EyeLink whose link breaks while somebody sets it up at its host is lost", "[unit]") {
+    SetupBench bench;
+    bench.library.set("operated", 1);
+    CHECK(bench.driver.set_up(bench.setup_screen).kind == SetupOutcome::Kind::done);
+    bench.setup_screen.on_target = [&] { bench.library.set("broken", 1); };
+    CHECK_THROWS_WITH(bench.driver.set_up(bench.setup_screen),
+                      "The connection to the EyeLink was lost during its set-up. Look at the network cable "
+                      "and at the host.");
+}

@@ -285,6 +285,14 @@ TEST_CASE("an EyeLink's library is called in its order, from the connection to i
         take();
     }
     CHECK(take() == "stop, offline, closed"); // nobody has stopped it
+    {
+        EyelinkDriver driver(bench.settings, bench.clock);
+        driver.connect(bench.wish);
+        driver.start();
+        driver.connect(bench.wish);
+        take();
+    }
+    CHECK(take() == "closed"); // after the new connection nothing is recorded
     { EyelinkDriver never(bench.settings, bench.clock); }
     CHECK(take().empty());
     // Without a tracker the library simulates one, of which nothing is asked back.

@@ -1,6 +1,7 @@
 #include "devices/eyelink/eyelink_words.h"
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
 #include "experiment/base/error.h"
 
@@ -259,4 +260,46 @@ TEST_CASE("numbers of an EyeLink's sentences are taken to their bounds", "[unit]
     for (const auto& [told, is_same] :
          {std::pair{"10.5", true}, {"9.5", true}, {"10.6", false}, {"9.4", false}})
         CHECK(eyelink_means_same("10", told) == is_same);
+}
+
+TEST_CASE("an EyeLink's host is told all that a recording needs, and is asked what may not be otherwise",
+          "[unit]") {
+    TrackerWish wish = wish_of(500, false);
+    const auto told = [&](const EyelinkGrant& grant, double software) {
+        std::vector<std::string> lines;
+        for (const EyelinkCommand& command : eyelink_commands(wish, {}, grant, software))
+            lines.push_back(fmt::format("{}{} {}", command.is_needed ? "needed" : "wished",
+                                        command.is_read_back ? " and asked" : "", command.text));
+        return lines;
+    };
+    const std::vector<std::string> known{
+        "needed and asked screen_pixel_coords = 0 0 1919 1079",
+        "needed screen_phys_coords = -349.2 196.4 349.2 -196.4",
+        "needed and asked screen_distance = 1750",
+        "needed and asked sample_rate = 500",
+        "wished binocular_enabled = NO",
+        "needed and asked active_eye = RIGHT",
+        fmt::format("needed and asked calibration_type = HV{}", EyelinkSettings{}.calibration_points),
+        "wished randomize_calibration_order = YES",
+        "wished randomize_validation_order = YES",
+        "wished select_parser_configuration = 0",
+        "needed and asked pupil_size_diameter = NO",
+        "needed file_event_filter = LEFT,RIGHT,FIXATION,SACCADE,BLINK,MESSAGE,BUTTON,INPUT",
+        "wished file_event_data = GAZE,GAZERES,HREF,AREA,VELOCITY,STATUS",
+        "needed and asked file_sample_data = LEFT,RIGHT,GAZE,HREF,AREA,HTARGET,GAZERES,BUTTON,STATUS,INPUT",
+        "needed link_event_filter = LEFT,RIGHT,FIXATION,SACCADE,BLINK,BUTTON,INPUT",
+        "wished link_event_data = GAZE,GAZERES,HREF,AREA,VELOCITY,STATUS",
+        "needed and asked link_sample_data = LEFT,RIGHT,GAZE,GAZERES,AREA,STATUS,INPUT",
+        "wished button_function 5 'accept_target_fixation'"};
+    wish.eye = Eye::right;
+    CHECK(told({500, false}, 4.0) == known);
+    std::vector<std::string> older = known;
+    older[13] = "needed and asked file_sample_data = LEFT,RIGHT,GAZE,HREF,AREA,GAZERES,BUTTON,STATUS,INPUT";
+    CHECK(told({500, false}, 3.99) == older);
+    std::vector<std::string> both = known;
+    both[4] = "wished binocular_enabled = YES";
+    both.erase(both.begin() + 5);
+    CHECK(told({500, true}, 5.0) == both);
+    wish.eye = Eye::left;
+    CHECK(told({500, false}, 4.0)[5] == "needed and asked active_eye = LEFT");
 }

@@ -33,6 +33,7 @@ std::int64_t given = 0; // samples of this recording
 unsigned char item[128];
 i16 item_bytes = 0;
 int times_asked = 0, times_offline = 0;
+void (*last_progress)(unsigned, unsigned) = nullptr;
 
 double number(const char* name, double otherwise) {
     const auto found = numbers.find(name);
@@ -291,6 +292,53 @@ void set_offline_mode() {
     ++times_offline;
 }
 int stand_in_offline() { return times_offline; }
+// Calls each hook that it was given, as a library does at one time or another. Gives the sum of their
+// results.
+int stand_in_hooks() {
+    unsigned char colours[2] = {10, 20}, indices[1] = {1}, rgba[4] = {1, 2, 3, 4}, event[16] = {};
+    char title[] = "Left";
+    if (!uses_hooks2) {
+        int sum = hooks.set_up() + hooks.set_up_image(1, 1);
+        hooks.palette(2, colours, colours, colours);
+        hooks.palette(0, colours, colours, colours);
+        hooks.palette(2, colours, colours, colours);
+        for (const i16 threshold : {i16{-1}, i16{0}, i16{80}}) {
+            hooks.title(threshold, title);
+            hooks.line(1, 1, 1, indices);
+        }
+        hooks.palette(-1, colours, colours, colours);
+        hooks.line(1, 1, 1, indices);
+        hooks.leave_image();
+        hooks.clear();
+        hooks.erase();
+        hooks.target(3, 4);
+        hooks.target_beep();
+        hooks.done_beep(0);
+        hooks.done_beep(1);
+        hooks.drift_beep(0);
+        hooks.drift_beep(1);
+        hooks.drift_target_beep();
+        hooks.alert("alert");
+        hooks.alert(nullptr);
+        sum += hooks.key(event);
+        hooks.hide();
+        hooks.leave();
+        return sum;
+    }
+    void* const user = hooks2.user;
+    int sum = hooks2.set_up(user) + hooks2.set_up_image(user, 1, 1) + hooks2.title(user, title) +
+              hooks2.image(user, 1, 1, rgba) + hooks2.leave_image(user) + hooks2.clear(user) +
+              hooks2.erase(user) + hooks2.target(user, 3.0f, 4.5f);
+    for (int which = -2; which <= 3; ++which)
+        sum += hooks2.beep(user, which);
+    return sum + hooks2.alert(user, "alert") + hooks2.alert(user, nullptr) + hooks2.key(user, event) +
+           hooks2.leave(user);
+}
+// Tells of a transfer that is over once more.
+int stand_in_progress() {
+    last_progress(9, 3);
+    return 0;
+}
 i16 do_tracker_setup() {
     trace("set up");
     has_left_dialogue = false;
@@ -425,6 +473,7 @@ void setup_graphic_hook_functions(Hooks* given_hooks) {
 }
 static std::int32_t receive(char* source, char* destination, void (*progress)(unsigned, unsigned)) {
     said.push_back(std::string("fetch ") + source);
+    last_progress = progress;
     const auto size = static_cast<unsigned>(number("file_bytes", 100'000));
     const auto result = static_cast<std::int32_t>(number("transfer", size));
     std::FILE* file = std::fopen(destination, "wb");
@@ -455,7 +504,7 @@ std::int32_t receive_data_file_feedback(char* source, char* destination, i16,
 }
 // NOLINTNEXTLINE(readability-identifier-naming): the vendor's name, by which the function is looked up
 i16 setup_graphic_hook_functions_V2(Hooks2* given_hooks) {
-    if (given_hooks->major != 1 || given_hooks->minor != 0)
+    if (given_hooks->major != 1 || given_hooks->minor != 0 || number("refuses_second_form", 0) != 0)
         return -1;
     hooks2 = *given_hooks;
     uses_hooks2 = true;

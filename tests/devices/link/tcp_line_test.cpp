@@ -11,6 +11,8 @@
 #include <fmt/format.h>
 #include <ifaddrs.h>
 #include <net/if.h>
+#include <netdb.h>
+#include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <sys/stat.h>
 
@@ -399,4 +401,68 @@ TEST_CASE("a line over a pipe gives its last bytes before it is lost, and says w
     CHECK(other.value() == value);
     CHECK(taken.value() == second); // NOLINT(bugprone-use-after-move): they change places
     close(others[0]);
+}
+
+namespace {
+
+/// What a host's name stands for, of the test's own.
+struct KnownHost {
+    explicit KnownHost(const std::vector<std::uint16_t>& ports) : places(ports.size()), all(ports.size()) {
+        for (std::size_t i = 0; i < ports.size(); ++i) {
+            places[i].sin_family = AF_INET;
+            places[i].sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+            places[i].sin_port = htons(ports[i]);
+            all[i].ai_family = AF_INET;
+            all[i].ai_socktype = SOCK_STREAM;
+            all[i].ai_addr = reinterpret_cast<sockaddr*>(&places[i]);
+            all[i].ai_addrlen = sizeof places[i];
+            all[i].ai_next = i + 1 < ports.size() ? &all[i + 1] : nullptr;
+        }
+        now = this;
+    }
+    ~KnownHost() { now = nullptr; }
+    KnownHost(const KnownHost&) = delete;
+    KnownHost& operator=(const KnownHost&) = delete;
+
+    std::vector<sockaddr_in> places;
+    std::vector<addrinfo> all;
+    std::vector<std::string> asked;
+    int freed = 0;
+    static inline KnownHost* now = nullptr;
+};
+
+} // namespace
+
+extern "C" {
+int getaddrinfo(const char* host, const char* port, const addrinfo* wanted, addrinfo** first) {
+    if (!KnownHost::now)
+        return next_function<decltype(getaddrinfo)>("getaddrinfo")(host, port, wanted, first);
+    KnownHost::now->asked.push_back(fmt::format("{} {} {} {}", host, port, wanted->ai_socktype == SOCK_STREAM,
+                                                wanted->ai_family == AF_UNSPEC));
+    *first = KnownHost::now->all.data();
+    return 0;
+}
+void freeaddrinfo(addrinfo* first) noexcept {
+    if (!KnownHost::now)
+        return next_function<decltype(freeaddrinfo)>("freeaddrinfo")(first);
+    KnownHost::now->freed += first == KnownHost::now->all.data() ? 1 : 100;
+}
+}
+
+TEST_CASE("all that a host's name stands for is tried, and the first that answers is taken", "[unit]") {
+    const SteadyClock clock;
+    const TcpPeer peer(echo), other(echo);
+    const std::uint16_t none = nobody().port, here = peer.address().port, there = other.address().port;
+    for (const auto& ports : {std::vector{here}, {none, here}, {none, none, here, there}}) {
+        KnownHost host(ports);
+        TcpLine line({"tracker.lab", 4242}, "test server", clock, clock.now() + 20s);
+        CHECK(host.asked == std::vector<std::string>{"tracker.lab 4242 true true"});
+        CHECK(host.freed == 1);
+        CHECK(line.write("x", clock.now() + 20s));
+        CHECK(read_all(line, clock, 1) == "x");
+    }
+    KnownHost host({none, none});
+    CHECK_THROWS_WITH(TcpLine({"tracker.lab", 4242}, "test server", clock, clock.now() + 20s),
+                      Contains("The test server at tracker.lab:4242 cannot be reached: Connection refused"));
+    CHECK(host.freed == 1);
 }

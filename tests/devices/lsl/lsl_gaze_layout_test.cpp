@@ -211,6 +211,13 @@ TEST_CASE("numbers that stand for what is missing are missing, all together or o
                                 {}, "s");
     CHECK(samples_of(at_edge, {0.0, 20.0}).front().gaze == ScreenPoint{0.0, 20.0});
     CHECK_FALSE(samples_of(at_edge, {0.0, 0.0}).front().gaze);
+    settings.missing = {1920.0, 1080.0};
+    const LslGazeLayout at_far_edge({{"x", "", "ScreenX", "px", ""}, {"y", "", "ScreenY", "px", ""}},
+                                    settings, {}, "s");
+    CHECK(samples_of(at_far_edge, {1920.0, 20.0}).front().gaze == ScreenPoint{1920.0, 20.0});
+    CHECK(samples_of(at_far_edge, {10.0, 1080.0}).front().gaze == ScreenPoint{10.0, 1080.0});
+    CHECK_FALSE(samples_of(at_far_edge, {10.0, 1920.0}).front().gaze);
+    CHECK_FALSE(samples_of(at_far_edge, {1920.0, 1080.0}).front().gaze);
 }
 
 TEST_CASE("each eye has its own channels, and what belongs to neither is both's", "[unit]") {

@@ -63,3 +63,21 @@ TEST_CASE("a change of the source of time, as after a reconnection, makes no jum
     clock.use_ticks(1e6);
     CHECK(s_of(clock.time_of(record_at(102.0, 901'500'000), SessionTime(12s))) == Approx(102.5));
 }
+
+TEST_CASE("where nothing ticks, or something is not told, no frequency is proven", "[unit]") {
+    const OpenGazeRecord first = record_at(10.0, 5'000'000'000), second = record_at(10.5, 5'005'000'000);
+    CHECK_FALSE(proven_tick_hz(0.0, first, record_at(10.5, 5'000'000'000)));
+    CHECK_FALSE(proven_tick_hz(-1e7, record_at(10.0, 5'005'000'000), record_at(10.5, 5'000'000'000)));
+    CHECK(proven_tick_hz(0.5, record_at(10.0, 5), record_at(14.0, 7)) == 0.5); // slow, and proven
+    const auto without = [](OpenGazeRecord record, bool ticks) {
+        if (ticks)
+            record.ticks.reset();
+        else
+            record.time_s.reset();
+        return record;
+    };
+    for (const bool ticks : {true, false}) {
+        CHECK_FALSE(proven_tick_hz(1e7, without(first, ticks), second));
+        CHECK_FALSE(proven_tick_hz(1e7, first, without(second, ticks)));
+    }
+}

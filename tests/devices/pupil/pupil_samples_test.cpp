@@ -173,3 +173,22 @@ TEST_CASE("a message of Pupil Capture that cannot be read is a gap after the las
     CHECK(gaps[0].after == items.all<GazeSample>().back().sampled_at);
     CHECK(gaps[0].lost_samples == 0);
 }
+
+TEST_CASE("a pupil of up to 34 ms before or after a gaze is of it, the nearest of several", "[unit]") {
+    PupilSamples samples = both_eyes();
+    KeptItems items;
+    const auto diameter = [&](double time_s) {
+        items.items.clear();
+        samples.take(gaze_at(time_s), items);
+        return items.all<GazeSample>().front().pupil_area;
+    };
+    samples.take(pupil_of(Eye::left, 1.0, 3.0));
+    CHECK(diameter(0.9655) == 0.0f);
+    CHECK(diameter(0.967) == 3.0f);
+    CHECK(diameter(1.0335) == 3.0f);
+    CHECK(diameter(1.0345) == 0.0f);
+    samples.take(pupil_of(Eye::left, 2.0, 3.5));
+    samples.take(pupil_of(Eye::left, 2.020, 4.0));
+    CHECK(diameter(2.009) == 3.5f);
+    CHECK(diameter(2.011) == 4.0f);
+}

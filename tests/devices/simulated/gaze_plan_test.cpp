@@ -309,3 +309,38 @@ TEST_CASE("a favour of an area that a plan has not changes nothing", "[unit]") {
     favour_area(plan, {-1, 0.0, 1, 5.0});
     CHECK(plan.shares[1] == Approx(2.0 / 2.6));
 }
+
+TEST_CASE("odds below one take from an area, spots have a share, and no more are kept than there is room for",
+          "[unit]") {
+    ObservedScene scene = scene_with({{.entries = entries(-1, -1), .odds = 0.25}});
+    // Odds of 0.4 are 2 / 3, a quarter of that 1 / 6.
+    CHECK(gaze_plan(scene, 7, 0, {0, 0}).shares[0] == Approx(1.0 / 7.0));
+    CHECK(gaze_plan(scene, 7, 0, {0, 0}).spot_count == 0);
+    scene.effects.assign(most_simulated_spots + 2, {.entries = entries(-1, -1), .spot_share = 0.05});
+    scene.effects[1].spot_share = 0.0;
+    const GazePlan plan = gaze_plan(scene, 7, 0, {0, 0});
+    REQUIRE(plan.spot_count == most_simulated_spots);
+    for (int i = 0; i < plan.spot_count; ++i)
+        CHECK(plan.spots[static_cast<std::size_t>(i)].effect == (i == 0 ? 0 : i + 1));
+    CHECK(plan.shares[0] == 0.4);
+}
+
+TEST_CASE("what is drawn again and again stays within its bounds, and ends after a thousand times",
+          "[unit]") {
+    for (const auto& [median, low, high, known] :
+         {std::tuple(1.0, 10.0, 11.0, 10.0), {20.0, 10.0, 11.0, 11.0}}) {
+        RandomStream random(4, "bounds"), counted(4, "bounds");
+        CHECK(log_normal_within(random, median, 0.01, low, high) == known);
+        for (int i = 0; i < 1000; ++i)
+            counted.normal();
+        CHECK(random.uniform() == counted.uniform());
+    }
+    CHECK_FALSE(BlinkTrain(3, 0.0).eye_closed_at(SessionTime(std::chrono::seconds(5))));
+    // A blink in two minutes is one all the same.
+    const BlinkTrain seldom(3, 0.5);
+    int closed = 0;
+    for (int i = 0; i < 12'000; ++i)
+        closed += seldom.eye_closed_at(SessionTime(i * std::chrono::milliseconds(10)));
+    CHECK(closed >= 9);
+    CHECK(closed <= 21);
+}

@@ -1,3 +1,5 @@
+#include <array>
+#include <cmath>
 #include <numbers>
 
 #include <catch2/catch.hpp>
@@ -175,4 +177,168 @@ TEST_CASE("the surface at a place of the image lies where its depth and its inci
             }
     CHECK(seen > 30);
     CHECK_FALSE(targets.surface_at({1.0, 1.0}, scene.animations[0].object_in({0})));
+}
+
+TEST_CASE("effects are on the areas that they name, and those on heads on the first", "[unit]") {
+    Protocol protocol;
+    protocol.tasks = {{"free", "Look."}};
+    protocol.tasks[0].simulated_area_shares = {{"rim", 0.2}, {"foot", 0.1}};
+    protocol.simulated_effects.resize(4);
+    protocol.simulated_effects[0].area = "rim";
+    protocol.simulated_effects[0].area_odds = 5.0;
+    protocol.simulated_effects[0].head_odds = 7.0;
+    protocol.simulated_effects[1].area = "foot";
+    protocol.simulated_effects[2].area = "head";
+    protocol.simulated_effects[3].head_odds = 3.0;
+    const ObservedScene scene = make_observed_scene(protocol, {}, ScreenGeometry{});
+    CHECK(scene.areas == std::vector<std::string>{"head", "rim", "foot"});
+    CHECK(scene.tasks[0].shares == std::vector<double>{0.0, 0.2, 0.1});
+    CHECK(scene.effects[0].area == 1);
+    CHECK(scene.effects[0].odds == 5.0);
+    CHECK(scene.effects[1].area == 2);
+    CHECK(scene.effects[2].area == 0);
+    CHECK(scene.effects[3].area == 0);
+    CHECK(scene.effects[3].odds == 3.0);
+    CHECK(area_in(scene, "rim") == 1);
+    CHECK(area_in(scene, "nose") == -1);
+}
+
+TEST_CASE("the longest show is that of a step with its own time, of an answer's, or of a motion", "[unit]") {
+    Protocol protocol;
+    protocol.tasks = {{"free", "Look."}};
+    protocol.screens.response_max_s = 33.0;
+    StepSettings timed, answered, plain;
+    for (StepSettings* step : {&timed, &answered, &plain})
+        step->kind = StepKind::show;
+    timed.duration = StepDuration{.choices_s = {50.0, 20.0}};
+    answered.ends_by_answer = true;
+    const auto longest_s = [&](std::vector<StepSettings> steps) {
+        protocol.tasks[0].steps = std::move(steps);
+        return make_observed_scene(protocol, {}, ScreenGeometry{}).longest_step_s;
+    };
+    CHECK(longest_s({plain}) == 0.0);
+    CHECK(longest_s({timed}) == 50.0);
+    CHECK(longest_s({answered}) == 33.0);
+    CHECK(longest_s({timed, answered}) == 50.0);
+    CHECK(longest_s({answered, timed}) == 50.0);
+    timed.ends_by_answer = true;
+    CHECK(longest_s({timed}) == 50.0);
+}
+
+namespace {
+
+/// Triangles of half a square millimetre in a row along x, each a part of its own name, seen from above.
+Mesh row_of_triangles(const std::vector<std::string>& parts, double from_x) {
+    Mesh mesh;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        const auto x = static_cast<float>(from_x + 2.0 * static_cast<double>(i));
+        const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+        mesh.positions.insert(mesh.positions.end(),
+                              {{x, 0.0f, 0.0f}, {x + 1.0f, 0.0f, 0.0f}, {x, 0.0f, 1.0f}});
+        mesh.triangles.emplace_back(first, first + 1, first + 2);
+        mesh.triangle_parts.push_back(static_cast<PartIndex>(i));
+    }
+    mesh.part_names = parts;
+    return mesh;
+}
+
+ObservedScene scene_of_areas(const Mesh& mesh, std::vector<std::string> areas) {
+    ObservedScene scene;
+    const View view{fit_camera(mesh, {11.9}, {256, 256}, {25.0}, 0.06), {256, 256}};
+    scene.objects = {{&mesh, SceneView{view, mesh.bounds()}}};
+    scene.areas = std::move(areas);
+    return scene;
+}
+
+/// How many numbers of a stream were taken for a draw.
+int taken_for(const GazeTargets& targets, double spread) {
+    RandomStream drawn(3, "draws"), counted(3, "draws");
+    targets.draw(drawn, targets.elsewhere(), spread);
+    const double next = drawn.uniform();
+    int count = 0;
+    while (counted.uniform() != next)
+        ++count;
+    return count;
+}
+
+} // namespace
+
+TEST_CASE("a region that an object lacks is looked for elsewhere, and then in the first that it has",
+          "[unit]") {
+    RandomStream random(1, "regions");
+    const Mesh with_rest = row_of_triangles({"rim", "rest"}, 0.0);
+    const ObservedScene partly = scene_of_areas(with_rest, {"head", "rim"});
+    const GazeTargets some(partly.objects[0], partly);
+    CHECK(some.elsewhere() == 2);
+    CHECK(some.draw(random, 0).part == 1); // elsewhere
+    CHECK(some.draw(random, 1).part == 0);
+    CHECK(some.draw(random, 2).part == 1);
+    const Mesh without = row_of_triangles({"rim", "foot"}, 0.0);
+    const ObservedScene scene = scene_of_areas(without, {"head", "rim", "foot"});
+    const GazeTargets others(scene.objects[0], scene);
+    CHECK(others.draw(random, 0).part == 0);
+    CHECK(others.draw(random, 1).part == 0);
+    CHECK(others.draw(random, 2).part == 1);
+    CHECK(others.draw(random, 3).part == 0);
+}
+
+TEST_CASE("plinths are looked at a tenth as often as their area says", "[unit]") {
+    const Mesh mesh = row_of_triangles({"plinth", "body", "base"}, 0.0);
+    const ObservedScene scene = scene_of_areas(mesh, {"head"});
+    const GazeTargets targets(scene.objects[0], scene);
+    RandomStream random(1, "plinths");
+    std::array<int, 3> often{};
+    for (int i = 0; i < 21'000; ++i)
+        ++often[targets.draw(random, targets.elsewhere()).part];
+    CHECK(std::abs(often[0] - 1000) < 130); // four standard deviations
+    CHECK(std::abs(often[1] - 10'000) < 300);
+}
+
+TEST_CASE("a spread is taken by distances of the object itself, however small and far away, in 500 tries",
+          "[unit]") {
+    const Mesh row = row_of_triangles({"a", "b", "c", "d", "e"}, 1000.0);
+    Mesh tiny = row; // of less than a square millimetre
+    for (glm::vec3& at : tiny.positions)
+        at *= 0.1f;
+    for (const Mesh* const mesh : {&row, static_cast<const Mesh*>(&tiny)}) {
+        const ObservedScene scene = scene_of_areas(*mesh, {"head"});
+        const GazeTargets targets(scene.objects[0], scene);
+        std::array<int, 5> inward{}, outward{};
+        RandomStream random(1, "spreads");
+        for (int i = 0; i < 2000; ++i) {
+            ++inward[targets.draw(random, 1, -3.0).part];
+            ++outward[targets.draw(random, 1, 3.0).part];
+        }
+        // Of five in a row the outer ones lie at twice the mean square distance, their neighbours at half.
+        CHECK(inward[2] > 1280);
+        CHECK(inward[0] + inward[4] < 30);
+        CHECK(outward[0] + outward[4] > 1800);
+        CHECK(outward[2] < 40);
+        CHECK(std::abs(inward[1] - inward[3]) < 130);
+        // A point takes three numbers, and whether it is taken one.
+        CHECK(taken_for(targets, 0.0) == 3);
+        CHECK(taken_for(targets, -1e-12) == 4);
+        CHECK(taken_for(targets, -1e12) == 3 + 500 * 4); // none is taken
+    }
+    // One triangle lies in its own middle: each place of it is taken at once.
+    const Mesh one = row_of_triangles({"a"}, 1000.0);
+    const ObservedScene scene = scene_of_areas(one, {"head"});
+    CHECK(taken_for(GazeTargets(scene.objects[0], scene), -1e-12) == 4);
+}
+
+TEST_CASE("what is seen at less than 78 degrees from its normal is looked at, from either side", "[unit]") {
+    const Mesh mesh = row_of_triangles({"a"}, 0.0);
+    ObservedScene scene = scene_of_areas(mesh, {"head"});
+    RandomStream random(1, "oblique");
+    for (const double aslant_deg : {0.0, 60.0, 77.0, 79.0, 100.0, 103.0, 180.0}) {
+        CAPTURE(aslant_deg);
+        const double aslant = aslant_deg * std::numbers::pi / 180.0;
+        // The camera goes round with the object as it stands in the first frame.
+        const ObjectPose pose = scene.animations[0].object_in(scene.animations[0].frame_at_step(0));
+        scene.objects[0].scene.view.camera.position =
+            glm::dvec3(GazeTargets(scene.objects[0], scene).world_from_object(pose) *
+                       glm::dvec4(0.5 + 1e5 * std::sin(aslant), -1e5 * std::cos(aslant), 0.5, 1.0));
+        const GazeTargets targets(scene.objects[0], scene);
+        CHECK(targets.is_visible(targets.draw(random, 1), 0, 0) == (aslant_deg < 78.0 || aslant_deg > 102.0));
+    }
 }

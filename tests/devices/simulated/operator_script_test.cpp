@@ -211,3 +211,61 @@ TEST_CASE("what is no operator's key is refused with all that there is", "[unit]
         CHECK(pressed.key == ResponsePress::Key::next);
     }
 }
+
+TEST_CASE("what is wrong with an operator's key is told in its own words", "[unit]") {
+    const auto why = [](const std::string& text, int reasons = 3) -> std::string {
+        try {
+            read_operator_key(text, reasons);
+        } catch (const InputError& error) {
+            const std::string said = error.what(), head = "--simulate-operator " + text + ": ";
+            CHECK(said.starts_with(head));
+            return said.substr(head.size(), said.find("; write PHASE") - head.size());
+        }
+        return "";
+    };
+    CHECK(why("stimulus=skip") == "there is no + or no =");
+    CHECK(why("stimulus+1") == "there is no + or no =");
+    CHECK(why("stimulus=a+b") == "there is no + or no =");
+    CHECK(why("stimulus@0+1=skip") == "trials count from 1");
+    CHECK(why("stimulus@x+1=skip") == "trials count from 1");
+    CHECK(why("stimulus@1+1=skip").empty());
+    CHECK(why("nowhere+1=skip") == "there is no phase \"nowhere\"");
+    for (const char* const seconds : {"x", "-1", "86400", "nan", ""})
+        CHECK(why(std::string("stimulus+") + seconds + "=skip") == "the seconds are no number of seconds");
+    for (const char* const seconds : {"0", "0.5", "86399.9"})
+        CHECK(why(std::string("stimulus+") + seconds + "=skip").empty());
+    CHECK(why("stimulus+1=jump") == "there is no key \"jump\"");
+    CHECK(why("stimulus+1=jump,2") == "there is no key \"jump\"");
+    CHECK(why("stimulus+1=skip,perhaps") == "\"perhaps\" is no answer");
+    for (const char* const answer : {"0", "10", "", ":", "/"})
+        CHECK(why(std::string("stimulus+1=skip,") + answer) ==
+              std::string("\"") + answer + "\" is no answer");
+    CHECK(why("stimulus+1=repeat,2") == "only skipping has reasons");
+    CHECK(why("stimulus+1=repeat,yes").empty());
+    CHECK(why("stimulus+1=skip,no").empty());
+    CHECK(why("stimulus+1=skip,3").empty());
+    CHECK(why("stimulus+1=skip,4") == "there is no reason 4: [operator] skip_reasons has 3");
+    CHECK(why("stimulus+1=skip,9", 9).empty());
+    CHECK(why("stimulus+1=skip,1", 0) == "there is no reason 1: [operator] skip_reasons has 0");
+    CHECK(why("stimulus+1=press ") == "the key has no name");
+    CHECK(why("stimulus+1=press") == "the key has no name");
+    CHECK(why("stimulus+1=type ") == "nothing is typed");
+    CHECK(why("stimulus+1=click 1") == "click is followed by 2 numbers");
+    CHECK(why("stimulus+1=click 1 x") == "click is followed by 2 numbers");
+    CHECK(why("stimulus+1=click 1  2").empty()); // a blank more is none less
+    CHECK(why("stimulus+1=click 1 2 3") == "click is followed by 2 numbers");
+    CHECK(why("stimulus+1=drag 1 2 3") == "drag is followed by 4 numbers");
+    CHECK(why("stimulus+1=drag 1 2 3 4").empty());
+    CHECK(why("stimulus+1=wheel 1 2") == "wheel is followed by 1 numbers");
+    CHECK(why("stimulus+1=wheel -2").empty());
+    // A key is held for as long as is said, or for its usual time.
+    const auto held = [](const char* text) {
+        return read_operator_key(text, 0).inputs.back().after / std::chrono::milliseconds(1);
+    };
+    CHECK(held("stimulus+1=press 7") == 80);
+    CHECK(held("stimulus+1=press 7 for 0.5") == 500);
+    CHECK(held("stimulus+1=press 7 for 0") == 0);
+    CHECK(read_operator_key("stimulus+1=press 7 for 0.5", 0).pressed == "7");
+    CHECK(read_operator_key("stimulus+1=press 7 for -1", 0).pressed == "7 for -1");
+    CHECK(read_operator_key("stimulus+1=press 7 for ever", 0).pressed == "7 for ever");
+}

@@ -468,3 +468,25 @@ TEST_CASE("a simulated tracker has 1 to 10,000 samples a second", "[unit]") {
     CHECK_FALSE(takes(10'000.1));
     CHECK_FALSE(takes(std::nan("")));
 }
+
+TEST_CASE("a drift check is made once the eye is open for more than half of 100 ms", "[unit]") {
+    const auto takes = [](SessionDuration before_blink) {
+        SimulatedSitting sitting(11, test::without_wandering());
+        SimulatedTrackerSettings settings = perfect();
+        settings.rate_hz = 1000.0;
+        SimulatedEyeTracker tracker(sitting.clock, sitting.observer, 11, settings);
+        SessionTime blink(1s);
+        while (sitting.observer.gaze_at(blink).state != EyeState::blink)
+            blink += 100us;
+        sitting.clock.wait_until(blink - before_blink);
+        const SessionTime asked = sitting.clock.now();
+        const DriftOutcome drift = tracker.drift_check(sitting.observer.scene().screen.centre());
+        CHECK(drift.kind == DriftOutcome::Kind::measured);
+        CHECK(drift.error.value == Approx(0.0).margin(1e-6));
+        return sitting.clock.now() - asked;
+    };
+    CHECK(takes(57ms) == 100ms);
+    CHECK(takes(43ms) > 100ms);
+    CHECK(takes(0ms) > 100ms);
+    CHECK(takes(150ms) == 100ms);
+}

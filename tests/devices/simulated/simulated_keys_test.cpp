@@ -356,3 +356,110 @@ TEST_CASE("a gauge is meant as the surface leans by its gain, sheared as the obs
     answer.truth.gain = 0.5;
     CHECK(meant({{45.0}, {0.0}}).slant.value == Approx(to_degrees({std::atan(0.5)}).value));
 }
+
+TEST_CASE("what is planned comes at its instant, and not before", "[unit]") {
+    const Protocol protocol = asked();
+    const SimulatedAnswers answers(protocol, 3);
+    AnswerOffer offer = offer_called("choice");
+    offer.values = {"near"};
+    offer.keys = {"f"};
+    SimulatedKeys keys;
+    keys.plan(answers, {offer}, {});
+    keys.awaited(SessionTime(1s));
+    CHECK(until(keys, SessionTime(300s)).empty()); // no window has opened
+    keys.window_opened(SessionTime(2s));
+    const SessionTime down = SessionTime(2s) + answers.answer(offer, {}).after;
+    CHECK(until(keys, down - 1ns).empty());
+    CHECK(until(keys, down).size() == 1);
+    CHECK(until(keys, down + 70ms - 1ns).empty());
+    SimulatedKeys left = keys;
+    CHECK(until(keys, down + 70ms).size() == 1);
+    left.clear(); // and what was down is let go at that instant, too
+    CHECK(until(left, down + 70ms - 1ns).empty());
+    CHECK(until(left, down + 70ms).size() == 1);
+    // Who has told all has nothing to let go, whatever was planned once.
+    for (const bool accepts : {false, true}) {
+        offer.accept_key = accepts ? "enter" : "";
+        keys.plan(answers, {offer, offer}, {});
+        keys.window_opened(SessionTime(2s));
+        CHECK(until(keys, SessionTime(300s)).size() == (accepts ? 8 : 4));
+        keys.clear();
+        CHECK(until(keys, SessionTime(300s)).empty());
+        // Nor who has told nothing.
+        keys.plan(answers, {offer}, {});
+        keys.window_opened(SessionTime(2s));
+        keys.clear();
+        CHECK(until(keys, SessionTime(300s)).empty());
+    }
+}
+
+TEST_CASE("a line of one step is set by one key to either side, and steps without keys by the marker",
+          "[unit]") {
+    Protocol protocol = asked();
+    protocol.tasks[0].answers.resize(1);
+    TaskAnswer& truth = protocol.tasks[0].answers[0];
+    truth.id = "what";
+    AnswerOffer offer = offer_called("scale");
+    offer.low = 0.0;
+    offer.high = 1.0;
+    const auto pressed = [&](double meant) {
+        truth.truth.offset = meant;
+        const SimulatedAnswers answers(protocol, 3);
+        SimulatedKeys keys;
+        keys.plan(answers, {offer}, {});
+        keys.window_opened(SessionTime(2s));
+        std::vector<std::string> names;
+        for (const ObserverInput& input : until(keys, SessionTime(300s)))
+            if (input.kind == ObserverInput::Kind::key_down)
+                names.emplace_back(input.key.view());
+        return names;
+    };
+    using Names = std::vector<std::string>;
+    offer.step = 1.0;
+    CHECK(pressed(0.0) == Names{"right", "right", "left"});
+    CHECK(pressed(1.0) == Names{"right", "right"});
+    offer.step = 5.0; // wider than the line
+    CHECK(pressed(0.0) == Names{"right", "right", "left"});
+    offer.high = 4.0;
+    offer.step = 1.0;
+    offer.numbers = {0.0, 1.0, 2.0, 3.0, 4.0};
+    CHECK(pressed(4.0) == Names{"right", "right", "right"});
+    offer.keys = {"0", "1", "2", "3"}; // not one each
+    CHECK(pressed(4.0) == Names{"right", "right", "right"});
+    offer.keys.emplace_back("4");
+    CHECK(pressed(4.0) == Names{"4"});
+    CHECK(pressed(1.4) == Names{"1"});
+}
+
+TEST_CASE("a column of a match goes by coarse steps where it has keys for them and a size", "[unit]") {
+    Protocol protocol = asked();
+    protocol.tasks[0].answers.resize(1);
+    TaskAnswer& truth = protocol.tasks[0].answers[0];
+    truth.id = "what";
+    truth.truth.offset = 9.0;
+    const SimulatedAnswers answers(protocol, 3);
+    for (const auto& [coarse, has_keys, presses] : {std::tuple(4, true, 3u),
+                                                    {4, false, 9u},
+                                                    {0, true, 9u},
+                                                    {0, false, 9u},
+                                                    {9, true, 1u},
+                                                    {10, true, 9u}}) {
+        CAPTURE(coarse, has_keys);
+        OfferedAxis axis;
+        for (int k = 0; k < 20; ++k)
+            axis.values.push_back(k);
+        axis.less = "less";
+        axis.more = "more";
+        axis.coarse = coarse;
+        if (has_keys) {
+            axis.much_less = "down";
+            axis.much_more = "up";
+        }
+        AnswerOffer offer = offer_called("match");
+        offer.axes = {axis};
+        SimulatedKeys keys;
+        keys.plan(answers, {offer}, {});
+        keys.window_opened(SessionTime(2s));
+        CHECK(until(keys, SessionTime(300s)).size() == 2 * presses);
+    }
+}

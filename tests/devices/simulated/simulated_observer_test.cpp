@@ -370,3 +370,118 @@ TEST_CASE("between two targets the eye is on its way, evenly about the middle of
     CHECK(share_at(200ms + way) == Approx(1.0));
     CHECK(share_at(5s) == Approx(1.0));
 }
+
+namespace {
+
+/// Pictures of 400 x 400 px at these places from the left, each in a slot of its own; nothing is known of
+/// what they show.
+ObservedScene pictures_at(const std::vector<int>& left_px) {
+    ObservedScene scene;
+    scene.animations[0].duration_s = 0.2;
+    scene.screen.image_px = {400, 400};
+    for (const int left : left_px) {
+        scene.slots.push_back(scene.screen);
+        scene.slots.back().image_origin_px = {left, 340};
+    }
+    scene.objects.resize(1);
+    scene.tasks = {{"free", {0.4}}};
+    return scene;
+}
+
+Trial trial_of_pictures(std::size_t count, int index = 0) {
+    Trial trial;
+    trial.index = index;
+    for (std::size_t i = 1; i < count; ++i)
+        trial.beside.push_back({{}, static_cast<int>(i)});
+    return trial;
+}
+
+void flip_at(SimulatedObserver& observer, SessionTime at, int frame = 0) {
+    FlipRecord flip;
+    flip.report.vertical_blank = at;
+    flip.shown = AnimationFrameIndex{frame};
+    observer.flipped(flip);
+}
+
+} // namespace
+
+TEST_CASE("a slot that is favoured gets its share of the fixations, and the others the rest alike",
+          "[unit]") {
+    for (const std::size_t count : {1u, 2u, 3u})
+        for (const int favoured : {-1, 0, 1}) {
+            CAPTURE(count, favoured);
+            const std::vector<int> places{100, 700, 1300};
+            SimulatedObserver observer(
+                pictures_at({places.begin(), places.begin() + static_cast<int>(count)}), 3);
+            observer.let_answers_guide([&](const Trial&) { return GazeFavour{favoured, 0.8}; });
+            std::array<double, 3> often{};
+            double all = 0.0;
+            for (int index = 0; index < 300; ++index) {
+                observer.presentation_begins(trial_of_pictures(count, index), 0);
+                const auto& fixations = observer.script_of(index)->fixations();
+                for (std::size_t i = 1; i < fixations.size(); ++i, all += 1.0)
+                    often.at(fixations[i].shown) += 1.0;
+            }
+            for (std::size_t i = 0; i < 3; ++i) {
+                const double even = 1.0 / static_cast<double>(count);
+                const double rest = 0.2 / (static_cast<double>(count) - 1.0);
+                const double known = i >= count                        ? 0.0
+                                     : favoured < 0 || count == 1      ? even
+                                     : static_cast<int>(i) == favoured ? 0.8
+                                                                       : rest;
+                CHECK(often[i] / all == Approx(known).margin(0.035));
+            }
+        }
+}
+
+TEST_CASE("of pictures over each other the last one is seen, with the frame that it has", "[unit]") {
+    SimulatedObserver observer(pictures_at({760, 760}), 3, test::without_wandering());
+    observer.presentation_begins(trial_of_pictures(2), 0);
+    for (int flip = 0; flip < 3; ++flip) {
+        flip_at(observer, SessionTime(1s) + flip * 500ms, flip);
+        observer.slot_flipped({0, 0, 1, {}, AnimationFrameIndex{10 + flip}, {}});
+        observer.slot_flipped({0, 0, 1, {}, AnimationFrameIndex{99}, {}}); // one more than there can be
+    }
+    for (int flip = 0; flip < 3; ++flip) {
+        const GazeTruth truth = observer.truth_at(SessionTime(1100ms) + flip * 500ms);
+        CHECK(truth.frame == AnimationFrameIndex{10 + flip});
+        CHECK(truth.shown == std::size_t{1});
+        CHECK(truth.slot == 1);
+    }
+}
+
+TEST_CASE(
+    "after a show the eye stays 150 ms, ends the saccade that is under way, and then goes to the middle",
+    "[unit]") {
+    const ObservedScene scene = pictures_at({300});
+    const ScreenPoint centre = scene.screen.centre();
+    const auto shown_until = [&](SessionTime end) {
+        auto observer = std::make_unique<SimulatedObserver>(scene, 3, test::without_wandering());
+        observer->presentation_begins(trial_of_pictures(1), 0);
+        flip_at(*observer, SessionTime(1s));
+        observer->screen_shown({}, end);
+        return observer;
+    };
+    // Longer than anybody planned: the eye has rested at the last place.
+    const auto long_shown = shown_until(SessionTime(20s));
+    const ScreenPoint last = long_shown->script_of(0)->fixations().back().place;
+    CHECK(distance_px(last, centre) > 1.0);
+    CHECK(long_shown->gaze_at(SessionTime(20149ms)).place == last);
+    CHECK_FALSE(long_shown->gaze_at(SessionTime(20165ms)).place == last);
+    CHECK(long_shown->gaze_at(SessionTime(20400ms)).place == centre);
+    // In the middle of a fixation, and of a saccade.
+    const std::vector<ScriptedFixation> fixations = long_shown->script_of(0)->fixations();
+    const ScriptedFixation& before = fixations[2];
+    const ScriptedFixation& after = fixations[3];
+    const SessionTime onset(1s);
+    const SessionTime middle = onset + (before.begin + before.end) / 2;
+    const auto fixating = shown_until(middle - 150ms);
+    CHECK(fixating->gaze_at(middle - 1ms).place == before.place);
+    CHECK_FALSE(fixating->gaze_at(middle + 15ms).place == before.place);
+    const auto moving = shown_until(onset + before.end + 1ms - 150ms);
+    const SessionTime arrived = onset + after.begin;
+    CHECK(moving->gaze_at(arrived).place == after.place);
+    CHECK(moving->gaze_at(arrived + 19ms).place == after.place);
+    CHECK_FALSE(moving->gaze_at(arrived + 35ms).place == after.place);
+    CHECK(moving->gaze_at(arrived + 300ms).place == centre);
+}

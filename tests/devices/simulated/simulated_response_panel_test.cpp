@@ -356,3 +356,24 @@ TEST_CASE("what was offered before an answer is awaited is answered, too", "[uni
     sitting.clock.wait_until(sitting.clock.now() + std::chrono::seconds(60));
     CHECK(panel.next_input());
 }
+
+TEST_CASE("the longest answers, the soonest voices and the shortest readings are as long as they may be",
+          "[unit]") {
+    const Mesh mesh = test::bust();
+    ObservedScene scene = test::scene_with(mesh);
+    scene.tasks = {{"thoughts", {0.4}}};
+    const SimulatedObserver observer(scene, 28);
+    double longest_s = 0.0, soonest_s = 99.0, shortest_s = 99.0;
+    for (int index = 0; index < 60'000; ++index) {
+        const SimulatedAnswer answer = observer.answer_to({index, 0, {}});
+        longest_s = std::max(longest_s, to_seconds(answer.after));
+        soonest_s = std::min(soonest_s, to_seconds(answer.voice_after));
+        shortest_s = std::min(shortest_s, to_seconds(observer.reading_time(index)));
+    }
+    CHECK(longest_s <= 45.0);
+    CHECK(longest_s > 38.0);
+    CHECK(soonest_s >= 0.25);
+    CHECK(soonest_s < 0.26);
+    CHECK(shortest_s >= 0.8);
+    CHECK(shortest_s < 0.9);
+}

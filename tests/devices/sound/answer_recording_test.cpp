@@ -368,6 +368,11 @@ TEST_CASE("a simulated voice has the level and the pitch that it is given, for i
         CHECK(amplitude(120.0 * i) / first == Approx(wanted[i - 1] / 0.6).margin(0.02));
     CHECK(amplitude(60.0) < 0.02 * first);
     CHECK(amplitude(13 * 120.0) < 0.02 * first);
+    // It begins and ends within 5 ms, evenly: halfway it has half of what it has a quarter of a second, which
+    // is a syllable and thirty waves, later or earlier.
+    for (const auto& [at, whole] : {std::pair(4020u, 6020u), {19'980u, 17'980u}})
+        CHECK(sound[at] == Approx(0.5f * sound[whole]).margin(3e-4));
+    CHECK(std::abs(sound[6020]) > 3e-3f);
     // Louder by its gain, up to full scale.
     voice.gain = 2.0;
     const std::vector<float> louder = simulated_sound(voice, rate_hz, 3.0, 7);
@@ -376,4 +381,41 @@ TEST_CASE("a simulated voice has the level and the pitch that it is given, for i
     voice.gain = 1000.0;
     for (const float sample : simulated_sound(voice, rate_hz, 3.0, 7))
         REQUIRE(std::abs(sample) <= 1.0f);
+}
+
+TEST_CASE(
+    "while a simulated observer speaks the level is that of the voice, before and after that of the room",
+    "[unit]") {
+    using namespace std::chrono_literals;
+    SimulatedSitting sitting(31);
+    const TemporaryFolder folder;
+    const Trial trial{0, 0, {}};
+    const SimulatedAnswer said = sitting.observer.answer_to(trial);
+    for (const double gain : {1.0, 3.0, 4.0}) {
+        SimulatedSoundSettings settings;
+        settings.gain = gain;
+        settings.noise_dbfs = -40.0;
+        SimulatedAnswerRecorder recorder(sitting.clock, sitting.observer, 3, settings);
+        recorder.keep_in(folder.path());
+        const auto recording = recorder.begin(trial);
+        sitting.clock.wait_until(sitting.clock.now() + 30s);
+        CHECK(recording->level().peak == Approx(0.01f)); // nothing has been asked
+        const SessionTime onset = sitting.clock.now();
+        recording->response_screen_lit(onset);
+        const auto level_at = [&](SessionTime at) {
+            sitting.clock.wait_until(at);
+            return recording->level();
+        };
+        CHECK(level_at(onset + said.voice_after - 1ns).peak == Approx(0.01f));
+        for (const SessionTime at : {onset + said.voice_after, onset + said.voice_until - 1ns}) {
+            const AudioLevel level = level_at(at);
+            CHECK(level.peak == Approx(gain == 1.0 ? 0.3f : gain == 3.0 ? 0.9f : 1.0f));
+            CHECK(level.rms == Approx(0.3f * level.peak));
+            CHECK(level.is_clipping == (gain == 4.0));
+        }
+        const AudioLevel after = level_at(onset + said.voice_until);
+        CHECK(after.peak == Approx(0.01f));
+        CHECK_FALSE(after.is_clipping);
+        CHECK(recording->level().rms == Approx(0.003f));
+    }
 }

@@ -152,7 +152,7 @@ void run(const std::stop_token& stop) {
         if (i == 6)
             signals.tell({taken + device_ahead_us, taken, 5, 0});
         const auto missing = static_cast<std::int64_t>(number("missing_from", 1e9));
-        if (i >= missing && i < missing + 3)
+        if (i >= missing && i < missing + static_cast<std::int64_t>(number("missing_count", 3)))
             continue;
         const bool has_left = i % 10 != 9;
         const bool is_back = i == static_cast<std::int64_t>(number("back_at", 1e9)) ||

@@ -175,3 +175,20 @@ TEST_CASE("a Tobii's measurement of the same time as the one before has no place
     CHECK(gaps[0].reason == TrackerGap::Reason::unreadable);
     CHECK(gaps[0].after == samples[5].sampled_at);
 }
+
+TEST_CASE("each measurement of a Tobii's that is missing is told, one alone too", "[unit]") {
+    for (const int missing : {1, 2}) {
+        TimedTobii bench;
+        bench.library.set("missing_from", 5);
+        bench.library.set("missing_count", missing);
+        bench.driver.connect(bench.wish);
+        bench.driver.start();
+        bench.read_samples(10);
+        bench.driver.stop();
+        const auto gaps = bench.kept.all<TrackerGap>();
+        REQUIRE(gaps.size() == 1);
+        CHECK(gaps[0].reason == TrackerGap::Reason::connection);
+        CHECK(gaps[0].lost_samples == missing);
+        CHECK(gaps[0].after == bench.kept.all<GazeSample>().at(4).sampled_at);
+    }
+}

@@ -265,3 +265,46 @@ TEST_CASE("a driver is read for 2 ms at a time and thrice at the end, and its cl
     CHECK(tracker.poll(some) == 0);
     CHECK(tracker.finish("", {}) == std::vector<std::string>{"its own word"});
 }
+
+namespace {
+
+/// Does not come back from its reading before it may.
+class HeldDriver final : public TrackerDriver {
+  public:
+    struct Hold {
+        std::atomic<bool> is_reading{false}, may_go{false};
+        std::atomic<int> marks{0};
+    };
+    explicit HeldDriver(Hold& hold) : hold_(hold) {}
+    TrackerDescription connect(const TrackerWish& wish) override { return {"held", 10.0, wish.eye}; }
+    void start() override {}
+    void stop() noexcept override {}
+    RecordingState read(TrackerItemSink&, SessionTime) noexcept override {
+        hold_.is_reading = true;
+        while (!hold_.may_go)
+            std::this_thread::sleep_for(1ms);
+        return RecordingState::running;
+    }
+    void send(const TrackerMark&) noexcept override { ++hold_.marks; }
+    std::optional<ClockPair> read_clocks() noexcept override { return std::nullopt; }
+
+  private:
+    Hold& hold_;
+};
+
+} // namespace
+
+TEST_CASE("1024 marks wait for a driver that reads, and those that find no room are counted", "[unit]") {
+    SteadyClock clock;
+    HeldDriver::Hold hold;
+    ThreadedTracker tracker(std::make_unique<HeldDriver>(hold), clock, {});
+    tracker.start_recording();
+    REQUIRE(comes_true([&] { return hold.is_reading.load(); }));
+    for (int i = 0; i < 1027; ++i)
+        tracker.mark({clock.now(), "M"});
+    hold.may_go = true;
+    tracker.stop_recording();
+    CHECK(hold.marks == 1024);
+    CHECK(tracker.finish("", {}) ==
+          std::vector<std::string>{"3 messages for the tracker's file were lost: too many at once"});
+}
