@@ -257,9 +257,10 @@ void say_outcome(const BakeOptions& options, const BakeJob& job, const BakeOutco
     fmt::print("{} of {} are there, {} rendered now\n", outcome.kept + outcome.rendered,
                counted(outcome.units, "frame"), outcome.rendered);
     if (outcome.given_up > 0.0)
-        fmt::print("of a frame's light up to {:.2g} % was given up inside a translucent body, after a million "
-                   "scatterings: so much of it is missing\n",
-                   100.0 * outcome.given_up);
+        fmt::print(
+            "of a frame's light up to {:.2g} % was given up inside a translucent body, after a million "
+            "scatterings: so much of it is missing\n",
+            100.0 * outcome.given_up);
     if (outcome.waiting > 0)
         fmt::print(
             "{} to be added up of frames of other shards: run `overt bake` once more when all are there\n",

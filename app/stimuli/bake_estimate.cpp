@@ -58,8 +58,8 @@ double seconds_per_path(const BakeScene& scene, const SpectralLight& light, cons
 } // namespace
 
 PathProbe::PathProbe(const Protocol& protocol, std::span<const Object> objects)
-    : protocol_(&protocol),
-      seconds_per_path_(objects.size() * protocol.materials.size(), 0.0), traced_share_(objects.size(), 0.0) {
+    : protocol_(&protocol), seconds_per_path_(objects.size() * protocol.materials.size(), 0.0),
+      traced_share_(objects.size(), 0.0) {
     const LightSettings& first = protocol.lights.front();
     const SpectralLight light(first.parts.empty() ? first : first.parts.front());
     std::vector<double> seconds(protocol.materials.size(), 0.0); // of the first object, and so of all
@@ -217,8 +217,9 @@ std::string needs_of_person(const BakeEstimate& estimate, const Protocol& protoc
                 "mean of each of the file's materials, and no bumps.\n";
     if (std::ranges::find(protocol.materials, MaterialKind::translucent, &MaterialSettings::kind) !=
         protocol.materials.end())
-        text += "  A translucent body it shows as a matt one under its border, of the colour that a thick one "
-                "has: light that comes through, or out beside where it went in, is missing.\n";
+        text +=
+            "  A translucent body it shows as a matt one under its border, of the colour that a thick one "
+            "has: light that comes through, or out beside where it went in, is missing.\n";
     return text +
            fmt::format(
                "  Times are estimated from small pictures that were traced just now, on {}, if nothing "

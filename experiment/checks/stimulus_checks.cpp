@@ -371,10 +371,11 @@ void check_translucent(ProtocolExamination& examination, std::size_t index) {
     const std::string kind = entry_path("material", index, "kind");
     for (std::size_t i = 0; i < protocol.objects.size(); ++i)
         if (protocol.objects[i].unit == "own")
-            examination.warning({kind, entry_path("object", i, "unit")},
-                                "what is scattered and absorbed \"per_mm\" is by one of the mesh's own units, "
-                                "which are not known",
-                                "give the object's \"unit\"");
+            examination.warning(
+                {kind, entry_path("object", i, "unit")},
+                "what is scattered and absorbed \"per_mm\" is by one of the mesh's own units, "
+                "which are not known",
+                "give the object's \"unit\"");
     for (std::size_t i = 0; i < protocol.lights.size(); ++i)
         if (protocol.lights[i].has_sources())
             examination.warning({kind, entry_path("light", i, "sun_lux"), entry_path("light", i, "lamps"),

@@ -51,7 +51,8 @@ void expect_flights(const Medium& medium, float radius, float step_off) {
     constexpr float least_steps = 20.0f;
     if (medium.most_scattering() * least_steps * step_off > 1.0f)
         throw InputError(fmt::format(
-            "light of a translucent body is scattered every {:.3g} mm, which is too often for a body of {:.3g} "
+            "light of a translucent body is scattered every {:.3g} mm, which is too often for a body of "
+            "{:.3g} "
             "mm across: at least {:.3g} mm are needed between two scatterings; take less `scattering_per_mm` "
             "or `density`, or a plastic, which gives light back where it comes in",
             1.0f / medium.most_scattering(), 2.0f * radius, least_steps * step_off));

@@ -185,9 +185,10 @@ double half_space_by_walks(const Medium& medium, double cosine, std::size_t bin)
         medium.enter(path, sequence.next(), walk);
         Bins carried = Bins::filled(1.0f);
         glm::vec3 along = -eye_at(cosine);
-        float height = 0.0f;
+        float height = 0.0f, number = sequence.next();
+        glm::vec2 turn = sequence.next_two();
         while (carried.value[bin] > 1e-4f) {
-            const float flight = medium.free_path(path.band, path.numbers.next());
+            const float flight = medium.free_path(path.band, number);
             if (height + flight * along.z > 0.0f) {
                 const float left = -height / along.z;
                 medium.fly(left, path, carried);
@@ -197,7 +198,9 @@ double half_space_by_walks(const Medium& medium, double cosine, std::size_t bin)
             }
             height += flight * along.z;
             medium.scatter_after(flight, path, carried);
-            along = medium.onward(along, glm::vec2{path.numbers.next(), path.numbers.next()});
+            along = medium.onward(along, turn);
+            number = path.numbers.next();
+            turn = glm::vec2{path.numbers.next(), path.numbers.next()};
         }
     }
     return back;
@@ -215,8 +218,9 @@ void add_media(std::vector<SurfaceLaw>& laws) {
         material.kind = MaterialKind::translucent;
         material.scattering_per_mm.fill(3.0 * albedo);
         material.absorption_per_mm.fill(3.0 * (1.0 - albedo));
-        laws.push_back({fmt::format("translucent half space, albedo {}, cosine {}: given back", albedo, cosine),
-                        half_space_by_walks(Medium(material), cosine, 0), share, 6e-3});
+        laws.push_back(
+            {fmt::format("translucent half space, albedo {}, cosine {}: given back", albedo, cosine),
+             half_space_by_walks(Medium(material), cosine, 0), share, 6e-3});
         // A band of its own among others that scatter twice as much and half as much.
         material.scattering_per_mm = {6.0 * albedo, 3.0 * albedo, 1.5 * albedo};
         laws.push_back(

@@ -1,4 +1,5 @@
-/// What films, brushed metal, glass and media that scatter are held against, as layered surfaces are by surface_laws.h.
+/// What films, brushed metal, glass and media that scatter are held against, as layered surfaces are by
+/// surface_laws.h.
 #pragma once
 
 #include "render/bake/surface_laws.h"

@@ -29,8 +29,9 @@ struct GlassWay {
 /// Made once for a stimulus and asked from any number of threads.
 class Glass {
   public:
-    /// Of kind `glass`, or the border of a `translucent` body. With an Abbe number the index follows Cauchy's A + B / wavelength^2 through `ior` at
-    /// 587.6 nm (for N-BK7 that is off by 1.3e-4 at most from 400 to 700 nm).
+    /// Of kind `glass`, or the border of a `translucent` body. With an Abbe number the index follows Cauchy's
+    /// A + B / wavelength^2 through `ior` at 587.6 nm (for N-BK7 that is off by 1.3e-4 at most from 400 to
+    /// 700 nm).
     explicit Glass(const MaterialSettings& material);
 
     bool disperses() const { return disperses_; }

@@ -32,7 +32,8 @@ float mean_of(const Bins& bins) {
 Medium::Medium(const MaterialSettings& material)
     : scattering_(coefficients(material.scattering_per_mm, material.density)),
       absorption_(coefficients(material.absorption_per_mm, material.density)),
-      most_scattering_(scattering_.largest()), anisotropy_(static_cast<float>(material.scattering_anisotropy)) {
+      most_scattering_(scattering_.largest()),
+      anisotropy_(static_cast<float>(material.scattering_anisotropy)) {
     const auto& [red, green, blue] = material.scattering_per_mm;
     is_grey_ = red == green && green == blue;
     absorbs_ = absorption_.largest() > 0.0f;
@@ -87,8 +88,8 @@ glm::vec3 Medium::onward(glm::vec3 direction, glm::vec2 numbers) const {
     }
     const float sine = std::sqrt(std::max(0.0f, 1.0f - cosine * cosine));
     const float around = 2.0f * std::numbers::pi_v<float> * numbers.y;
-    return glm::normalize(NormalFrame(direction).to_world(
-        {sine * std::cos(around), sine * std::sin(around), cosine}));
+    return glm::normalize(
+        NormalFrame(direction).to_world({sine * std::cos(around), sine * std::sin(around), cosine}));
 }
 
 double Medium::phase(double anisotropy, double cosine) {

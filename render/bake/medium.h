@@ -55,6 +55,8 @@ class Medium {
 
     /// A path goes in for the first time, with a number from 0 to 1 and the seed of its others.
     static void enter(MediumPath& path, float number, std::uint64_t seed);
+    /// Of a band between scatterings; infinite if it has none.
+    float mean_flight(int band) const { return 1.0f / scattering_.value[static_cast<std::size_t>(band)]; }
     /// Length of a flight by a number from 0 to 1; infinite of a band that is not scattered.
     float free_path(int band, float number) const;
     /// The path has flown `length` to where it is scattered, which takes what is absorbed on the way.
@@ -77,7 +79,7 @@ class Medium {
 
 /// Share of light from everywhere that a half space of a medium gives back, where its border neither mirrors
 /// nor bends: `albedo` scattered of what is scattered or absorbed, by van de Hulst's formula (1980, "Multiple
-/// Light Scattering", in Hapke's form), within 0.002 of exact numbers. Forward scattering by similarity.
+/// Light Scattering", in Hapke's form), within 0.0025 of exact numbers. Forward scattering by similarity.
 double half_space_albedo(double albedo, double anisotropy);
 
 } // namespace overt

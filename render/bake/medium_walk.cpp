@@ -24,6 +24,42 @@ bool walks_on(Bins& carried, float set_out, WalkNumbers& numbers) {
     return true;
 }
 
+/// A ball about a place that no surface is in: flights within it need no ray. Which of them are asked for is
+/// only a matter of time, and changes no path.
+class ClearBall {
+  public:
+    ClearBall(const SurfaceTree& tree, float margin, float mean_flight)
+        : tree_(&tree), margin_(margin), mean_flight_(mean_flight) {}
+
+    /// Of the end of a flight that began in it.
+    bool holds(glm::vec3 place) const {
+        const glm::vec3 from = place - middle_;
+        return glm::dot(from, from) < radius_ * radius_;
+    }
+    /// A ray to `place` has met nothing: after some of these, and where it came out of a ball, another ball
+    /// may pay.
+    void leave_to(glm::vec3 place) {
+        constexpr int patience = 8;
+        constexpr float least_flights = 3.0f, most_flights = 32.0f;
+        const bool had_one = radius_ > 0.0f;
+        radius_ = 0.0f;
+        if (!had_one && ++rays_ < patience)
+            return;
+        rays_ = 0;
+        const float clear = tree_->clearance(place, most_flights * mean_flight_) - margin_;
+        if (clear < least_flights * mean_flight_)
+            return;
+        middle_ = place;
+        radius_ = clear;
+    }
+
+  private:
+    const SurfaceTree* tree_;
+    float margin_, mean_flight_, radius_ = 0.0f;
+    glm::vec3 middle_{0.0f};
+    int rays_ = 0;
+};
+
 } // namespace
 
 bool PathTracer::walk(GlassPath& path, SurfaceHit& hit, SampleSequence& sequence) {
@@ -38,19 +74,23 @@ bool PathTracer::walk(GlassPath& path, SurfaceHit& hit, SampleSequence& sequence
         is_spread = true;
     }
     const float far_squared = 1.02f * scene_->radius() * scene_->radius();
+    ClearBall clear(scene_->tree(), 4.0f * scene_->step_off(), medium.mean_flight(state.band));
     while (true) {
         const float flight = medium.free_path(state.band, is_spread ? sequence.next() : state.numbers.next());
-        ++rays_;
-        hit = scene_->tree().first_hit(path.ray, flight, false);
-        if (hit.surface >= 0) {
-            // A front that is met from outside: it slipped out at an edge, by rounding.
-            if (glm::dot(hit.triangle_normal, path.ray.direction) >= 0.0f)
-                medium.fly(hit.distance, state, path.carried);
-            return true;
-        }
         const glm::vec3 place = path.ray.origin + flight * path.ray.direction;
-        if (!(glm::dot(place, place) < far_squared))
-            return true; // out of a hole in the mesh
+        if (!clear.holds(place)) {
+            ++rays_;
+            hit = scene_->tree().first_hit(path.ray, flight, false);
+            if (hit.surface >= 0) {
+                // A front that is met from outside: it slipped out at an edge, by rounding.
+                if (glm::dot(hit.triangle_normal, path.ray.direction) >= 0.0f)
+                    medium.fly(hit.distance, state, path.carried);
+                return true;
+            }
+            if (!(glm::dot(place, place) < far_squared))
+                return true; // out of a hole in the mesh
+            clear.leave_to(place);
+        }
         path.ray.origin = place;
         medium.scatter_after(flight, state, path.carried);
         const glm::vec2 turn =

@@ -27,7 +27,7 @@ struct SpectralFrame {
     /// Share of its paths' light that was given up inside a translucent body, after very many scatterings: as
     /// much is missing in the mean, in light of 1 from everywhere.
     double given_up = 0.0;
-    bool is_complete = false;           ///< false: it was stopped, and its content is of no use
+    bool is_complete = false; ///< false: it was stopped, and its content is of no use
 };
 
 /// CIE 1931 XYZ and alpha, not multiplied by it.

@@ -1,5 +1,7 @@
 #include "render/bake/surface_tree.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <limits>
 
@@ -52,6 +54,48 @@ void give(RTCGeometry geometry, RTCBufferType type, RTCFormat format, const std:
     void* buffer = rtcSetNewGeometryBuffer(geometry, type, 0, format, sizeof(Item), items.size());
     if (buffer != nullptr)
         std::memcpy(buffer, items.data(), items.size() * sizeof(Item));
+}
+
+/// Square of the distance from the origin to a triangle: to its plane where that is met inside, else to the
+/// nearest of its edges.
+float squared_distance(glm::vec3 a, glm::vec3 b, glm::vec3 c) {
+    const glm::vec3 normal = glm::cross(b - a, c - a);
+    const float length_squared = glm::dot(normal, normal);
+    const auto is_within = [&](glm::vec3 from, glm::vec3 to) {
+        return glm::dot(glm::cross(to - from, -from), normal) >= 0.0f;
+    };
+    if (length_squared > 0.0f && is_within(a, b) && is_within(b, c) && is_within(c, a)) {
+        const float height = glm::dot(a, normal);
+        return height * height / length_squared;
+    }
+    const auto to_edge = [](glm::vec3 from, glm::vec3 to) {
+        const glm::vec3 along = to - from;
+        const float squared = glm::dot(along, along);
+        const float share = squared > 0.0f ? glm::clamp(-glm::dot(from, along) / squared, 0.0f, 1.0f) : 0.0f;
+        const glm::vec3 nearest = from + share * along;
+        return glm::dot(nearest, nearest);
+    };
+    return std::min({to_edge(a, b), to_edge(b, c), to_edge(c, a)});
+}
+
+struct ClearanceQuery {
+    const std::vector<const TracedSurface*>* surfaces;
+    glm::vec3 point;
+    float squared;
+};
+
+bool comes_nearer(RTCPointQueryFunctionArguments* arguments) {
+    ClearanceQuery& query = *static_cast<ClearanceQuery*>(arguments->userPtr);
+    const TracedSurface& surface = *(*query.surfaces)[arguments->geomID];
+    const glm::uvec3& corners = surface.triangles[arguments->primID];
+    const float squared = squared_distance(surface.positions[corners.x] - query.point,
+                                           surface.positions[corners.y] - query.point,
+                                           surface.positions[corners.z] - query.point);
+    if (!(squared < query.squared))
+        return false;
+    query.squared = squared;
+    arguments->query->radius = std::sqrt(squared);
+    return true;
 }
 
 } // namespace
@@ -117,6 +161,19 @@ float SurfaceTree::first_distance(const PathRay& ray, bool coherent) const noexc
     const RTCRayHit cast =
         cast_into(tree_->scene.get(), ray, std::numeric_limits<float>::infinity(), coherent);
     return cast.hit.geomID == RTC_INVALID_GEOMETRY_ID ? -1.0f : cast.ray.tfar;
+}
+
+float SurfaceTree::clearance(glm::vec3 point, float most) const noexcept {
+    ClearanceQuery found{&tree_->surfaces, point, most * most};
+    RTCPointQuery query{};
+    query.x = point.x;
+    query.y = point.y;
+    query.z = point.z;
+    query.radius = most;
+    RTCPointQueryContext context;
+    rtcInitPointQueryContext(&context);
+    rtcPointQuery(tree_->scene.get(), &query, &context, comes_nearer, &found);
+    return found.squared < most * most ? std::sqrt(found.squared) : most;
 }
 
 } // namespace overt

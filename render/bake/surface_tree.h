@@ -53,6 +53,8 @@ class SurfaceTree {
     SurfaceHit first_hit(const PathRay& ray, float limit, bool coherent) const noexcept;
     /// Only whether and where: the distance, or a negative number.
     float first_distance(const PathRay& ray, bool coherent) const noexcept;
+    /// How far `point` is from the nearest surface, or `most` if it is farther.
+    float clearance(glm::vec3 point, float most) const noexcept;
 
   private:
     struct Tree;

@@ -360,8 +360,10 @@ std::vector<Key> material() {
          "\"Au\" for gold, \"Ag\" for silver, or a table of another conductor: a CSV file with the columns "
          "wavelength_nm, n and k, by its path from the protocol's folder."},
         {"roughness", &M::roughness,
-         range(0.001, 1).left_out("0.13; of `own` as the object's file has it, and of glass and translucent bodies none"),
-         "GGX alpha of a rough metal, plastic or glass, or of the surface of a translucent body; of `metallic-roughness` and `own` its square root, "
+         range(0.001, 1).left_out(
+             "0.13; of `own` as the object's file has it, and of glass and translucent bodies none"),
+         "GGX alpha of a rough metal, plastic or glass, or of the surface of a translucent body; of "
+         "`metallic-roughness` and `own` its square root, "
          "as "
          "other programs have it. Of `own` it stands everywhere in place of what the file says."},
         {"roughness_as", &M::roughness_as,
@@ -433,7 +435,8 @@ std::vector<Key> material() {
          "Mean cosine of the angle that a scattering turns light by (g of Henyey and Greenstein): 0 to all "
          "sides alike, 0.8 forward as in skin and milk, below 0 backward."},
         {"density", &M::density, range(1e-6, 1e6),
-         "Factor on both `scattering_per_mm` and `absorption_per_mm`: how dense the medium is, in one number, "
+         "Factor on both `scattering_per_mm` and `absorption_per_mm`: how dense the medium is, in one "
+         "number, "
          "which may be a series."},
     });
 }

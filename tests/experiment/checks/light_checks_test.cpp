@@ -79,8 +79,9 @@ TEST_CASE("a sum is of other lights, and has nothing else", "[unit]") {
 }
 
 TEST_CASE("a translucent body wants millimetres, and light that can be met", "[unit]") {
-    const std::string wax = "[[material]]\nid = \"m\"\nkind = \"translucent\"\nscattering_per_mm = [1, 2, 3]\n"
-                            "scattering_anisotropy = -0.3\ndensity = 2\nior = 1.4\nroughness = 0.1\n";
+    const std::string wax =
+        "[[material]]\nid = \"m\"\nkind = \"translucent\"\nscattering_per_mm = [1, 2, 3]\n"
+        "scattering_anisotropy = -0.3\ndensity = 2\nior = 1.4\nroughness = 0.1\n";
     CHECK(findings_of_lights(wax).empty());
     CHECK(findings_of_lights(wax + "abbe = 40\n") ==
           LightLines{"21:8: \"abbe\" has no effect on a material of kind \"translucent\""});
@@ -113,7 +114,8 @@ TEST_CASE("what is given in place of the file's word, films and brushed metals s
     CHECK(findings_of_material("kind = \"plastic\"\nclear_coat_roughness = 0.1\n") ==
           LightLines{"15:24: \"clear_coat_roughness\" has no effect without \"clear_coat\""});
     // A coat out of range is one fault, not two.
-    CHECK(findings_of_material("kind = \"plastic\"\nclear_coat = 2\nclear_coat_roughness = 0.1\n").size() == 1);
+    CHECK(findings_of_material("kind = \"plastic\"\nclear_coat = 2\nclear_coat_roughness = 0.1\n").size() ==
+          1);
     CHECK(findings_of_material("kind = \"diffuse\"\nclear_coat = 1\n") ==
           LightLines{"15:14: \"clear_coat\" has no effect on a material of kind \"diffuse\""});
 }
