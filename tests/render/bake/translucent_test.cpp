@@ -156,6 +156,17 @@ TEST_CASE("a body that absorbs nothing is not to be seen in even light", "[unit]
         }
 }
 
+TEST_CASE("light that is given up in a very dense body is counted", "[unit]") {
+    // Ten thousand mean flights to the middle: some paths would take a hundred million scatterings.
+    const Mesh ball = test::ball({0.0, 0.0, 0.0}, 1.0);
+    SceneView middle = test::front_view(ball, 16);
+    middle.view.camera.vertical_fov.value /= 4.0;
+    const SpectralFrame frame = test::baked(BakeScene(ball, body_of(grey(10000.0), grey(0.0), 1.0)),
+                                            SpectralLight(test::even_light(), 1.0), middle, {.samples = 8});
+    CHECK(level_of(frame, 5).mean + frame.given_up == Approx(1.0).margin(1e-5));
+    CHECK(frame.given_up < 0.01);
+}
+
 TEST_CASE("without scattering a translucent body is coloured glass, bit for bit", "[unit]") {
     const Mesh ball = test::ball({0.0, 0.0, 0.0}, 1.0, 48, 96);
     LightSettings settings;
@@ -268,7 +279,7 @@ TEST_CASE("light goes through a translucent body as well there as back", "[unit]
             const double error = std::hypot(one.error / weight_of(flat), other.error / weight_of(steep));
             CAPTURE(is_rough, bin, forth, back_again, error);
             CHECK(std::abs(forth - back_again) <= 3.0 * error + 0.01 * forth);
-            CHECK(error < 0.04 * forth);
+            CHECK(error < 0.06 * forth);
         }
     }
 }
@@ -333,12 +344,14 @@ TEST_CASE("scattering turns light by Henyey and Greenstein's function", "[unit]"
 }
 
 TEST_CASE("how far a place is from the surface is what going through its triangles says", "[unit]") {
-    const Mesh bust = test::bust();
-    const TracedSurface traced(bust, glm::dvec3(0.0), 50.0);
+    Mesh figure;
+    test::add_part(figure, test::box({-70.0, -45.0, 40.0}, {70.0, 45.0, 190.0}), "body");
+    test::add_part(figure, test::ball({0.0, -10.0, 245.0}, 52.0, 8, 16), "head");
+    const TracedSurface traced(figure, glm::dvec3(0.0), 50.0);
     const SurfaceTree tree({&traced});
     std::mt19937 random(3);
     std::uniform_real_distribution<float> number(-1.0f, 1.0f);
-    for (int turn = 0; turn < 200; ++turn) {
+    for (int turn = 0; turn < 60; ++turn) {
         const glm::vec3 place(90.0f * number(random), 60.0f * number(random),
                               150.0f + 160.0f * number(random));
         float nearest = std::numeric_limits<float>::infinity(); // by places on each triangle
