@@ -271,7 +271,8 @@ void add_overview(std::string& text, const DesignReport& report) {
         text, "Screen",
         {fmt::format("{} x {} px, {} x {} mm, seen from {} mm: {:.2f} x {:.2f} deg", report.display.width_px,
                      report.display.height_px, report.display.width_mm, report.display.height_mm,
-                     report.display.viewing_distance_mm, angles.screen_width_deg, angles.screen_height_deg),
+                     report.display.viewing_distance_mm, angles.screen_width_deg, angles.screen_height_deg) +
+             (report.stereo.kind == StereoKind::mirrors ? " each half" : ""),
          fmt::format("light leaves as {}", name_of(report.display.output))});
     add_two_eyes(text, report);
     std::vector<std::string> places;

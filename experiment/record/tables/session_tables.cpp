@@ -66,6 +66,12 @@ RowLayout<RecordedStimulus> stimuli_layout(const SharedColumns& shared, const Se
     RowLayout<RecordedStimulus> layout{"stimuli", "What was shown: one row for each stimulus.", {}};
     layout.add<RecordedStimulus>(
         shared.of_stimulus<RecordedStimulus>([](const RecordedStimulus& row) { return row.stimulus; }));
+    if (!header.display.stereo.empty())
+        layout.add<RecordedStimulus>({{eye_column(), [&header](auto& row) {
+                                           const auto view = static_cast<std::size_t>(row.stimulus.view);
+                                           return word_of_eye(view < header.views_of_an_eye() ? Eye::left
+                                                                                              : Eye::right);
+                                       }}});
     layout.add<RecordedStimulus>({
         {{"source", "How the frames were made"}, &RecordedStimulus::source},
         {{"frames_sha256", "SHA-256 of the frames' pixels; n/a in sessions of earlier programs"},

@@ -29,7 +29,8 @@ struct StimulusColumn {
     std::vector<FactorLevel> of_entry; ///< by index of the list's entry
 
     const FactorLevel& level_of(const Stimulus& stimulus) const {
-        return of_entry.at(static_cast<std::size_t>(stimulus.*stimulus_lists[list].index));
+        // Views count on from those of the list (SessionHeader::in_slot).
+        return of_entry.at(static_cast<std::size_t>(stimulus.*stimulus_lists[list].index) % of_entry.size());
     }
 };
 
