@@ -191,13 +191,15 @@ double half_space_by_walks(const Medium& medium, double cosine, std::size_t bin)
             const float flight = medium.free_path(path.band, number);
             if (height + flight * along.z > 0.0f) {
                 const float left = -height / along.z;
-                medium.fly(left, path, carried);
+                medium.fly(left, path);
+                medium.settle(path, carried);
                 absorb(carried, medium.absorption(), left);
                 back += static_cast<double>(carried.value[bin]) / law_paths;
                 break;
             }
             height += flight * along.z;
-            medium.scatter_after(flight, path, carried);
+            medium.scatter_after(flight, path);
+            medium.settle(path, carried);
             along = medium.onward(along, turn);
             number = path.numbers.next();
             turn = glm::vec2{path.numbers.next(), path.numbers.next()};

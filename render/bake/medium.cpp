@@ -37,8 +37,10 @@ Medium::Medium(const MaterialSettings& material)
     const auto& [red, green, blue] = material.scattering_per_mm;
     is_grey_ = red == green && green == blue;
     absorbs_ = absorption_.largest() > 0.0f;
-    together_ = scattering_;
-    add(together_, absorption_);
+    constexpr float of_none = -1000.0f; // so small a chance is none
+    for (std::size_t bin = 0; bin < Bins::padded; ++bin)
+        log_scattering_.value[bin] =
+            scattering_.value[bin] > 0.0f ? std::log2(scattering_.value[bin]) : of_none;
 }
 
 void Medium::enter(MediumPath& path, float number, std::uint64_t seed) {
@@ -53,30 +55,22 @@ float Medium::free_path(int band, float number) const {
     return scattering > 0.0f ? -std::log(1.0f - number) / scattering : std::numeric_limits<float>::infinity();
 }
 
-void Medium::scatter_after(float length, MediumPath& path, Bins& carried) const {
-    ++path.scatterings;
-    if (is_grey_) {
-        if (absorbs_)
-            absorb(carried, absorption_, length);
-        return;
+void Medium::settle(MediumPath& path, Bins& carried) const {
+    if (absorbs_)
+        absorb(carried, absorption_, path.absorbed_over);
+    if (!is_grey_) {
+        const auto band = static_cast<std::size_t>(path.band);
+        const FlightChances flights{log_scattering_, scattering_, log_scattering_.value[band],
+                                    scattering_.value[band]};
+        const auto count = static_cast<float>(path.unsettled);
+        multiply_by_flights(path.chance, flights, count, path.flown);
+        multiply_by_flights(carried, flights, count, path.flown);
+        const float by_mean = 1.0f / mean_of(path.chance);
+        scale_or_drop(path.chance, by_mean);
+        scale_or_drop(carried, by_mean);
     }
-    absorb(path.chance, scattering_, length);
-    multiply(path.chance, scattering_);
-    absorb(carried, together_, length);
-    multiply(carried, scattering_);
-    const float by_mean = 1.0f / mean_of(path.chance);
-    scale_or_drop(path.chance, by_mean);
-    scale_or_drop(carried, by_mean);
-}
-
-void Medium::fly(float length, MediumPath& path, Bins& carried) const {
-    if (is_grey_)
-        return;
-    absorb(path.chance, scattering_, length);
-    absorb(carried, scattering_, length);
-    const float by_mean = 1.0f / mean_of(path.chance);
-    scale_or_drop(path.chance, by_mean);
-    scale_or_drop(carried, by_mean);
+    path.unsettled = 0;
+    path.flown = path.absorbed_over = 0.0f;
 }
 
 glm::vec3 Medium::onward(glm::vec3 direction, glm::vec2 numbers) const {

@@ -36,6 +36,9 @@ struct MediumPath {
     Bins chance;   ///< of its flights so far, had it another band's free paths: by the mean of all 31
     WalkNumbers numbers;
     int scatterings = 0;
+    // Since what it carries was last settled; only how often and how far counts, not in which order.
+    int unsettled = 0;
+    float flown = 0.0f, absorbed_over = 0.0f;
 };
 
 /// Flights between scatterings are as long as one band has them, chosen evenly when the path first goes in,
@@ -59,10 +62,17 @@ class Medium {
     float mean_flight(int band) const { return 1.0f / scattering_.value[static_cast<std::size_t>(band)]; }
     /// Length of a flight by a number from 0 to 1; infinite of a band that is not scattered.
     float free_path(int band, float number) const;
-    /// The path has flown `length` to where it is scattered, which takes what is absorbed on the way.
-    void scatter_after(float length, MediumPath& path, Bins& carried) const;
-    /// The path has flown `length` to the border; does not take what is absorbed.
-    void fly(float length, MediumPath& path, Bins& carried) const;
+    /// The path has flown `length` to where it is scattered.
+    static void scatter_after(float length, MediumPath& path) {
+        ++path.scatterings;
+        ++path.unsettled;
+        path.flown += length;
+        path.absorbed_over += length;
+    }
+    /// The path has flown `length` to the border, which does not count what is absorbed on the way.
+    static void fly(float length, MediumPath& path) { path.flown += length; }
+    /// Takes from `carried` what of this is not settled.
+    void settle(MediumPath& path, Bins& carried) const;
 
     /// The direction after a scattering (Henyey & Greenstein 1941), all bands alike.
     glm::vec3 onward(glm::vec3 direction, glm::vec2 numbers) const;
@@ -70,7 +80,8 @@ class Medium {
     static double phase(double anisotropy, double cosine);
 
   private:
-    Bins scattering_, absorption_, together_;
+    Bins scattering_, absorption_;
+    Bins log_scattering_; ///< to the base of 2
     float most_scattering_ = 0.0f;
     float anisotropy_;
     bool is_grey_ = false; ///< all bands scatter alike

@@ -1,4 +1,5 @@
 /// A path's way through what scatters light.
+#include <algorithm>
 #include <bit>
 #include <limits>
 
@@ -75,6 +76,8 @@ bool PathTracer::walk(GlassPath& path, SurfaceHit& hit, SampleSequence& sequence
     }
     const float far_squared = 1.02f * scene_->radius() * scene_->radius();
     ClearBall clear(scene_->tree(), 4.0f * scene_->step_off(), medium.mean_flight(state.band));
+    // What it carries is asked for after 1, 2, 4, 8, 16, 32 … scatterings.
+    constexpr int most_unsettled = 16;
     while (true) {
         const float flight = medium.free_path(state.band, is_spread ? sequence.next() : state.numbers.next());
         const glm::vec3 place = path.ray.origin + flight * path.ray.direction;
@@ -84,19 +87,23 @@ bool PathTracer::walk(GlassPath& path, SurfaceHit& hit, SampleSequence& sequence
             if (hit.surface >= 0) {
                 // A front that is met from outside: it slipped out at an edge, by rounding.
                 if (glm::dot(hit.triangle_normal, path.ray.direction) >= 0.0f)
-                    medium.fly(hit.distance, state, path.carried);
+                    medium.fly(hit.distance, state);
+                medium.settle(state, path.carried);
                 return true;
             }
             if (!(glm::dot(place, place) < far_squared))
-                return true; // out of a hole in the mesh
+                break; // out of a hole in the mesh
             clear.leave_to(place);
         }
         path.ray.origin = place;
-        medium.scatter_after(flight, state, path.carried);
+        medium.scatter_after(flight, state);
         const glm::vec2 turn =
             is_spread ? sequence.next_two() : glm::vec2{state.numbers.next(), state.numbers.next()};
         path.ray.direction = medium.onward(path.ray.direction, turn);
         is_spread = false;
+        if (state.unsettled < std::min(most_unsettled, state.scatterings - state.unsettled))
+            continue;
+        medium.settle(state, path.carried);
         if (!(path.carried.largest() > 0.0f) || !walks_on(path.carried, path.set_out, state.numbers))
             return false;
         if (state.scatterings >= most_scatterings) {
@@ -105,6 +112,8 @@ bool PathTracer::walk(GlassPath& path, SurfaceHit& hit, SampleSequence& sequence
             return false;
         }
     }
+    medium.settle(state, path.carried);
+    return true;
 }
 
 } // namespace overt

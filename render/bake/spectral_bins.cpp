@@ -10,7 +10,7 @@ namespace overt {
 
 namespace {
 
-/// 2^x for -125 <= x <= 0: the exponent's bits, and a series of e^(f ln 2) for the rest of -1 < f <= 0.
+/// 2^x for -125 <= x <= 125: the exponent's bits, and a series of e^(f ln 2) for the rest of -1 < f < 1.
 inline float power_of_two(float x) {
     const int whole = static_cast<int>(x);
     const float y = (x - static_cast<float>(whole)) * 0.693147181f;
@@ -69,6 +69,19 @@ OVERT_PROCESSOR_CLONES("avx2", "avx512f") void absorb(Bins& bins, const Bins& ab
     for (std::size_t i = 0; i < Bins::padded; ++i) {
         const float exponent = -1.44269504f * path * absorbance.value[i];
         bins.value[i] *= power_of_two(exponent < -125.0f ? -125.0f : exponent);
+    }
+}
+
+OVERT_PROCESSOR_CLONES("avx2", "avx512f")
+void multiply_by_flights(Bins& bins, const FlightChances& chances, float count, float length) {
+    for (std::size_t i = 0; i < Bins::padded; ++i) {
+        const float more = chances.coefficient.value[i] - chances.own_coefficient;
+        float exponent =
+            count * (chances.logarithm.value[i] - chances.own_logarithm) - 1.44269504f * length * more;
+        // What is 2^60 times as likely as what has happened does not happen.
+        exponent = exponent < -125.0f ? -125.0f : exponent;
+        exponent = exponent > 60.0f ? 60.0f : exponent;
+        bins.value[i] *= power_of_two(exponent);
     }
 }
 

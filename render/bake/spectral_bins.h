@@ -42,6 +42,14 @@ void multiply(Bins& bins, const Bins& by);
 void multiply_mixed(Bins& bins, const Bins& from, const Bins& to, float share);
 /// Beer and Lambert: times exp(-absorbance * path); relative error below 3e-7.
 void absorb(Bins& bins, const Bins& absorbance, float path);
+/// How likely flights and scatterings are to the bands of a medium, by how likely they are to one of them:
+/// coefficients per unit of length and their logarithms to the base of 2.
+struct FlightChances {
+    const Bins &logarithm, &coefficient;
+    float own_logarithm, own_coefficient; ///< of that one
+};
+/// Times (coefficient / own)^count * exp(-(coefficient - own) * length).
+void multiply_by_flights(Bins& bins, const FlightChances& chances, float count, float length);
 /// sum += bins * (rgb.r * basis[0] + rgb.g * basis[1] + rgb.b * basis[2])
 void add_lit(Bins& sum, const Bins& bins, const RgbBasis& basis, glm::vec3 rgb);
 /// sum += bins
