@@ -24,7 +24,7 @@ inline constexpr std::array<LiveDifference, 9> live_differences{{
     {MaterialKind::metallic_roughness, 1.1, 5.0},
     {MaterialKind::own, 2.0, 8.0},
     {MaterialKind::glass, 4.5, 25.0},
-    {MaterialKind::translucent, 4.5, 25.0},
+    {MaterialKind::translucent, 6.0, 12.0},
 }};
 
 /// In a sentence for each kind of material that the protocol has, what is known of its live frames.
