@@ -243,6 +243,53 @@ TEST_CASE("a thick body gives back what Chandrasekhar's functions say of a half 
         CHECK(half_space_albedo(albedo, 0.0) == Approx(known).margin(0.0025));
 }
 
+TEST_CASE("what little comes through a dark slab is right in the mean, though chance ends most paths",
+          "[unit]") {
+    // Lit from below alone: what comes through carries a fiftieth or less.
+    constexpr double scattering = 1.0, absorption = 0.5, thickness = 8.0, g = 0.9;
+    const Mesh slab = test::box({-200.0, -200.0, -0.5 * thickness}, {200.0, 200.0, 0.5 * thickness});
+    LightProbe below = test::even_light(glm::vec3(0.0f));
+    for (int y = 2; y < 4; ++y)
+        for (int x = 0; x < 8; ++x)
+            below.radiance.at(x, y) = glm::vec4(1.0f);
+    SpectralLight light(below, 1.0);
+    light.aim_nowhere();
+    const Level seen =
+        level_of(test::baked(BakeScene(slab, body_of(grey(scattering), grey(absorption), 1.0, g)), light,
+                             top_view(slab, 0.0, 16), {.samples = 256}),
+                 9);
+    // By walks of its own, none of which is ended by chance.
+    std::mt19937_64 random(6);
+    std::uniform_real_distribution<double> number(0.0, 1.0);
+    constexpr int paths = 100000;
+    double known = 0.0;
+    for (int path = 0; path < paths; ++path) {
+        double depth = 0.0, cosine = 1.0, flown = 0.0; // down
+        while (true) {
+            const double flight = -std::log(1.0 - number(random)) / scattering;
+            const double beyond = depth + flight * cosine;
+            if (beyond > thickness || beyond < 0.0) {
+                flown += ((beyond < 0.0 ? 0.0 : thickness) - depth) / cosine;
+                // Rows are 45 degrees apart, and between the dark and the light ones is the horizon.
+                const double angle = std::acos(cosine) * 180.0 / std::numbers::pi;
+                known +=
+                    std::exp(-absorption * flown) * std::clamp(0.5 + (90.0 - angle) / 45.0, 0.0, 1.0) / paths;
+                break;
+            }
+            depth = beyond;
+            flown += flight;
+            const double root = (1.0 - g * g) / (1.0 + g * (1.0 - 2.0 * number(random)));
+            const double turn = (1.0 + g * g - root * root) / (2.0 * g);
+            cosine = cosine * turn + std::sqrt(std::max(0.0, (1.0 - cosine * cosine) * (1.0 - turn * turn))) *
+                                         std::cos(2.0 * std::numbers::pi * number(random));
+        }
+    }
+    CAPTURE(seen.mean, seen.error, known);
+    CHECK(seen.mean == Approx(known).margin(3.0 * seen.error + 0.01 * known));
+    CHECK(seen.error < 0.03 * known);
+    CHECK(known < 0.02);
+}
+
 TEST_CASE("light goes through a translucent body as well there as back", "[unit]") {
     const Mesh block = test::box({-100.0, -100.0, -10.0}, {100.0, 100.0, 10.0});
     // Rings about the vertical: the tent of a row, ten degrees to each side.
