@@ -52,15 +52,16 @@ LinearImage alignment_picture(const ScreenGeometry& field, Eye eye, const std::s
     TextStyle style;
     style.line_height_px = std::max(12, static_cast<int>(std::min(0.35 * px_per_deg, 0.03 * size_px.y)));
     style.wrap_width_px = static_cast<int>(0.9 * size_px.x);
-    const auto put = [&](const std::string& text, double y) {
+    const auto put = [&](const std::string& text, double x, double y) {
         const TextMeasure measured = measure_text(text, style);
-        put_text(canvas, text, style,
-                 {static_cast<int>(middle.x) - measured.size_px.x / 2,
-                  static_cast<int>(y) - measured.size_px.y / 2});
+        put_text(
+            canvas, text, style,
+            {static_cast<int>(x) - measured.size_px.x / 2, static_cast<int>(y) - measured.size_px.y / 2});
     };
-    put(words, std::max(middle.y - 1.55 * reach, 0.12 * size_px.y));
-    put(fmt::format("{:g} mm", ruled_mm), low + 0.5 * (size_px.y - low));
-    put(eye == Eye::left ? "L" : "R", middle.y + side * 0.6 * reach + 0.0);
+    put(words, middle.x, std::max(middle.y - 1.55 * reach, 0.12 * size_px.y));
+    put(fmt::format("{:g} mm", ruled_mm), middle.x,
+        std::min(low + 1.2 * style.line_height_px, size_px.y - 0.6 * style.line_height_px));
+    put(eye == Eye::left ? "L" : "R", middle.x + side * 0.6 * reach, middle.y + side * 0.6 * reach);
     return canvas.tinted(0.6f, 0.0f);
 }
 
@@ -194,8 +195,9 @@ int run_display_stereo(const DisplayStereoOptions& options) {
                     break;
                 case WindowKey::page_up:
                 case WindowKey::page_down:
-                    move_fields(shown.stereo, press.key == WindowKey::page_up ? WindowKey::right : WindowKey::left,
-                         10 * step_px);
+                    move_fields(shown.stereo,
+                                press.key == WindowKey::page_up ? WindowKey::right : WindowKey::left,
+                                10 * step_px);
                     is_moved = true;
                     break;
                 case WindowKey::escape:

@@ -9,6 +9,12 @@ namespace {
 
 void check_written(ProtocolExamination& examination) {
     const StereoSettings& stereo = examination.protocol.stereo;
+    for (const std::string_view key : {"interocular_mm", "largest_disparity_arcmin"})
+        if (const std::string path = fmt::format("stereo.{}", key);
+            !stereo.is_on() && examination.is_written(path))
+            examination.warning({path, "stereo.kind"},
+                                fmt::format("{} has no meaning: both eyes see the same", key),
+                                "write kind = \"mirrors\" or \"frame-sequential\"");
     const bool has_mirrors = stereo.kind == StereoKind::mirrors;
     for (const std::string_view key : {"swapped", "mirrored", "left_eye_right_px", "left_eye_down_px",
                                        "right_eye_right_px", "right_eye_down_px"}) {

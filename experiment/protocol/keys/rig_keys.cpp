@@ -143,7 +143,7 @@ std::vector<Key> display() {
 std::vector<Key> stereo() {
     using S = StereoSettings;
     return {
-        {"kind", &S::kind, required(),
+        {"kind", &S::kind,
          "`mirrors`: each eye has half of the screen, seen through a stereoscope. `frame-sequential`: both "
          "have the whole screen in turn, through shutter glasses that the graphics card drives (quad "
          "buffers). `none`: both see the same."},

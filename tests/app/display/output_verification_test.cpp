@@ -86,7 +86,8 @@ EventList verified(const Plan& plan, const Pages& pages) {
     PagePresenter presenter(*context, display, pages, screen_geometry_of(plan.protocol),
                             plan.protocol.display, plan.protocol.screens);
     try {
-        record_verification(presenter, pages, plan.protocol, plan.schedule, clock, events, {});
+        PagePresenter* const presenters[] = {&presenter};
+        record_verification(presenters, pages, plan.protocol, plan.schedule, clock, events, {});
     } catch (const GraphicsError& error) {
         events.kinds.emplace_back("refused");
         events.details.emplace_back(error.what());

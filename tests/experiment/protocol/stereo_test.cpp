@@ -89,8 +89,9 @@ TEST_CASE("a place of the pointer counts from the middle of the field that it is
 
 TEST_CASE("the right eye's views come behind the left's, at all sizes of slots", "[unit]") {
     const std::string slots = "[[slot]]\nid = \"large\"\nright_deg = 0\n"
-                              "[[slot]]\nid = \"small\"\nup_deg = 6\nsize_deg = 2\n";
-    Protocol protocol = through_mirrors("interocular_mm = 60\n", plain_screen + slots);
+                              "[[slot]]\nid = \"small\"\nup_deg = 4\nsize_deg = 2\n";
+    Protocol protocol =
+        through_mirrors("interocular_mm = 60\n", "slots = \"large\"\n" + plain_screen + slots);
     REQUIRE(protocol.views.size() == 1);
     REQUIRE(protocol.views_at_all_sizes() == 4);
     for (int view = 0; view < 4; ++view)
@@ -137,7 +138,10 @@ TEST_CASE("what cannot be shown to two eyes is found before a session", "[unit]"
           Found{"two_eyes has no meaning: without [stereo] both eyes see the same"});
     CHECK(findings("kind = \"frame-sequential\"\nswapped = true\n") ==
           Found{"swapped has no meaning: it is for kind = \"mirrors\""});
-    CHECK_THAT(findings("interocular_mm = 63\n").at(0), Catch::Contains("kind"));
+    CHECK(findings("interocular_mm = 63\n") ==
+          Found{"interocular_mm has no meaning: both eyes see the same"});
+    CHECK(findings("largest_disparity_arcmin = 30\n") ==
+          Found{"largest_disparity_arcmin has no meaning: both eyes see the same"});
     CHECK(
         findings("kind = \"mirrors\"\n",
                  "[display]\noutput = \"native-8bit\"\ngamma = 2.2\nwidth_px = 1919\n[view]\nwidth_px = 512\n"
