@@ -117,15 +117,16 @@ std::string joined(const Protocol& protocol, const Stimulus& stimulus, std::stri
     const std::string slot = slot_of_size(protocol, stimulus.view);
     if (!slot.empty())
         name.append(between).append(slot);
-    if (const std::string_view eye = eye_of_view(protocol, stimulus.view); !eye.empty())
-        name.append(between).append(eye);
     return name;
 }
 
 } // namespace
 
 std::string stimulus_name(const Protocol& protocol, const Stimulus& stimulus, char between) {
-    return joined(protocol, stimulus, &ListEntry::id, std::string_view(&between, 1));
+    std::string name = joined(protocol, stimulus, &ListEntry::id, std::string_view(&between, 1));
+    if (const std::string_view eye = eye_of_view(protocol, stimulus.view); !eye.empty())
+        (name += between) += eye;
+    return name;
 }
 
 std::string stimulus_in_words(const Protocol& protocol, const Stimulus& stimulus) {

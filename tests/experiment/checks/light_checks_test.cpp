@@ -84,10 +84,11 @@ TEST_CASE("a translucent body wants millimetres, and light that can be met", "[u
         "scattering_anisotropy = -0.3\ndensity = 2\nior = 1.4\nroughness = 0.1\n";
     CHECK(findings_of_lights(wax).empty());
     CHECK(findings_of_lights(wax + "abbe = 40\n") ==
-          LightLines{"21:8: \"abbe\" has no effect on a material of kind \"translucent\""});
+          LightLines{"20:8: \"abbe\" has no effect on a material of kind \"translucent\""});
     CHECK(findings_of_lights(wax + "[[light]]\nid = \"l\"\nsun_lux = 1000\n") ==
-          LightLines{"15:8: a sun or lamp is met by chance alone where light leaves a translucent body: the "
-                     "smaller it is, the more noise"});
+          LightLines{"14:8: a sun or lamp is met by chance alone where light leaves a translucent body: the "
+                     "smaller it is, the more noise",
+                     "22:11: nothing says how bright the probe of light \"l\" is beside its sun and lamps"});
 }
 
 TEST_CASE("what is given in place of the file's word, films and brushed metals say what has no effect",

@@ -39,7 +39,7 @@ SessionHeader crowded_header() {
     header.animations.push_back(still);
     header.poses.angles = {{{-12.5}}, {{0.1}, glm::dquat(0.5, 0.5, -0.5, 0.5), {1.25, 2.25, 3.25}}, {{12.5}}};
     header.poses.of_motion = {{PoseIndex{0}, PoseIndex{1}, PoseIndex{2}}, {PoseIndex{2}, PoseIndex{1}}};
-    header.objects[0].cameras.push_back({{7.0, 8.0, 9.0}, {10.0, 11.0, 12.0}, Degrees{13.0}});
+    header.objects[0].cameras.push_back({{7.0, 8.0, 9.0}, {10.0, 11.0, 12.0}, Degrees{13.0}, -31.5});
     header.objects[1].cameras = {{{14.0, 15.0, 16.0}, {17.0, 18.0, 19.0}, Degrees{20.0}},
                                  {{21.0, 22.0, 23.0}, {24.0, 25.0, 26.0}, Degrees{27.0}}};
     header.slots = {{"left", "On the left", {10, 20}, {300, 400}},
@@ -143,10 +143,10 @@ TEST_CASE("what a header says of its trials, slots, lists and objects stands in 
                                        "object|1|1|sex|f|\n");
     CHECK(tables.at("light") == "0|day|Day\n1|dusk|Dusk\n");
     CHECK(tables.at("part") == "0|0|body\n0|1|head\n1|0|body\n");
-    CHECK(tables.at("camera") == "0|0|1.0|-200.5|3.0|0.25|0.5|0.75|11.5\n"
-                                 "0|1|7.0|8.0|9.0|10.0|11.0|12.0|13.0\n"
-                                 "1|0|14.0|15.0|16.0|17.0|18.0|19.0|20.0\n"
-                                 "1|1|21.0|22.0|23.0|24.0|25.0|26.0|27.0\n");
+    CHECK(tables.at("camera") == "0|0|1.0|-200.5|3.0|0.25|0.5|0.75|11.5|0.0\n"
+                                 "0|1|7.0|8.0|9.0|10.0|11.0|12.0|13.0|-31.5\n"
+                                 "1|0|14.0|15.0|16.0|17.0|18.0|19.0|20.0|0.0\n"
+                                 "1|1|21.0|22.0|23.0|24.0|25.0|26.0|27.0|0.0\n");
     CHECK(tables.at("pose") == "0|-12.5|1.0|0.0|0.0|0.0|0.0|0.0|0.0\n"
                                "1|0.1|0.5|0.5|-0.5|0.5|1.25|2.25|3.25\n2|12.5|1.0|0.0|0.0|0.0|0.0|0.0|0.0\n");
     CHECK(tables.at("animation_frame") == "0|0|0|0.0\n0|1|1|0.0\n0|2|2|0.0\n1|0|2|0.0\n1|1|1|0.0\n");

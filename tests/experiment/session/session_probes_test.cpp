@@ -99,7 +99,7 @@ TEST_CASE("a probe is drawn at its place in each frame, and not where that is hi
 TEST_CASE("where each eye has its picture, a mark and a gauge stand in each where that eye sees the place",
           "[unit]") {
     Protocol protocol =
-        probed("{ show = \"centre\", frame = 4, until = \"answer\" }", "mark = \"disc\"\n" + a_lean);
+        probed("{ show = \"centre\", frame = 4, until = \"answer\" }", "mark = \"dot\"\n" + a_lean);
     for (const bool has_two_pictures : {false, true}) {
         CAPTURE(has_two_pictures);
         protocol.stereo.kind = has_two_pictures ? StereoKind::mirrors : StereoKind::none;
