@@ -12,10 +12,8 @@ std::optional<DisparityRange> disparity_of(const Object& object, const Protocol&
         return std::nullopt;
     const std::vector<glm::vec3> normals = object.mesh->vertex_normals();
     const ScreenGeometry screen = screen_geometry_of(protocol);
-    const double arcmin_per_px = 60.0 *
-                                 to_degrees({screen.screen_mm.x / screen.screen_px.x /
-                                             screen.viewing_distance_mm})
-                                     .value;
+    const double arcmin_per_px =
+        60.0 * to_degrees({screen.screen_mm.x / screen.screen_px.x / screen.viewing_distance_mm}).value;
     double nearest_px = -std::numeric_limits<double>::infinity(), farthest_px = nearest_px;
     // The right eye's views are behind the left eye's.
     for (std::size_t index = 0; index < object.scenes.size() / 2; ++index) {

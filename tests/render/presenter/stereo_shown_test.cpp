@@ -135,21 +135,21 @@ TEST_CASE("eyes are exchanged, and fields mirrored and moved, as the protocol sa
     Protocol protocol = protocol_of_eyes(OutputMode::native_8bit);
     const auto shown = [&] { return ScreenOfEyes(*context, protocol).shown(0); };
     const std::vector<std::byte> plain = shown();
-    const int half = both_px.x / 2;
+    const int half_px = both_px.x / 2;
 
     protocol.stereo.swapped = true;
     const std::vector<std::byte> swapped = shown();
-    CHECK(field_of_screen(swapped, 0, 0) == field_of_screen(plain, half, 0));
-    CHECK(field_of_screen(swapped, half, 0) == field_of_screen(plain, 0, 0));
+    CHECK(field_of_screen(swapped, 0, 0) == field_of_screen(plain, half_px, 0));
+    CHECK(field_of_screen(swapped, half_px, 0) == field_of_screen(plain, 0, 0));
 
     protocol.stereo.swapped = false;
     protocol.stereo.mirrored = true;
     const std::vector<std::byte> mirrored = shown();
     bool is_mirrored = true;
     for (int y = 0; y < both_px.y; ++y)
-        for (int x = 0; x < half; ++x)
-            is_mirrored = is_mirrored && level_at(mirrored, x, y) == level_at(plain, half - 1 - x, y) &&
-                          level_at(mirrored, half + x, y) == level_at(plain, both_px.x - 1 - x, y);
+        for (int x = 0; x < half_px; ++x)
+            is_mirrored = is_mirrored && level_at(mirrored, x, y) == level_at(plain, half_px - 1 - x, y) &&
+                          level_at(mirrored, half_px + x, y) == level_at(plain, both_px.x - 1 - x, y);
     CHECK(is_mirrored);
     CHECK(mirrored != plain);
 
@@ -162,14 +162,14 @@ TEST_CASE("eyes are exchanged, and fields mirrored and moved, as the protocol sa
     const int background = level_at(plain, 0, 0);
     bool is_moved = true;
     for (int y = 0; y < both_px.y; ++y)
-        for (int x = 0; x < half; ++x) {
+        for (int x = 0; x < half_px; ++x) {
             const auto was = [&](int first, glm::ivec2 shift) {
                 const int from_x = x - shift.x, from_y = y - shift.y;
-                const bool is_there = from_x >= 0 && from_x < half && from_y >= 0 && from_y < both_px.y;
+                const bool is_there = from_x >= 0 && from_x < half_px && from_y >= 0 && from_y < both_px.y;
                 return is_there ? level_at(plain, first + from_x, from_y) : background;
             };
             is_moved = is_moved && level_at(moved, x, y) == was(0, {-14, 3}) &&
-                       level_at(moved, half + x, y) == was(half, {250, -5});
+                       level_at(moved, half_px + x, y) == was(half_px, {250, -5});
         }
     CHECK(is_moved);
 }
