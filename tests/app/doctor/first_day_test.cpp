@@ -488,7 +488,14 @@ TEST_CASE("a response box's times are measured by the light that it sees, and na
     CHECK(alone.verdict != StepVerdict::proved);
     CHECK_THAT(alone.finding, Contains("after the vertical blank, the display's latency included"));
 
-    figure(measured("light"), std::string(mean_light_figure));
+    // The sensor that stands in looks at the framebuffer from a thread: on a machine that is too busy it may
+    // see nothing at all, and the light is measured again, as a person would.
+    RigStep lit = measured("light");
+    for (int again = 0; again < 4 && std::ranges::find(lit.figures, mean_light_figure,
+                                                       &BenchFigure::figure) == lit.figures.end();
+         ++again)
+        lit = measured("light");
+    figure(lit, std::string(mean_light_figure));
     const RigStep good = measured("boxes");
     CAPTURE(good.finding);
     // A machine that is too busy looks late, and that is what the step is there to tell.
