@@ -103,7 +103,8 @@ std::optional<ReplayedTrial> ReplaySource::attempt_at(int trial, int number) con
 
 std::optional<RecordedCalibration> ReplaySource::calibration(int number) const {
     std::vector<RecordedCalibration> all;
-    for (int sitting = 1; sitting <= record_->trials().back().sitting; ++sitting) // there is one, with gaze
+    for (int sitting = 1; sitting <= (record_->trials().empty() ? 1 : record_->trials().back().sitting);
+         ++sitting)
         for (RecordedCalibration& calibration : record_->calibrations(sitting))
             all.push_back(std::move(calibration));
     if (all.empty())
