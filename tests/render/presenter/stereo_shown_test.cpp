@@ -172,6 +172,22 @@ TEST_CASE("eyes are exchanged, and fields mirrored and moved, as the protocol sa
                        level_at(moved, half_px + x, y) == was(half_px, {250, -5});
         }
     CHECK(is_moved);
+
+    // Moved where it is seen: first mirrored, then moved to the right of the screen.
+    protocol.stereo.mirrored = true;
+    const std::vector<std::byte> both = shown();
+    bool is_both = true;
+    for (int y = 0; y < both_px.y; ++y)
+        for (int x = 0; x < half_px; ++x) {
+            const auto was = [&](int first, glm::ivec2 shift) {
+                const int from_x = x - shift.x, from_y = y - shift.y;
+                const bool is_there = from_x >= 0 && from_x < half_px && from_y >= 0 && from_y < both_px.y;
+                return is_there ? level_at(plain, first + half_px - 1 - from_x, from_y) : background;
+            };
+            is_both = is_both && level_at(both, x, y) == was(0, {-14, 3}) &&
+                      level_at(both, half_px + x, y) == was(half_px, {250, -5});
+        }
+    CHECK(is_both);
 }
 
 TEST_CASE("marks stand in each eye's picture where that eye has them", "[gl]") {
