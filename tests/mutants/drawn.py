@@ -28,12 +28,14 @@ class Test:
         self.program, self.name, self.file, self.seconds, self.reached = program, name, file, seconds, reached
 
 
-def targets_of(root, room):
-    """The targets of CMake whose sources a room is: its own or, of a folder without sources, those below it."""
+def targets_of(root, room, text=""):
+    """The targets of CMake whose sources a room is: its own or, of a folder without sources, those below it. Only those that
+    have a source whose path holds `text`."""
     folders = [room] if list((root / room).glob("*.cpp")) else sorted(
         {str(path.parent.relative_to(root)) for path in (root / room).rglob("*.cpp")})
+    folders = [folder for folder in folders if any(text in f"{folder}/{path.name}" for path in (root / folder).glob("*.cpp"))]
     if not folders:
-        sys.exit(f"{room}: no sources there")
+        sys.exit(f"{room}: no sources there" + (f" whose path holds \"{text}\"" if text else ""))
     return {folder: "overt_" + folder.replace("/", "_") for folder in folders}
 
 
@@ -54,6 +56,11 @@ def draw(found, count, seed):
         if len(drawn) >= count + max(3, count // 6):
             break
     return drawn
+
+
+def in_files(found, text):
+    """The places in files whose path holds `text`."""
+    return [change for change in found if text in change.file]
 
 
 def place_of(change):
@@ -324,7 +331,7 @@ def main(root, options):
     environment = dict(os.environ)
     results = []
     for room in options.generate:
-        targets = targets_of(root, room)
+        targets = targets_of(root, room, options.file)
         folder = options.build / "drawn" / room.replace("/", "_")
         folder.mkdir(parents=True, exist_ok=True)
         commands = places.commands_of(build, targets.values())
@@ -338,8 +345,9 @@ def main(root, options):
             for change in changes:
                 found[(change.file, tuple(change.edits))] = change
         arguments = argued(rows, list(found.values()), texts)
-        drawn = draw(list(found.values()), options.count, options.seed)
-        print(f"{room}: {len(found)} places", flush=True)
+        places_there = in_files(found.values(), options.file)
+        drawn = draw(places_there, options.count, options.seed)
+        print(f"{room}: {len(places_there)} places" + (f" in files whose path holds {options.file}" if options.file else ""), flush=True)
         if options.list:
             for change in drawn[:options.count]:
                 print(f"{change.file}:{change.line}: {change.kind}, in {change.function}\n{diff(root, change)}")
