@@ -45,12 +45,12 @@ template <class Chosen> std::vector<double> shares_of_draws(std::size_t count, c
 
 /// Of words in a row: how probable each is to be the nearest to a place that has a standard deviation of 1.
 std::vector<double> shares_of_words(double from_middle, std::size_t count) {
-    std::vector<double> shares(count, 0.0);
+    std::vector<double> shares;
     const double middle = 0.5 * (static_cast<double>(count) - 1.0) + from_middle;
     double below = 0.0;
     for (std::size_t i = 0; i < count; ++i) {
         const double up_to = i + 1 == count ? 1.0 : normal_probability(static_cast<double>(i) + 0.5 - middle);
-        shares[i] = up_to - below;
+        shares.push_back(up_to - below);
         below = up_to;
     }
     return shares;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <type_traits>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -101,9 +102,8 @@ void FaultyTracker::start_recording() {
     next_ = end_ = 0;
     ahead_.clear();
     state_ = RecordingState::running;
-    for (Striking& striking : now_)
+    for (const Striking& striking : now_)
         if (striking.fault.kind == FaultKind::unplug && striking.fault.at_s <= 0.0) {
-            striking.has_struck = true;
             struck_.push_back(sentence_on(striking.fault));
             refusals_ = striking.fault.refusals;
             state_ = RecordingState::lost;

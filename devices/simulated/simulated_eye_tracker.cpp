@@ -197,14 +197,13 @@ std::int64_t SimulatedEyeTracker::ns_of_tick(std::int64_t tick) const noexcept {
     return std::llround(static_cast<double>(tick) * (1e9 / settings_.rate_hz));
 }
 
-/// The first tick not before an instant. Estimated in floating point and then set right in whole numbers.
+/// The first tick not before an instant. Estimated in floating point, one too few, and then set right in
+/// whole numbers.
 std::int64_t SimulatedEyeTracker::first_tick_from(SessionTime time) const noexcept {
     const std::int64_t ns = tracker_ns_at(time);
-    std::int64_t tick = std::llround(static_cast<double>(ns) * 1e-9 * settings_.rate_hz);
+    std::int64_t tick = std::llround(static_cast<double>(ns) * 1e-9 * settings_.rate_hz) - 1;
     while (ns_of_tick(tick) < ns)
         ++tick;
-    while (ns_of_tick(tick - 1) >= ns)
-        --tick;
     return tick;
 }
 

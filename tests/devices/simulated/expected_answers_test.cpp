@@ -429,3 +429,56 @@ TEST_CASE("what an observer is inclined to is the same in all its trials, and ad
     CHECK(sum == Approx(0.0).margin(0.15));
     CHECK(std::sqrt(squares) == Approx(0.7).epsilon(0.15));
 }
+
+TEST_CASE("effects that hold together add their shifts and multiply their slopes", "[unit]") {
+    Protocol protocol = sided();
+    TaskAnswer& steps = protocol.tasks[0].answers[2];
+    steps.truth.noise = 0.0;
+    for (int i = 0; i < 3; ++i) {
+        SimulatedEffect& effect = protocol.simulated_effects.emplace_back();
+        effect.answer = i == 1 ? "which" : "steps";
+        effect.answer_shift = 0.25 + i;
+        effect.answer_slope = 2.0 + i;
+    }
+    const SimulatedAnswers answers(protocol, 5);
+    const Trial trial = trial_of(0, 2, 2);
+    // Around 1.5, 2 x 4 of each level, shifted by 0.25 and 2.25, as far as the scale goes.
+    steps.max = 100.0;
+    AnswerOffer offer = offer_of(protocol, steps, "", trial);
+    offer.low = -1000.0;
+    offer.high = 1000.0;
+    offer.step = 0.0;
+    offer.numbers.clear();
+    offer.values.clear();
+    CHECK(answers.expected(offer, trial).mean.value() == Approx(1.5 + 8.0 * 2.0 + 2.5));
+}
+
+TEST_CASE("words favour no slot, and an area that is favoured has the odds of the answer", "[unit]") {
+    Protocol protocol = sided();
+    Task& task = protocol.tasks[0];
+    const TaskAnswer word = task.answers[1];
+    task.answers = {word};
+    task.answers[0].truth.look_share = 0.9;
+    task.answers[0].truth.look_area = "rim";
+    task.answers[0].truth.look_odds = 5.0;
+    int matt = 0;
+    for (int i = 0; i < 40; ++i) {
+        const SimulatedAnswers answers(protocol, 3);
+        const Trial trial = trial_of(i, i % 4, (i + 1) % 4);
+        const GazeFavour favour = answers.favour_of(trial, {"rim", "head"});
+        CHECK(favour.slot == -1);
+        CHECK(favour.share == 0.9);
+        const bool is_first =
+            answers.answer(offer_of(protocol, task.answers[0], "", trial), trial).choice == 0;
+        matt += is_first;
+        CHECK(favour.area == (is_first ? 0 : -1));
+        CHECK(favour.odds == (is_first ? 5.0 : GazeFavour{}.odds));
+        CHECK(answers.favour_of(trial, {"head"}).area == -1);
+    }
+    CHECK(matt > 3);
+    CHECK(matt < 37);
+    // The first answer that says so, and no other.
+    task.answers.push_back(task.answers[0]);
+    task.answers[1].truth.look_share = 0.2;
+    CHECK(SimulatedAnswers(protocol, 3).favour_of(trial_of(0, 1, 2), {"rim"}).share == 0.9);
+}

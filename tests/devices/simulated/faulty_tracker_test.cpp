@@ -298,9 +298,9 @@ TEST_CASE("a fault strikes from its first instant to the one before its end, and
     const TrackerButton button{tracker_time(5), 3, true};
     wait_for({0, 249});
     waiting.push_back(button);
-    wait_for({250, 499});
+    wait_for({250});
     waiting.push_back(button); // of the gap
-    wait_for({500, 999, 1000, 1001, 1002});
+    wait_for({499, 500, 999, 1000, 1001, 1002});
     CHECK(polled() == "0 249 button 3 gap of 2 500 999 ");
     CHECK(tracker.recording_state() == RecordingState::lost);
     CHECK_FALSE(tracker.read_clocks());
@@ -340,4 +340,63 @@ TEST_CASE("a slow start ends at its instant, and a clock that jumps takes all it
     tracker.stop_recording();
     CHECK(tracker.take_struck().size() == 2);
     CHECK(tracker.take_struck().empty());
+}
+
+TEST_CASE("what was withheld before a connection is not told of after it, and a second attempt has faults of "
+          "its own",
+          "[unit]") {
+    Bench bench({{.kind = Kind::gap, .trial = 0, .at_s = 0.099, .s = 5.0},
+                 {.kind = Kind::unplug, .trial = 0, .at_s = 0.199}});
+    bench.record(0, 400ms);
+    REQUIRE(bench.tracker.recording_state() == RecordingState::lost);
+    bench.tracker.reconnect();
+    const std::vector<TrackerItem> again = bench.record(0, 400ms);
+    CHECK(samples_of(again).size() == 200);
+    CHECK(gaps_of(again).empty());
+    CHECK(bench.tracker.recording_state() == RecordingState::running);
+    CHECK(bench.tracker.take_struck() ==
+          std::vector<std::string>{"gap for 5 s at 0.099 s", "unplug at 0.199 s"});
+}
+
+TEST_CASE("samples that are lost on either side of a connection are counted from it", "[unit]") {
+    VirtualClock clock;
+    std::string calls;
+    std::vector<TrackerItem> waiting;
+    TrackerFault gap{.kind = Kind::gap};
+    gap.at_s = 0.1;
+    gap.s = 2.0;
+    TrackerFault unplug{.kind = Kind::unplug};
+    unplug.at_s = 1.0;
+    FaultyTracker tracker(std::make_unique<DiaryTracker>(calls, waiting), clock,
+                          {.granted_rate_hz = {}, .given = {gap, unplug}});
+    tracker.mark({clock.now(), "TRIALID 1"});
+    tracker.start_recording();
+    const auto poll_after = [&](std::initializer_list<int> milliseconds) {
+        for (const int at : milliseconds)
+            waiting.push_back(
+                GazeSample{.sampled_at = tracker_time(1'000 * at), .eye = Eye::right, .gaze = {}});
+        std::vector<TrackerItem> items(16);
+        items.resize(tracker.poll(items));
+        return items;
+    };
+    CHECK(poll_after({1000, 1200, 1400, 1600, 2000}).size() == 1);
+    tracker.reconnect();
+    CHECK(poll_after({3000}).empty());
+    const std::vector<TrackerItem> items = poll_after({3100});
+    REQUIRE(items.size() == 2);
+    CHECK(std::get<TrackerGap>(items[0]).lost_samples == 1);
+    CHECK(std::get<TrackerGap>(items[0]).reason == TrackerGap::Reason::connection);
+}
+
+TEST_CASE(
+    "a tracker that is unplugged when a recording begins says so once, and refuses as often as it is told",
+    "[unit]") {
+    Bench bench({{.kind = Kind::unplug, .trial = 0, .at_s = 0.0, .refusals = 1}});
+    CHECK_THROWS_AS(bench.record(0), DeviceError);
+    CHECK(bench.tracker.recording_state() == RecordingState::lost);
+    CHECK(bench.tracker.take_struck() == std::vector<std::string>{"unplug at 0 s"});
+    CHECK_THROWS_AS(bench.tracker.reconnect(), DeviceError);
+    bench.tracker.reconnect();
+    CHECK(samples_of(bench.record(0)).size() == 500);
+    CHECK(bench.tracker.take_struck().empty());
 }

@@ -7,6 +7,7 @@
 #include "tests/devices/simulated/sitting.h"
 
 using namespace overt;
+using namespace std::chrono_literals;
 
 TEST_CASE("a region that is small against saccades gets the fixations that are planned for it", "[unit]") {
     const Mesh mesh = test::bust();
@@ -128,4 +129,86 @@ TEST_CASE("where few places are far enough, two hundred are drawn, and what is t
     CHECK(sum.x == Approx(-97.5825905493).epsilon(1e-6));
     CHECK(sum.y == Approx(-4490.0214454771).epsilon(1e-6));
     CHECK(sum.z == Approx(34543.6936662335).epsilon(1e-6));
+}
+
+TEST_CASE("an eye pursues a turn from its first step to its last, and stays at both ends", "[unit]") {
+    ObservedScene scene;
+    scene.refresh_hz = 120.0;
+    Animation& motion = scene.animations[0];
+    motion.duration_s = 2.0;
+    const PursuedTurn turn(scene);
+    const SessionDuration period = scene.frame_period(0);
+    const int steps = motion.shown_frame_count();
+    REQUIRE(steps > 3);
+    const auto half = [&](int step) { return step * period + period / 2; };
+    CHECK(turn.step_at(-1s) == 0);
+    CHECK(turn.step_at(0s) == 0);
+    CHECK(turn.step_at(period - 1ns) == 0);
+    CHECK(turn.step_at(period) == 1);
+    CHECK(turn.step_at(steps * period) == steps - 1);
+    CHECK(turn.step_at(steps * period + 1s) == steps - 1);
+    const auto yaw = [&](SessionDuration at) { return turn.angle_at(at).angle.value; };
+    const double first = turn.angle_of_step(0).angle.value, second = turn.angle_of_step(1).angle.value,
+                 last = turn.angle_of_step(steps - 1).angle.value;
+    REQUIRE(first != second);
+    CHECK(yaw(-1s) == first);
+    CHECK(yaw(half(0)) == Approx(first).margin(1e-4));
+    CHECK(yaw(period) == Approx(0.5 * (first + second)).margin(1e-4));
+    CHECK(yaw(half(1)) == Approx(second).margin(1e-4));
+    CHECK(yaw(half(steps - 1)) == Approx(last).margin(1e-4));
+    CHECK(yaw(half(steps - 1) + 10s) == last);
+    CHECK(turn.motion() == 0);
+}
+
+TEST_CASE("what the observer turns stands as its motion says until it is seen, and a turn knows its motion",
+          "[unit]") {
+    ObservedScene scene;
+    scene.animations.resize(3);
+    scene.animations[1].kind = MotionKind::observer;
+    scene.animations[1].angle = Degrees{40.0};
+    scene.animations[2].duration_s = 0.5;
+    const std::vector<PursuedTurn> turns = turns_of(scene);
+    REQUIRE(turns.size() == 3);
+    for (int motion = 0; motion < 3; ++motion)
+        CHECK(turns[static_cast<std::size_t>(motion)].motion() == motion);
+    const int nearest = scene.animations[1].by_observer.nearest(scene.animations[1].angle);
+    REQUIRE(nearest > 1);
+    for (const SessionDuration at : {-1s, 0s, 5s}) {
+        CHECK(turns[1].step_at(at) == nearest);
+        CHECK(turns[1].angle_at(at).angle.value == turns[1].angle_of_step(nearest).angle.value);
+    }
+}
+
+TEST_CASE("a region of which nothing can be seen leaves its fixations to what can", "[unit]") {
+    // Two squares of one size, the second one behind the first.
+    Mesh mesh;
+    for (const float y : {0.0f, 1.0f}) {
+        const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+        const float half = y == 0.0f ? 60.0f : 20.0f;
+        for (const auto& [x, z] : {std::pair{-1.0f, -1.0f}, {1.0f, -1.0f}, {1.0f, 1.0f}, {-1.0f, 1.0f}})
+            mesh.positions.emplace_back(half * x, 30.0f * y, half * z);
+        mesh.triangles.emplace_back(first, first + 1, first + 2);
+        mesh.triangles.emplace_back(first, first + 2, first + 3);
+        mesh.triangle_parts.insert(mesh.triangle_parts.end(), 2, y == 0.0f ? PartIndex{0} : PartIndex{1});
+    }
+    mesh.part_names = {"front", "back"};
+    ObservedScene scene = test::scene_with(mesh);
+    scene.animations[0].kind = MotionKind::still;
+    for (const bool named : {true, false}) {
+        CAPTURE(named);
+        scene.areas = {named ? "back" : "front"};
+        scene.tasks = {{"free", {named ? 1.0 : 0.0}}};
+        const GazeTargets targets(scene.objects[0], scene);
+        const PursuedTurn turn(scene);
+        GazePlan plan;
+        plan.area_count = 1;
+        plan.shares[0] = named ? 1.0 : 0.0;
+        GazeScript script(scene, {});
+        script.compose(scene, &targets, turn, {}, 3, 0, plan);
+        REQUIRE(script.fixations().size() > 5);
+        for (std::size_t i = 1; i < script.fixations().size(); ++i) {
+            REQUIRE(script.fixations()[i].target);
+            CHECK(script.fixations()[i].target->part == 0);
+        }
+    }
 }

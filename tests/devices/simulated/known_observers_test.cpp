@@ -2,6 +2,8 @@
 /// sessions of earlier versions can be made again. Sums over whole trials, to a millionth.
 #include <catch2/catch.hpp>
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "devices/simulated/simulated_display.h"
@@ -225,4 +227,47 @@ TEST_CASE("a simulated display and photometer give with a seed what they gave be
     check_known(found, {298.123201, 0.903682223, 155.558663, 27.0434448, 88.5446247, 125.643126, 147.679214,
                         583.227945, 7.24798646, 8.08837275, 5.64248203, 7.23869875, 8.10208419, 5.63331944,
                         7.23672358, 8.10023094, 5.63460874});
+}
+
+TEST_CASE("a display's light is that of its curves, less what channels take from each other", "[unit]") {
+    DisplayTruth truth;
+    truth.black_xyz = {1.0, 2.0, 3.0};
+    truth.primaries_xyz = {glm::dvec3(40.0, 20.0, 2.0), glm::dvec3(30.0, 70.0, 10.0),
+                           glm::dvec3(20.0, 8.0, 90.0)};
+    truth.exponents = {2.0, 2.5, 3.0};
+    truth.offsets = {0.3, -0.2, 0.25};
+    truth.shoulders = {0.4, -0.3, 0.2};
+    truth.crosstalk = 0.3;
+    const auto lit = [&](std::size_t i, double s) {
+        const auto curve = [&](double at) {
+            return std::pow(std::max(0.0, truth.offsets[i] + at - truth.offsets[i] * at), truth.exponents[i]);
+        };
+        return (curve(s) - curve(0.0)) / (1.0 - curve(0.0)) * (1.0 + truth.shoulders[i] * (s - s * s));
+    };
+    for (const glm::dvec3& signal : {glm::dvec3(0.0), glm::dvec3(1.0), glm::dvec3(0.9, 0.5, 0.7),
+                                     glm::dvec3(0.4, 0.8, 0.0), glm::dvec3(0.1, 0.0, 0.6)}) {
+        const double r = lit(0, signal.x), g = lit(1, signal.y), b = lit(2, signal.z);
+        const glm::dvec3 known = truth.black_xyz + r * (1.0 - 0.15 * (g + b)) * truth.primaries_xyz[0] +
+                                 g * (1.0 - 0.15 * (r + b)) * truth.primaries_xyz[1] +
+                                 b * (1.0 - 0.15 * (r + g)) * truth.primaries_xyz[2];
+        const glm::dvec3 found = truth.xyz_of(signal);
+        for (int axis = 0; axis < 3; ++axis)
+            CHECK(found[axis] == Approx(known[axis]).epsilon(1e-9));
+    }
+    CHECK(truth.xyz_of({-1.0, 2.0, 0.0}) == truth.xyz_of({0.0, 1.0, 0.0}));
+    truth.reading_noise = 0.0;
+    truth.dark_noise_cd_m2 = 0.0;
+    CHECK(SimulatedPhotometer(truth, 1).measure_xyz({0.5, 0.5, 0.5}) == truth.xyz_of({0.5, 0.5, 0.5}));
+}
+
+TEST_CASE("each target of a validation is missed as it was before", "[unit]") {
+    SimulatedSitting sitting(5);
+    SimulatedEyeTracker tracker(sitting.clock, sitting.observer, 11);
+    test::StillSetupScreen screen;
+    Numbers found;
+    for (const ValidatedTarget& target : tracker.set_up(screen).validation->targets)
+        add(found, {target.gaze->x_px - target.target.x_px, target.gaze->y_px - target.target.y_px});
+    check_known(found, {0.0, 112.249115, -40.4252919, 27.8910966, 29.3351007, -5.39373012, -1.2669629,
+                        8.16669393, -9.89802093, -3.22020246, 26.7962589, 20.0810008, -9.41947683,
+                        -31.0027712, 6.80030013, 29.124262, 44.3523053, 8.03781825});
 }

@@ -40,6 +40,9 @@ TEST_CASE("simulated devices take their numbers from the protocol", "[unit]") {
     CHECK(tracker.noise_deg == 0.01);
     CHECK(tracker.accuracy_deg == protocol.tracker.simulated_accuracy_deg);
     CHECK(tracker.clock_drift_ppm == protocol.tracker.simulated_clock_drift_ppm);
+    CHECK_FALSE(tracker.both_eyes);
+    protocol.tracker.eye = "both";
+    CHECK(simulated_tracker_settings(protocol.tracker).both_eyes);
     protocol.tracker.simulated_clock_drift_ppm = 77.0;
     protocol.tracker.simulated_accuracy_deg = 0.77;
     CHECK(simulated_tracker_settings(protocol.tracker).clock_drift_ppm == 77.0);
@@ -340,5 +343,29 @@ TEST_CASE("what is seen at less than 78 degrees from its normal is looked at, fr
                        glm::dvec4(0.5 + 1e5 * std::sin(aslant), -1e5 * std::cos(aslant), 0.5, 1.0));
         const GazeTargets targets(scene.objects[0], scene);
         CHECK(targets.is_visible(targets.draw(random, 1), 0, 0) == (aslant_deg < 78.0 || aslant_deg > 102.0));
+    }
+}
+
+TEST_CASE("each task has its own shares of all areas that any task names", "[unit]") {
+    Protocol protocol;
+    protocol.tasks = {{"free", "Look."}, {"rims", "Look at rims."}, {"feet", "Look at feet."}};
+    protocol.tasks[0].simulated_area_shares = {{"body", 0.4}};
+    protocol.tasks[1].simulated_area_shares = {{"rim", 0.3}, {"body", 0.25}};
+    protocol.tasks[2].simulated_area_shares = {{"foot", 0.5}};
+    const ObservedScene scene = make_observed_scene(protocol, {}, ScreenGeometry{});
+    REQUIRE(scene.tasks.size() == 3);
+    for (const auto& [task, shares] : {std::pair{0, std::array{0.4, 0.0, 0.0}},
+                                       {1, std::array{0.25, 0.3, 0.0}},
+                                       {2, std::array{0.0, 0.0, 0.5}}}) {
+        double all = 0.0;
+        for (const double share : scene.tasks[static_cast<std::size_t>(task)].shares)
+            all += share;
+        CHECK(all == Approx(shares[0] + shares[1] + shares[2]));
+        for (std::size_t i = 0; i < 3; ++i) {
+            const int area = area_in(scene, std::array{"body", "rim", "foot"}[i]);
+            REQUIRE(area >= 0);
+            CHECK(scene.tasks[static_cast<std::size_t>(task)].shares[static_cast<std::size_t>(area)] ==
+                  shares[i]);
+        }
     }
 }

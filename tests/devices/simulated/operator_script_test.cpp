@@ -1,6 +1,7 @@
 #include "devices/simulated/operator_script.h"
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
 #include "devices/simulated/simulated_response_panel.h"
 #include "experiment/base/error.h"
@@ -268,4 +269,39 @@ TEST_CASE("what is wrong with an operator's key is told in its own words", "[uni
     CHECK(read_operator_key("stimulus+1=press 7 for 0.5", 0).pressed == "7");
     CHECK(read_operator_key("stimulus+1=press 7 for -1", 0).pressed == "7 for -1");
     CHECK(read_operator_key("stimulus+1=press 7 for ever", 0).pressed == "7 for ever");
+}
+
+namespace {
+
+/// What a script does, a word each: when in ms, what, where, which button, character, key and device.
+std::string told(const std::string& words) {
+    std::string all;
+    for (const ScriptedInput& one : read_operator_key("response screen+1=" + words, 4).inputs) {
+        const ObserverInput& input = one.input;
+        all += fmt::format("{}:{}", to_seconds(one.after) * 1e3, static_cast<int>(input.kind));
+        if (input.device.view() == "mouse")
+            all += fmt::format(",{},{},b{},s{}", input.right_px, input.down_px, input.button, input.steps);
+        else
+            all += fmt::format(",{}{}@{}", input.key.view(), static_cast<int>(input.character),
+                               input.device.view() == "simulated observer" ? "o" : input.device.view());
+        all += " ";
+    }
+    return all;
+}
+
+} // namespace
+
+TEST_CASE("what answers is done at its places, by its buttons, letters and devices, input for input",
+          "[unit]") {
+    CHECK(told("click 10 -20") == "0:3,10,-20,b0,s0 0:4,10,-20,b1,s0 80:5,10,-20,b1,s0 ");
+    CHECK(told("drag 10 -20 30 5") ==
+          "0:3,10,-20,b0,s0 0:4,10,-20,b1,s0 20:3,12,-17.5,b0,s0 40:3,14,-15,b0,s0 60:3,16,-12.5,b0,s0 "
+          "80:3,18,-10,b0,s0 100:3,20,-7.5,b0,s0 120:3,22,-5,b0,s0 140:3,24,-2.5,b0,s0 160:3,26,0,b0,s0 "
+          "180:3,28,2.5,b0,s0 200:3,30,5,b0,s0 200:5,30,5,b1,s0 ");
+    CHECK(told("wheel 3") == "0:6,0,0,b0,s3 ");
+    CHECK(told("press 7") == "0:0,70@o 0:2,55@o 80:1,70@o ");
+    CHECK(told("press space for 0") == "0:0,space0@o 0:2,32@o 0:1,space0@o ");
+    CHECK(told("press left for ever") == "0:0,left for ever0@o 80:1,left for ever0@o ");
+    CHECK(told("type a\u20ac\U0001f600") == "0:2,97@o 50:2,8364@o 100:2,128512@o ");
+    CHECK(told("press 7 for 0.25 for 0.5") == "0:0,7 for 0.250@o 500:1,7 for 0.250@o ");
 }

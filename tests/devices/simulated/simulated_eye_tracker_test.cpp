@@ -490,3 +490,56 @@ TEST_CASE("a drift check is made once the eye is open for more than half of 100 
     CHECK(takes(0ms) > 100ms);
     CHECK(takes(150ms) == 100ms);
 }
+
+TEST_CASE("a clock that runs a tenth too fast is turned back exactly, and ticks are told to the nearest "
+          "microsecond",
+          "[unit]") {
+    SimulatedSitting sitting(3);
+    SimulatedTrackerSettings settings = perfect();
+    settings.clock_drift_ppm = 1e5;
+    const SimulatedEyeTracker fast(sitting.clock, sitting.observer, 3, settings);
+    const TrackerTime origin = fast.tracker_time_at({});
+    for (const SessionDuration at : {0s, 1s, 1000s, 5000s}) {
+        const TrackerTime shown = fast.tracker_time_at(SessionTime(at));
+        CHECK(to_seconds(shown - origin) == Approx(1.1 * to_seconds(at)).margin(2e-6));
+        CHECK(to_seconds(fast.session_time_at(shown) - SessionTime(at)) == Approx(0.0).margin(3e-6));
+    }
+    settings.clock_drift_ppm = 0.0;
+    settings.rate_hz = 600.0;
+    settings.delivery_latency = {};
+    SimulatedEyeTracker tracker(sitting.clock, sitting.observer, 3, settings);
+    tracker.start_recording();
+    sitting.clock.wait_until(SessionTime(100ms));
+    tracker.stop_recording();
+    std::array<TrackerItem, 64> items;
+    REQUIRE(tracker.poll(items) == 60);
+    for (std::size_t i = 0; i < 60; ++i) {
+        const double us =
+            static_cast<double>(std::get<GazeSample>(items[i]).sampled_at.time_since_epoch().count());
+        const double tick = std::round(us * 600e-6);
+        CHECK(us == std::round(tick / 600e-6));
+    }
+}
+
+TEST_CASE("a recording begins with the tick of the instant at which it is started", "[unit]") {
+    SimulatedSitting sitting(3);
+    SimulatedTrackerSettings settings = perfect();
+    settings.clock_drift_ppm = 0.0;
+    settings.rate_hz = 1000.0;
+    settings.delivery_latency = {};
+    SimulatedEyeTracker tracker(sitting.clock, sitting.observer, 3, settings);
+    const std::int64_t ms = tracker.tracker_time_at({}).time_since_epoch().count() / 1000 + 7;
+    const auto first_from = [&](TrackerTime start, SessionDuration later) {
+        const SessionTime at = tracker.session_time_at(start) + later;
+        sitting.clock.wait_until(at);
+        tracker.start_recording();
+        sitting.clock.wait_until(at + 3ms);
+        tracker.stop_recording();
+        std::array<TrackerItem, 8> items;
+        REQUIRE(tracker.poll(items) == 3);
+        return std::get<GazeSample>(items[0]).sampled_at;
+    };
+    CHECK(first_from(tracker_time(1000 * ms), 0ns) == tracker_time(1000 * ms));
+    CHECK(first_from(tracker_time(1000 * (ms + 10)), 1ns) == tracker_time(1000 * (ms + 11)));
+    CHECK(first_from(tracker_time(1000 * (ms + 20)), -1ns) == tracker_time(1000 * (ms + 20)));
+}

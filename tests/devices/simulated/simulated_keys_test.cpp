@@ -463,3 +463,47 @@ TEST_CASE("a column of a match goes by coarse steps where it has keys for them a
         CHECK(until(keys, SessionTime(300s)).size() == 2 * presses);
     }
 }
+
+TEST_CASE("all that a simulated observer does is told as its own", "[unit]") {
+    const Protocol protocol = asked();
+    const SimulatedAnswers answers(protocol, 3);
+    std::vector<AnswerOffer> offers(4);
+    offers[0] = number_keys();
+    offers[1].kind = "point";
+    offers[2].kind = "text";
+    offers[3].kind = "gauge";
+    offers[3].attitude = Attitude{Degrees{10.0}, Degrees{20.0}};
+    offers[3].true_attitude = Attitude{Degrees{30.0}, Degrees{100.0}};
+    offers[3].slant_per_px_deg = 0.25;
+    for (AnswerOffer& offer : offers)
+        offer.id = "any";
+    for (const auto& [offer, most] : {std::pair{0, 4}, {1, 3}, {2, 4}, {3, 3}}) {
+        CAPTURE(offer);
+        SimulatedKeys keys;
+        keys.plan(answers, {offers[static_cast<std::size_t>(offer)]}, {});
+        keys.awaited(SessionTime(1s));
+        keys.window_opened(SessionTime(2s));
+        const std::vector<ObserverInput> inputs = until(keys, SessionTime(60s));
+        CHECK(static_cast<int>(inputs.size()) == most);
+        for (const ObserverInput& input : inputs)
+            CHECK(input.device.view() == simulated_observer_device);
+    }
+}
+
+TEST_CASE("what was planned and cleared does not come when a window opens", "[unit]") {
+    const Protocol protocol = asked();
+    const SimulatedAnswers answers(protocol, 3);
+    SimulatedKeys keys;
+    keys.plan(answers, {number_keys()}, {});
+    keys.awaited(SessionTime(1s));
+    keys.window_opened(SessionTime(2s));
+    keys.clear();
+    CHECK(until(keys, SessionTime(60s)).empty());
+    // Its window is over, too: what is planned next waits for its own.
+    keys.plan(answers, {number_keys()}, {});
+    CHECK(until(keys, SessionTime(60s)).empty());
+    keys.window_opened(SessionTime(100s));
+    const std::vector<ObserverInput> inputs = until(keys, SessionTime(160s));
+    REQUIRE(inputs.size() == 4);
+    CHECK(inputs[0].at > SessionTime(100s));
+}

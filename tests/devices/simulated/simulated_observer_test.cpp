@@ -485,3 +485,36 @@ TEST_CASE(
     CHECK_FALSE(moving->gaze_at(arrived + 35ms).place == after.place);
     CHECK(moving->gaze_at(arrived + 300ms).place == centre);
 }
+
+TEST_CASE("of several things side by side each is seen with the frames that it had, in its slot", "[unit]") {
+    const std::vector<int> places{100, 700, 1300};
+    ObservedScene scene = pictures_at(places);
+    scene.animations[0].duration_s = 3.0;
+    SimulatedObserver observer(scene, 3, test::without_wandering());
+    observer.presentation_begins(trial_of_pictures(3), 0);
+    constexpr int flips = 300;
+    for (int flip = 0; flip < flips; ++flip) {
+        flip_at(observer, SessionTime(1s) + flip * 8ms, flip);
+        for (const int slot : {1, 2})
+            observer.slot_flipped({0, flip, slot, {}, AnimationFrameIndex{1000 * slot + flip}, {}});
+    }
+    std::array<int, 3> seen{};
+    for (int flip = 0; flip < flips; ++flip) {
+        const GazeTruth truth = observer.truth_at(SessionTime(1s) + flip * 8ms + 7ms);
+        if (!truth.slot) {
+            CHECK(truth.frame == AnimationFrameIndex{flip});
+            CHECK_FALSE(truth.shown);
+            continue;
+        }
+        ++seen[static_cast<std::size_t>(*truth.slot)];
+        const int left = places[static_cast<std::size_t>(*truth.slot)];
+        CHECK(truth.gaze.place.x_px >= left);
+        CHECK(truth.gaze.place.x_px < left + 400);
+        CHECK(truth.shown == static_cast<std::size_t>(*truth.slot));
+        if (truth.gaze.state != EyeState::blink)
+            CHECK(truth.frame == AnimationFrameIndex{1000 * *truth.slot + flip});
+        CHECK_FALSE(truth.target);
+    }
+    for (const int count : seen)
+        CHECK(count > 10);
+}
