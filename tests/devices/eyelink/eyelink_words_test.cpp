@@ -303,3 +303,53 @@ TEST_CASE("an EyeLink's host is told all that a recording needs, and is asked wh
     wish.eye = Eye::left;
     CHECK(told({500, false}, 4.0)[5] == "needed and asked active_eye = LEFT");
 }
+
+TEST_CASE("why an EyeLink is not connected, and a file does not come, is said in these words", "[unit]") {
+    CHECK(eyelink_connection_problem(-203, "10.0.0.7") ==
+          "The EyeLink at 10.0.0.7 is busy: another program is connected to it. End that program, or restart "
+          "the host's software.");
+    CHECK(eyelink_connection_problem(-202, "10.0.0.7") ==
+          "The EyeLink's host runs another version than its library understands: install the library that "
+          "belongs to the host's software.");
+    const std::string last =
+        " Is the host running its tracking software, is the network cable in, and has this "
+        "computer's network card an address on the same net, such as 100.1.1.2 with mask "
+        "255.255.255.0?";
+    CHECK(eyelink_connection_problem(-201, "10.0.0.7") ==
+          "No EyeLink answers at 10.0.0.7 (time-out)." + last);
+    CHECK(eyelink_connection_problem(-1, "10.0.0.7") == "No EyeLink answers at 10.0.0.7 (error -1)." + last);
+    CHECK(eyelink_connection_problem(1, "10.0.0.7") == "No EyeLink answers at 10.0.0.7 (error 1)." + last);
+    CHECK(eyelink_transfer_problem(0) == "it was cancelled, or the file is empty");
+    CHECK(eyelink_transfer_problem(-110) == "it was broken off");
+    CHECK(eyelink_transfer_problem(-111) == "the file cannot be opened");
+    CHECK(eyelink_transfer_problem(-112) == "the host does not answer");
+    CHECK(eyelink_transfer_problem(-113) == "bad data arrived");
+    CHECK(eyelink_transfer_problem(-1) == "error -1");
+    CHECK_FALSE(eyelink_transfer_problem(1));
+}
+
+TEST_CASE("numbers that a host tells are the same within half of one, and words of truth are numbers",
+          "[unit]") {
+    for (const auto& [asked, told, is_same] : {std::tuple{"10", "10.5", true},
+                                               {"10", "10.51", false},
+                                               {"10", "9.5", true},
+                                               {"10", "9.49", false},
+                                               {"YES", "ON", true},
+                                               {"YES", "true", true},
+                                               {"yes", "1", true},
+                                               {"NO", "off", true},
+                                               {"NO", "FALSE", true},
+                                               {"NO", "0", true},
+                                               {"NO", "YES", false},
+                                               {"OFF", "ON", false},
+                                               {"TRUE", "FALSE", false},
+                                               {"A,B", "b\ta", true},
+                                               {"A,B", "A\r\nB\r\n", true},
+                                               {" A", "A ,", true},
+                                               {"", " ,", true},
+                                               {"A", "", false},
+                                               {"A", "1", false},
+                                               {"1x", "1", false},
+                                               {"A A", "A B", false}})
+        CHECK(eyelink_means_same(asked, told) == is_same);
+}

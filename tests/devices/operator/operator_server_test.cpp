@@ -468,3 +468,61 @@ TEST_CASE("forty-eight notes wait for a trial's end, sixty keys, and answers and
     panel.write_down(log);
     CHECK(log.notes == 49);
 }
+
+TEST_CASE(
+    "a question is answered by its command once, with yes where no reason was given, and after another key "
+    "by nobody",
+    "[unit]") {
+    const TemporaryFolder folder;
+    OperatorServer server(options_at(folder.path() / "view.sock"));
+    StandingClock clock;
+    SilentPanel silent;
+    OperatorPanel panel(server, clock, silent);
+    OperatorClient client(folder.path() / "view.sock");
+    using Key = ResponsePress::Key;
+    panel.entered(SessionPhase::stimulus, 2);
+    const auto press = [&](const char* words) {
+        client.send(operator_command(words).value());
+        return awaited_press(panel).value();
+    };
+    CHECK(press("skip").key == Key::skip);
+    panel.acted_on("reject"); // another key
+    panel.await_decision(false, SessionTime(1s));
+    CHECK_FALSE(panel.poll());
+    panel.acted_on("skip");
+    panel.await_decision(false, SessionTime(2s));
+    const ResponsePress yes = panel.poll().value();
+    CHECK(yes.key == Key::yes);
+    CHECK(yes.pressed_at == SessionTime(2s));
+    // The next question is not answered by it, whether it is this key's or not.
+    panel.await_decision(false, SessionTime(3s));
+    CHECK_FALSE(panel.poll());
+    CHECK(press("no").key == Key::no);
+    panel.acted_on("skip");
+    panel.await_decision(false, SessionTime(4s));
+    CHECK_FALSE(panel.poll());
+    // An answer that was not asked for any more is forgotten.
+    panel.await_key({});
+    CHECK(press("repeat").key == Key::repeat);
+    panel.acted_on("repeat");
+    panel.await_decision(false, SessionTime(5s));
+    panel.await_key({});
+    CHECK_FALSE(panel.poll());
+    // What is not asked about leads to no answer: the next command does not wait for it.
+    CHECK(press("drift check").key == Key::drift_check);
+    CHECK(press("pause").key == Key::pause);
+    panel.acted_on("pause");
+    panel.await_decision(false, SessionTime(6s));
+    CHECK_FALSE(panel.poll());
+}
+
+TEST_CASE("gaze that a view's thread has not taken is dropped and counted, and what was taken came",
+          "[unit]") {
+    const TemporaryFolder folder;
+    OperatorServer server(options_at(folder.path() / "view.sock"));
+    constexpr std::int64_t pushed = 300'000; // with nobody to wake the thread for
+    for (std::int64_t i = 0; i < pushed; ++i)
+        server.push_gaze({});
+    CHECK(server.dropped() > 0);
+    CHECK(server.dropped() < pushed);
+}

@@ -303,3 +303,25 @@ TEST_CASE(
     answering.press = ResponsePress{ResponsePress::Key::next, SessionTime(3s)};
     CHECK(panel.poll()->pressed_at == SessionTime(3s));
 }
+
+TEST_CASE(
+    "a view is told each event with its kind, words, trial and time, and each note that stands beside it",
+    "[unit]") {
+    Watch watch;
+    watch.seen();
+    static_cast<void>(watch.client.take_events());
+    const SessionTime at = watch.clock.time + 250ms;
+    watch.log.event({at, 3, "tracker lost", "for 2 s"});
+    watch.log.event({at, -1, operator_pressed_event, "pause"});
+    watch.clock.time = at;
+    watch.seen();
+    const auto events = watch.client.take_events();
+    REQUIRE(events.size() == 3);
+    CHECK(events[0].kind == "tracker lost");
+    CHECK(events[0].detail == "for 2 s");
+    CHECK(events[0].trial == 3);
+    CHECK(events[0].at_s == Approx(to_seconds(at)));
+    CHECK(events[1].kind == operator_pressed_event);
+    CHECK(events[1].detail == "pause");
+    CHECK(events[1].trial == -1);
+}

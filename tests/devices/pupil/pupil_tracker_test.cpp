@@ -8,6 +8,7 @@
 
 #include "devices/host/clocks.h"
 #include "experiment/base/error.h"
+#include "experiment/protocol/protocol.h"
 #include "tests/devices/pupil/pupil_peer.h"
 #include "tests/devices/tracker/scripted_setup_screen.h"
 #include "tests/support/counted_clock.h"
@@ -141,7 +142,7 @@ TEST_CASE("gaze of little confidence is lost, and one eye's camera is not the ot
     bench.read_samples(60);
     CHECK(bench.items.all<GazeSample>().back().gaze);
     bench.wish.eye = Eye::left;
-    bench.settings.patience = 2s;
+    bench.settings.patience = 500ms;
     CHECK_THROWS_WITH(bench.connect(), Contains("tells nothing of the left eye"));
 }
 
@@ -164,7 +165,8 @@ TEST_CASE("marks become annotations at the pupil time of what they mark", "[unit
     bench.connect();
     bench.tracker->start();
     bench.read_samples(10);
-    const double offset_s = PupilPeer::now_s() - to_seconds(bench.clock.now());
+    const std::optional<ClockPair> clocks = bench.tracker->read_clocks();
+    REQUIRE(clocks);
     const SessionTime at = bench.clock.now() - 100s;
     const SessionTime give_up = bench.clock.now() + 20s;
     while (bench.peer.annotations().empty() && bench.clock.now() < give_up) {
@@ -175,7 +177,15 @@ TEST_CASE("marks become annotations at the pupil time of what they mark", "[unit
     const nlohmann::json annotation = bench.peer.annotations().front();
     CHECK(annotation["topic"] == "annotation");
     CHECK(annotation["label"] == "ONSET ? 3");
-    CHECK(std::abs(annotation["timestamp"].get<double>() - (to_seconds(at) + offset_s)) < 20.0);
+    CHECK(annotation["duration"] == 0.0);
+    CHECK(annotation.size() == 4);
+    // By the last reading of the clock: what it told was so in the middle of it.
+    const double middle_s = 0.5 * (to_seconds(clocks->before) + to_seconds(clocks->after));
+    CHECK(annotation["timestamp"].get<double>() ==
+          Approx(1e-6 * static_cast<double>(clocks->other.time_since_epoch().count()) + to_seconds(at) -
+                 middle_s)
+              .margin(1e-8)
+              .epsilon(0.0));
 }
 
 TEST_CASE("Pupil Capture records from the first recording of a session to its end", "[unit]") {
@@ -211,19 +221,29 @@ TEST_CASE("Pupil Capture calibrates, fails, takes too long or is broken off", "[
     PupilBench bench;
     bench.connect();
     ScriptedSetupScreen setup_screen(bench.clock);
-    CHECK(bench.tracker->set_up(setup_screen).kind == SetupOutcome::Kind::done);
+    const SetupOutcome done = bench.tracker->set_up(setup_screen);
+    CHECK(done.kind == SetupOutcome::Kind::done);
+    CHECK(done.method == "tracker");
+    CHECK(done.message == "Pupil Capture tells no error of its calibration");
     CHECK_THAT(setup_screen.texts.front(), Contains("Pupil Capture calibrates"));
     bench.peer.calibrates_well = false;
-    CHECK(bench.tracker->set_up(setup_screen).kind == SetupOutcome::Kind::failed);
+    const SetupOutcome failed = bench.tracker->set_up(setup_screen);
+    CHECK(failed.kind == SetupOutcome::Kind::failed);
+    CHECK(failed.message == "Pupil Capture could not calibrate: its own window says why");
+    CHECK(bench.peer.commands().back() == "C");
     bench.peer.calibration_s = 1000.0;
     setup_screen.keys = {SetupKey{SetupKey::Kind::escape}};
-    CHECK(bench.tracker->set_up(setup_screen).kind == SetupOutcome::Kind::cancelled);
+    const SetupOutcome cancelled = bench.tracker->set_up(setup_screen);
+    CHECK(cancelled.kind == SetupOutcome::Kind::cancelled);
+    CHECK(cancelled.message == "the calibration was broken off");
     CHECK(bench.peer.commands().back() == "c");
     bench.settings.calibration_time = 100ms;
     bench.connect();
     const SetupOutcome late = bench.tracker->set_up(setup_screen);
     CHECK(late.kind == SetupOutcome::Kind::failed);
-    CHECK_THAT(late.message, Contains("in time"));
+    CHECK(late.method == "tracker");
+    CHECK(late.message == "Pupil Capture did not end its calibration in time");
+    CHECK(bench.peer.commands().back() == "c");
 }
 
 TEST_CASE("Pupil Capture that is not there, or is something else, is refused with a remedy", "[unit]") {
@@ -247,6 +267,8 @@ TEST_CASE("Pupil Capture that falls silent is lost, with a gap, and can be reach
     CHECK(bench.read_samples(1'000'000) == RecordingState::lost);
     REQUIRE_FALSE(bench.items.all<TrackerGap>().empty());
     CHECK(bench.items.all<TrackerGap>().back().reason == TrackerGap::Reason::connection);
+    CHECK(bench.items.all<TrackerGap>().back().lost_samples == 0);
+    CHECK(bench.items.all<TrackerGap>().back().after == bench.items.all<GazeSample>().back().sampled_at);
     bench.tracker->stop();
     bench.peer.publishes = true;
     bench.settings.silence = 20s;
@@ -429,4 +451,28 @@ TEST_CASE("of a message sixteen frames are taken, each as it is, and longer ones
         }
     }
     zmq_close(server);
+}
+
+TEST_CASE("a protocol says where Pupil Capture is, what its surface is called and where it lies", "[unit]") {
+    Protocol protocol;
+    PupilSettings settings = pupil_settings_of(protocol);
+    CHECK(settings.remote.host == "127.0.0.1");
+    CHECK(settings.remote.port == 50020);
+    CHECK(settings.surface == protocol.tracker.surface);
+    CHECK_FALSE(settings.surface_place);
+    protocol.tracker.address = "10.1.2.3:5555";
+    protocol.tracker.surface = "monitor";
+    protocol.tracker.least_confidence = 0.35;
+    protocol.display.output = OutputMode::native_8bit;
+    protocol.display.tags_px = 200; // the tags' black borders end 20 px from the edges of 1920 x 1080
+    settings = pupil_settings_of(protocol);
+    CHECK(settings.remote.host == "10.1.2.3");
+    CHECK(settings.remote.port == 5555);
+    CHECK(settings.surface == "monitor");
+    CHECK(settings.least_confidence == 0.35);
+    REQUIRE(settings.surface_place);
+    const ScreenPoint top_right = settings.surface_place->on_screen({1.0, 1.0}),
+                      low = settings.surface_place->on_screen({0.25, 0.0});
+    CHECK((top_right.x_px == 1900.0 && top_right.y_px == 20.0));
+    CHECK((low.x_px == 490.0 && low.y_px == 1060.0));
 }
