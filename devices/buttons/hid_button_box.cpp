@@ -130,7 +130,6 @@ HidButtonBox::HidButtonBox(std::unique_ptr<HidLine> line, const HidDescriptor& d
 void HidButtonBox::begin() {
     buttons_.read_away(*line_, report_, *clock_);
     held_.clear();
-    given_ = 0;
     looked_ = clock_->now();
 }
 

@@ -133,7 +133,6 @@ SetupOutcome outcome_of(const OpenGazeMessage& result, const OpenGazeSettings& s
 SetupOutcome calibrate_opengaze(OpenGazeLink& link, SetupScreen& setup_screen,
                                 const OpenGazeCalibration& calibration) {
     const OpenGazeSettings& settings = calibration.settings;
-    link.forget();
     const int points = choose_points(link, settings);
     choose_times(link, settings);
     set_state(link, "CALIBRATE_SHOW", settings.own_calibration_screen);
@@ -141,6 +140,7 @@ SetupOutcome calibrate_opengaze(OpenGazeLink& link, SetupScreen& setup_screen,
         setup_screen.show_text("The targets are shown by the tracker's own window.\nEscape breaks off.");
     else
         setup_screen.clear();
+    link.forget(); // what is still told of an earlier one
     const std::optional<OpenGazeAnswer> begun = link.set("CALIBRATE_START", "STATE=\"1\"");
     if (!begun || !begun->is_granted)
         throw DeviceError(

@@ -15,6 +15,9 @@ TEST_CASE("buttons of a CB6 come through the status stream, timed by the box's c
     {
         Cb6Box box(display, bench.clock);
         CHECK(box.description().has_clock);
+        CHECK(box.description().name == "cb6");
+        REQUIRE(display.identity().product != display.identity().serial_number);
+        CHECK(box.description().model == display.identity().product + " " + display.identity().serial_number);
         CHECK(box.button_name(2) == "B");
         CHECK(box.button_name(7) == "Din0");
         box.begin();

@@ -41,6 +41,8 @@ TEST_CASE("keys of a keyboard are told when they change, and not when too many a
     CHECK(changes_of(keys, {0x02, 0, 1, 1, 1, 1, 1, 1}).empty());
     CHECK(changes_of(keys, {0, 0, 0x2C, 0, 0, 0, 0, 0}) == "-1 -key 225");
     CHECK(changes_of(keys, {0, 0, 0, 0, 0, 0, 0, 200}) == "-space"); // 200 is outside of its range
+    CHECK(changes_of(keys, {0, 0, 2, 3, 0, 0, 0, 0}).empty());       // errors of the keyboard
+    CHECK(changes_of(keys, {0, 0, 4, 3, 0, 0, 0, 0}) == "+a");
     CHECK(hid_button_name(first_key_number + 0x04) == "a");
     CHECK(hid_button_name(first_key_number + 0x27) == "0");
     CHECK(hid_button_name(5) == "5");
@@ -126,8 +128,15 @@ TEST_CASE("usages of a thousand and some are buttons, of more none; held changes
             .size(16, 1)
             .input(0x00)
             .close();
-        const HidButtons buttons(parse_report_descriptor(text.bytes));
+        HidButtons buttons(parse_report_descriptor(text.bytes));
         CHECK(buttons.has_any() == (last == 1025));
+        if (last == 1025) // what a keyboard has for errors are buttons of a box
+            for (const int number : {1, 2, 3, 4, 0x401})
+                CHECK(changes_of(buttons, {number & 0xFF, number >> 8})
+                          .starts_with(fmt::format("{}{}", number > 1 ? "-" : "+",
+                                                   number > 1 && number < 5 ? number - 1
+                                                   : number > 4             ? 4
+                                                                            : 1)));
     }
     VirtualClock clock(SessionTime(1s));
     HidFarEnd far(clock);

@@ -77,7 +77,7 @@ struct XidModel {
 TEST_CASE("XID packets are found in any pieces and behind noise", "[unit]") {
     const std::string noise = std::string("x\xFFk\x0C", 4);
     const std::string stream = noise + packet('k', {0x70, 0xD2, 0x04, 0, 0}) +
-                               packet('k', {0x01, 1, 0, 0, 0x80}) + packet('o', {2, 5, '1', 9, 0, 0, 0, 0});
+                               packet('k', {0x01, 1, 0, 0, 0x80}) + packet('o', {2, 5, '1', 9, 8, 7, 6, 0});
     for (std::size_t piece = 1; piece <= stream.size(); ++piece) {
         XidParser parser;
         std::vector<XidKey> keys;
@@ -96,6 +96,7 @@ TEST_CASE("XID packets are found in any pieces and behind noise", "[unit]") {
         CHECK(keys[1].ms == 0x80000001u);
         CHECK(keys[2].port == 2);
         CHECK(keys[2].key == 5);
+        CHECK(keys[2].ms == 0x06070809u);
     }
     XidParser full;
     CHECK(full.feed(std::string(300, 'k')) == 256);

@@ -256,3 +256,18 @@ TEST_CASE("the first answer of its id is a question's, whatever comes beside it"
     CHECK(answer->is_granted);
     CHECK(answer->message().value("VALUE") == "1");
 }
+
+TEST_CASE("what an Open Gaze server said of an earlier calibration is not taken for this one's", "[unit]") {
+    OpenGazeBench bench;
+    bench.connect();
+    bench.tracker->start();
+    bench.far.send(bench.clock.now(), "<CAL ID=\"CALIB_RESULT\" />\r\n");
+    bench.read_for(20ms);
+    bench.far.send(bench.clock.now(), "<CAL ID=\"CALIB_RESULT\" />\r\n");
+    ScriptedSetupScreen setup_screen(bench.clock);
+    const SessionTime began = bench.clock.now();
+    const SetupOutcome outcome = bench.tracker->set_up(setup_screen);
+    CHECK(outcome.kind == SetupOutcome::Kind::done);
+    CHECK(setup_screen.targets.size() == 5);
+    CHECK(bench.clock.now() - began >= 1s);
+}

@@ -400,3 +400,18 @@ TEST_CASE("a counter that jumps by a million has been set anew", "[unit]") {
             CHECK(gaps[0].lost_samples == jump - 1);
     }
 }
+
+TEST_CASE("what follows a message's kind ends before its bracket, and what stands around it counts not",
+          "[unit]") {
+    for (const char* const line : {"<REC A=\"1\">", " \t<REC A=\"1\">\t "}) {
+        const auto message = parse_opengaze(line);
+        REQUIRE(message);
+        CHECK(message->kind == OpenGazeMessage::Kind::record);
+        CHECK(message->attributes == " A=\"1\"");
+    }
+    CHECK(parse_opengaze("<ACK>")->attributes.empty());
+    CHECK(parse_opengaze("<NACK/>")->attributes == "/");
+    CHECK(parse_opengaze("<>")->attributes.empty());
+    for (const char* const none : {"", " ", "<", "<REC", ">", "REC>", "x<REC>"})
+        CHECK_FALSE(parse_opengaze(none));
+}

@@ -291,3 +291,55 @@ TEST_CASE("a rate needs three records with times, of thirty at most in three sec
     };
     CHECK(jumping.connect().sample_rate_hz == Approx(150.0).epsilon(1e-3));
 }
+
+TEST_CASE("between connection and recording an Open Gaze server sends nothing, however long that is",
+          "[unit]") {
+    OpenGazeBench bench;
+    bench.connect();
+    CHECK_THAT(bench.model.told("ENABLE_SEND_DATA"), Contains("STATE=\"0\""));
+    bench.clock.wait_until(bench.clock.now() + 60s);
+    // Silence is counted from the recording's beginning, until records come.
+    bench.model.has_camera = false;
+    bench.tracker->start();
+    CHECK_THAT(bench.model.told("ENABLE_SEND_DATA"), Contains("STATE=\"1\""));
+    const SessionTime began = bench.clock.now();
+    CHECK(bench.read_for(bench.settings.timeouts.silence - 10ms) == RecordingState::running);
+    CHECK(bench.read_for(1s) == RecordingState::lost);
+    CHECK(bench.clock.now() - began < bench.settings.timeouts.silence + 10ms);
+    bench.tracker->stop();
+    CHECK_THAT(bench.model.told("ENABLE_SEND_DATA"), Contains("STATE=\"0\""));
+    // A server that refuses to stop is not waited for.
+    bench.model.has_camera = true;
+    bench.tracker->start();
+    CHECK(bench.read_for(100ms) == RecordingState::running);
+    bench.model.refused_on = {"ENABLE_SEND_DATA"};
+    const SessionTime stopped = bench.clock.now();
+    bench.tracker->stop();
+    CHECK(bench.clock.now() - stopped < 100ms);
+    bench.model.refused_on.clear();
+    bench.model.silent_on = {"ENABLE_SEND_DATA"};
+    bench.model.has_camera = false;
+    const SessionTime asked = bench.clock.now();
+    bench.tracker->stop();
+    CHECK(bench.clock.now() - asked >= 500ms);
+}
+
+TEST_CASE("messages that are left out of Gazepoint's user data are told, of frames or of others alone",
+          "[unit]") {
+    const auto said = [](const std::vector<std::string>& marks) {
+        OpenGazeBench bench;
+        bench.connect();
+        bench.tracker->start();
+        for (const std::string& mark : marks)
+            bench.tracker->send({bench.clock.now(), mark});
+        bench.tracker->stop();
+        const std::vector<std::string> all = bench.tracker->finish("", {});
+        return all.empty() ? std::string() : all.front();
+    };
+    CHECK(said({"TRIALID 1", "FRAME 1"}).empty());
+    const std::string last(OpenGazeMarks::longest, 's');
+    CHECK_THAT(said({"TRIALID 1", last}), Contains("0 of frames and 1 others"));
+    CHECK_THAT(said({"TRIALID 1", "!V x", last}), Contains("0 of frames and 2 others"));
+    CHECK_THAT(said({"FRAME 1", last}), Contains("1 of frames and 0 others"));
+    CHECK_THAT(said({"FRAME 1", "TRIALID 1", last}), Contains("1 of frames and 1 others"));
+}
