@@ -247,3 +247,21 @@ TEST_CASE("what is answered on average is known to the last figure", "[unit]") {
     for (std::size_t i = 0; i < known.size(); ++i)
         CHECK(found[i] == Approx(known[i]).epsilon(1e-10));
 }
+
+TEST_CASE("of two choices of which one is right, it is chosen by its share", "[unit]") {
+    Protocol protocol = sided();
+    TaskAnswer& right = protocol.tasks[0].answers[3];
+    right.choices = {"metal", "stone"};
+    right.keys = {"a", "b"};
+    const SimulatedAnswers answers(protocol, 5);
+    int stones = 0;
+    constexpr int often = 4000;
+    for (int i = 0; i < often; ++i) {
+        const Trial trial = trial_of(i, 1, 1);
+        stones += answers.answer(offer_of(protocol, right, "", trial), trial).choice == 1;
+    }
+    CHECK(std::abs(stones - 0.6 * often) < 4.0 * std::sqrt(0.6 * 0.4 * often));
+    const Trial trial = trial_of(0, 1, 1);
+    CHECK(answers.expected(offer_of(protocol, right, "", trial), trial).shares[1] == Approx(0.6));
+    CHECK(answers.expected(offer_of(protocol, right, "", trial), trial).shares[0] == Approx(0.4));
+}

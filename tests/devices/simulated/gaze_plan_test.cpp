@@ -344,3 +344,22 @@ TEST_CASE("what is drawn again and again stays within its bounds, and ends after
     CHECK(closed >= 9);
     CHECK(closed <= 21);
 }
+
+TEST_CASE(
+    "areas that have all fixations among them share them by their odds, and none of no odds is a number",
+    "[unit]") {
+    ObservedScene scene;
+    scene.areas = {"head", "rim"};
+    scene.tasks = {{"both", {0.5, 0.5}}, {"one", {1.0, 0.0}}};
+    ObservedEffect effect;
+    effect.area = 0;
+    effect.odds = 3.0;
+    scene.effects = {effect};
+    CHECK(gaze_plan(scene, 1, 0, {}).shares[0] == Approx(0.75));
+    CHECK(gaze_plan(scene, 1, 0, {}).shares[1] == Approx(0.25));
+    CHECK(gaze_plan(scene, 1, 1, {}).shares[0] == 1.0);
+    scene.effects[0].odds = 0.0;
+    CHECK(gaze_plan(scene, 1, 0, {}).shares[0] == 0.0);
+    CHECK(gaze_plan(scene, 1, 0, {}).shares[1] == Approx(1.0));
+    CHECK(gaze_plan(scene, 1, 1, {}).shares[0] == 1.0); // nothing is left that could be looked at instead
+}

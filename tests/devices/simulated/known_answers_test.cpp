@@ -406,6 +406,14 @@ TEST_CASE("the voice and the words of a simulated observer stay what they were w
     clock.time += 1ns;
     CHECK(static_cast<double>(recording->level().peak) == quiet);
     CHECK(quiet == Approx(std::pow(10.0, settings.noise_dbfs / 20.0)));
+    settings.gain = 10.0 / 3.0; // as loud as can be
+    SimulatedAnswerRecorder loud(clock, sitting.observer, 5, settings);
+    const auto clipped = loud.begin({4, 0, {}});
+    clipped->response_screen_lit(clock.time);
+    clock.time += said.voice_after;
+    CHECK(clipped->level().peak == 1.0f);
+    CHECK(clipped->level().is_clipping);
+    clock.time -= said.voice_after;
     clock.time += 300ms;
     recording->end(clock.time);
     const RecordedAnswer answer = recording->result().value();

@@ -543,3 +543,55 @@ TEST_CASE("a recording begins with the tick of the instant at which it is starte
     CHECK(first_from(tracker_time(1000 * (ms + 10)), 1ns) == tracker_time(1000 * (ms + 11)));
     CHECK(first_from(tracker_time(1000 * (ms + 20)), -1ns) == tracker_time(1000 * (ms + 20)));
 }
+
+TEST_CASE("a drift check takes the first 100 ms of which the eye is open in more than half", "[unit]") {
+    int exact_halves = 0;
+    for (int i = 0; i < 24; ++i) {
+        SimulatedSitting sitting(11, test::without_wandering());
+        SimulatedTrackerSettings settings = perfect();
+        settings.rate_hz = 20.0; // two samples, or one of them and the next one
+        settings.clock_drift_ppm = 0.0;
+        SimulatedEyeTracker tracker(sitting.clock, sitting.observer, 11, settings);
+        SessionTime blink(1s);
+        while (sitting.observer.gaze_at(blink).state != EyeState::blink)
+            blink += 1ms;
+        const SessionTime asked = blink - 110ms + i * 7ms;
+        sitting.clock.wait_until(asked);
+        int seen = 0, all = 0;
+        const std::int64_t first = tracker.tracker_time_at(asked).time_since_epoch().count() / 50'000 + 1;
+        for (std::int64_t tick = first; tracker.session_time_at(tracker_time(50'000 * tick)) < asked + 100ms;
+             ++tick) {
+            ++all;
+            seen += sitting.observer.gaze_at(tracker.session_time_at(tracker_time(50'000 * tick))).state !=
+                    EyeState::blink;
+        }
+        exact_halves += 2 * seen == all;
+        tracker.drift_check(sitting.observer.scene().screen.centre());
+        CHECK((sitting.clock.now() - asked == 100ms) == (2 * seen > all));
+    }
+    CHECK(exact_halves > 3);
+}
+
+TEST_CASE("an eye that waits for its turn comes first, as long as nothing was lost", "[unit]") {
+    for (int wait = 0; wait < 40; ++wait) {
+        SimulatedSitting sitting(3);
+        SimulatedTrackerSettings settings = perfect();
+        settings.rate_hz = 1000.0;
+        settings.both_eyes = true;
+        settings.delivery_latency = {};
+        settings.queue_capacity = 4;
+        SimulatedEyeTracker tracker(sitting.clock, sitting.observer, 3, settings);
+        sitting.clock.wait_until(SessionTime(1s));
+        tracker.start_recording();
+        sitting.clock.wait_until(SessionTime(1002ms));
+        std::array<TrackerItem, 1> one;
+        REQUIRE(tracker.poll(one) == 1);
+        const GazeSample left = std::get<GazeSample>(one[0]);
+        CHECK(left.eye == Eye::left);
+        sitting.clock.wait_until(SessionTime(1002ms) + wait * 100us);
+        REQUIRE(tracker.poll(one) == 1);
+        const GazeSample next = std::get<GazeSample>(one[0]);
+        CHECK((next.eye == Eye::right) == (tracker.overflowed() == 0));
+        CHECK((next.sampled_at == left.sampled_at) == (tracker.overflowed() == 0));
+    }
+}

@@ -518,3 +518,45 @@ TEST_CASE("of several things side by side each is seen with the frames that it h
     for (const int count : seen)
         CHECK(count > 10);
 }
+
+TEST_CASE("a closed eye is on no target, and what was shown before stays known", "[unit]") {
+    SimulatedSitting sitting(3);
+    for (int trial = 0; trial < 3; ++trial)
+        sitting.present({trial, 0, {}});
+    const SessionTime end = sitting.clock.now();
+    int blinks = 0, fixations = 0, lit = 0;
+    for (SessionTime at(0s); at < end; at += 5ms) {
+        const GazeTruth truth = sitting.observer.truth_at(at);
+        blinks += truth.gaze.state == EyeState::blink;
+        fixations += truth.target.has_value();
+        lit += truth.frame.has_value();
+        if (truth.gaze.state != EyeState::fixation)
+            CHECK_FALSE(truth.target);
+        if (truth.gaze.state == EyeState::blink)
+            CHECK_FALSE(truth.surface);
+    }
+    CHECK(blinks > 50);
+    CHECK(fixations > 500);
+    CHECK(lit > 500);
+}
+
+TEST_CASE("each of several shows is lit from its onset to the screen after it, whatever came since",
+          "[unit]") {
+    SimulatedObserver observer(pictures_at({760}), 3, test::without_wandering());
+    for (int show = 0; show < 3; ++show) {
+        observer.presentation_begins(trial_of_pictures(1, show), 0);
+        flip_at(observer, SessionTime(10s) + 10s * show, 5 + show);
+        observer.screen_shown({}, SessionTime(11s) + 10s * show);
+    }
+    observer.presentation_begins(trial_of_pictures(1, 3), 0); // not lit yet
+    for (int show = 0; show < 3; ++show) {
+        const SessionTime onset = SessionTime(10s) + 10s * show;
+        CHECK_FALSE(observer.truth_at(onset - 1ms).frame);
+        CHECK(observer.truth_at(onset + 20ms).frame == AnimationFrameIndex{5 + show});
+        CHECK(observer.truth_at(onset + 999ms).frame == AnimationFrameIndex{5 + show});
+        CHECK_FALSE(observer.truth_at(onset + 1020ms).frame);
+        CHECK(observer.script_of(show));
+    }
+    CHECK(observer.script_of(3));
+    CHECK_FALSE(observer.script_of(4));
+}
