@@ -91,7 +91,6 @@ void BitsLink::hush() {
 void BitsLink::tell(std::string_view name, std::string_view argument) {
     const std::string command = bits_command(name, argument);
     const std::string shown = command.substr(0, command.size() - 1);
-    require_line(shown);
     if (transport_->write(command, clock_.now() + timeouts_.reply))
         return;
     require_line(shown);

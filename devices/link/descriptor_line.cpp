@@ -13,7 +13,7 @@
 namespace overt {
 
 Descriptor::~Descriptor() {
-    if (value_ >= 0)
+    if (value_ != -1)
         ::close(value_);
 }
 
@@ -49,9 +49,9 @@ bool DescriptorLine::wait_for(short events, SessionTime deadline) noexcept {
         const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(left);
         const timespec time_left{static_cast<time_t>(seconds.count()),
                                  static_cast<long>((left - seconds).count())};
-        pollfd waiting{descriptor(), events, 0};
+        pollfd waiting{.fd = descriptor(), .events = events, .revents = {}};
         const int ready = ppoll(&waiting, 1, &time_left, nullptr);
-        if (ready < 0 && errno != EINTR)
+        if (ready == -1 && errno != EINTR)
             lose(errno);
         // What arrived before the hang-up is still there to be read, so POLLIN goes first.
         if (ready > 0 && (waiting.revents & events) != 0)
@@ -73,7 +73,7 @@ bool DescriptorLine::write(std::string_view bytes, SessionTime deadline) noexcep
                                            : ::write(descriptor(), bytes.data(), bytes.size());
         if (written > 0)
             bytes.remove_prefix(static_cast<std::size_t>(written));
-        else if (written < 0 && errno != EAGAIN && errno != EINTR)
+        else if (written == -1 && errno != EAGAIN && errno != EINTR)
             lose(errno);
     }
     return !lost_;

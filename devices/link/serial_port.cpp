@@ -85,7 +85,7 @@ void ask_for_low_latency(int descriptor) {
 Descriptor open_serial_port(const std::string& path, int baud) {
     // Non-blocking: the open of a tty may otherwise wait for a carrier that never comes.
     Descriptor opened(::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
-    if (opened.value() < 0)
+    if (opened.value() == -1)
         throw DeviceError(
             fmt::format("{} cannot be opened: {}; {}.", path, std::strerror(errno), remedy_for(errno)));
     // Two locks: programs that know nothing of flock are kept out by TIOCEXCL, and root, whom that does not

@@ -24,13 +24,13 @@ int wait_for_connection(int descriptor, const Clock& clock, SessionTime deadline
     for (;;) {
         const auto left = std::chrono::ceil<std::chrono::milliseconds>(std::clamp(
             deadline - clock.now(), SessionDuration::zero(), SessionDuration(std::chrono::hours(1))));
-        pollfd waiting{descriptor, POLLOUT, 0};
+        pollfd waiting{.fd = descriptor, .events = POLLOUT, .revents = {}};
         const int ready = ::poll(&waiting, 1, static_cast<int>(left.count()));
         if (ready == 0)
             return ETIMEDOUT;
-        if (ready < 0 && errno == EINTR)
+        if (ready == -1 && errno == EINTR)
             continue;
-        if (ready < 0)
+        if (ready == -1)
             return errno;
         int error = 0;
         socklen_t size = sizeof error;
@@ -83,7 +83,7 @@ Descriptor connect_to(const NetworkAddress& address, const std::string& device, 
     for (const addrinfo* each = first; each; each = each->ai_next) {
         Descriptor opened(
             ::socket(each->ai_family, each->ai_socktype | SOCK_NONBLOCK | SOCK_CLOEXEC, each->ai_protocol));
-        if (opened.value() < 0 || ::connect(opened.value(), each->ai_addr, each->ai_addrlen) != 0)
+        if (opened.value() == -1 || ::connect(opened.value(), each->ai_addr, each->ai_addrlen) != 0)
             error = errno;
         else
             error = 0;

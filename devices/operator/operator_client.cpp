@@ -22,13 +22,13 @@ constexpr std::size_t most_events = 1000, most_gaze = 4096;
 bool send_all(int socket, std::string_view text) {
     while (!text.empty()) {
         const ssize_t sent = ::send(socket, text.data(), text.size(), MSG_NOSIGNAL);
-        if (sent < 0 && (errno == EAGAIN || errno == EINTR)) {
-            pollfd wait{socket, POLLOUT, 0};
+        if (sent == -1 && (errno == EAGAIN || errno == EINTR)) {
+            pollfd wait{.fd = socket, .events = POLLOUT, .revents = {}};
             if (::poll(&wait, 1, 1000) == 0)
                 return false;
             continue;
         }
-        if (sent < 0)
+        if (sent == -1)
             return false;
         text.remove_prefix(static_cast<std::size_t>(sent));
     }
@@ -40,7 +40,7 @@ bool send_all(int socket, std::string_view text) {
 OperatorClient::OperatorClient(const std::filesystem::path& socket) {
     const SocketAddress address(socket);
     socket_ = connect_to(address);
-    if (socket_ < 0)
+    if (socket_ == -1)
         throw InputError(fmt::format("{}: no session serves this socket: begin it with overt run … "
                                      "--operator-socket, and name its folder here",
                                      socket.string()));
@@ -66,12 +66,12 @@ bool OperatorClient::read(std::chrono::milliseconds wait) {
         std::this_thread::sleep_for(wait);
         return false;
     }
-    pollfd waits{socket_, POLLIN, 0};
+    pollfd waits{.fd = socket_, .events = POLLIN, .revents = {}};
     ::poll(&waits, 1, static_cast<int>(wait.count()));
     std::array<char, 16384> bytes{};
     for (;;) {
         const ssize_t count = ::recv(socket_, bytes.data(), bytes.size(), MSG_DONTWAIT);
-        if (count == 0 || (count < 0 && errno != EAGAIN && errno != EINTR))
+        if (count == 0 || (count == -1 && errno != EAGAIN && errno != EINTR))
             is_gone_ = true;
         if (count <= 0)
             break;
@@ -123,10 +123,10 @@ bool OperatorClient::send(const OperatorCommand& command) {
 
 bool is_served(const std::filesystem::path& socket) {
     const int connected = connect_to(SocketAddress(socket));
-    if (connected >= 0)
+    if (connected != -1)
         ::close(connected);
     // A queue that is full is somebody's.
-    return connected >= 0 || errno == EAGAIN;
+    return connected != -1 || errno == EAGAIN;
 }
 
 } // namespace overt

@@ -94,7 +94,7 @@ OwnedSocket open_listener(const std::filesystem::path& file) {
     bool is_bound = false;
     const auto open = [&] {
         is_bound =
-            opened.descriptor >= 0 && ::bind(opened.descriptor, address.address(), address.size()) == 0;
+            opened.descriptor != -1 && ::bind(opened.descriptor, address.address(), address.size()) == 0;
         return is_bound && ::chmod(unready.c_str(), S_IRUSR | S_IWUSR) == 0 &&
                ::lstat(unready.c_str(), &made) == 0 && ::listen(opened.descriptor, longest_queue) == 0;
     };
@@ -107,7 +107,7 @@ OwnedSocket open_listener(const std::filesystem::path& file) {
         const std::string why = std::strerror(errno);
         if (is_bound)
             ::unlink(unready.c_str());
-        if (opened.descriptor >= 0)
+        if (opened.descriptor != -1)
             ::close(opened.descriptor);
         throw DeviceError(fmt::format("{}: the operator's socket cannot be opened: {}", file.string(), why));
     }
@@ -127,7 +127,7 @@ bool is_of_this_user(int socket) {
 /// An event counter that never blocks.
 int open_counter() {
     const int counter = ::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
-    if (counter < 0)
+    if (counter == -1)
         throw DeviceError(
             fmt::format("the operator's view: no event counter can be had: {}", std::strerror(errno)));
     return counter;
@@ -306,10 +306,13 @@ void OperatorServer::take_camera() {
 
 void OperatorServer::wait_for_views() {
     std::array<pollfd, most_views + 2> waits{};
-    waits[0] = {listener_, POLLIN, 0};
-    waits[1] = {woken_, POLLIN, 0};
+    const auto reading = [](int descriptor) {
+        return pollfd{.fd = descriptor, .events = POLLIN, .revents = {}};
+    };
+    waits[0] = reading(listener_);
+    waits[1] = reading(woken_);
     for (std::size_t i = 0; i < views_.size(); ++i)
-        waits[i + 2] = {views_[i].socket, POLLIN, 0};
+        waits[i + 2] = reading(views_[i].socket);
     const std::size_t count = views_.size();
     if (::poll(waits.data(), count + 2, static_cast<int>(longest_rest.count())) <= 0)
         return;
@@ -327,7 +330,7 @@ void OperatorServer::wait_for_views() {
 
 void OperatorServer::accept_view() {
     const int socket = ::accept4(listener_, nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC);
-    if (socket < 0)
+    if (socket == -1)
         return;
     if (!is_of_this_user(socket)) {
         ::close(socket);
@@ -359,11 +362,11 @@ void OperatorServer::receive(View& view) {
     std::array<char, 4096> bytes{};
     // What is sent faster waits: a view cannot keep the thread.
     const ssize_t count = ::recv(view.socket, bytes.data(), bytes.size(), MSG_DONTWAIT);
-    if (count == 0 || (count < 0 && errno != EAGAIN && errno != EINTR)) {
+    if (count == 0 || (count == -1 && errno != EAGAIN && errno != EINTR)) {
         view.is_gone = true;
         return;
     }
-    if (count < 0)
+    if (count == -1)
         return;
     view.received.append(bytes.data(), static_cast<std::size_t>(count));
     for (std::size_t end = 0; !view.is_gone && (end = view.received.find('\n')) != std::string::npos;) {
@@ -440,7 +443,7 @@ void OperatorServer::send_waiting(View& view) {
     while (!view.waiting.empty() && !view.is_gone) {
         const ssize_t sent =
             ::send(view.socket, view.waiting.data(), view.waiting.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
-        if (sent < 0) {
+        if (sent == -1) {
             view.is_gone = errno != EAGAIN && errno != EINTR;
             return;
         }

@@ -26,7 +26,7 @@ SocketAddress::SocketAddress(const std::filesystem::path& socket) {
                         socket.string(), longest_name));
     const std::filesystem::path folder = socket.has_parent_path() ? socket.parent_path() : ".";
     folder_ = ::open(folder.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC);
-    if (folder_ < 0)
+    if (folder_ == -1)
         throw InputError(fmt::format("{}: no socket can be there: {}: name a folder that exists",
                                      socket.string(), std::strerror(errno)));
     const std::string name = fmt::format("/proc/self/fd/{}/{}", folder_, own_name);
@@ -42,7 +42,7 @@ const sockaddr* SocketAddress::address() const noexcept {
 
 int connect_to(const SocketAddress& address) {
     const int socket = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
-    if (socket < 0)
+    if (socket == -1)
         throw DeviceError(fmt::format("no socket can be opened: {}", std::strerror(errno)));
     if (::connect(socket, address.address(), address.size()) == 0)
         return socket;

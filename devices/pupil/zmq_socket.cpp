@@ -53,9 +53,9 @@ bool ZmqSocket::wait_for(short events, SessionTime deadline) noexcept {
         // Whole milliseconds are what ZeroMQ counts in; the last part of one is waited for in full.
         const auto left = std::chrono::ceil<std::chrono::milliseconds>(std::clamp(
             deadline - clock_.now(), SessionDuration::zero(), SessionDuration(std::chrono::hours(1))));
-        zmq_pollitem_t item{handle_, 0, events, 0};
+        zmq_pollitem_t item{.socket = handle_, .fd = {}, .events = events, .revents = {}};
         const int ready = zmq_poll(&item, 1, static_cast<long>(left.count()));
-        if (ready >= 0 || errno != EINTR)
+        if (ready != -1 || errno != EINTR)
             return ready > 0;
     }
 }
@@ -65,7 +65,7 @@ bool ZmqSocket::send(std::span<const std::string_view> frames, SessionTime deadl
         return false;
     for (std::size_t i = 0; i < frames.size(); ++i) {
         const int flags = ZMQ_DONTWAIT | (i + 1 < frames.size() ? ZMQ_SNDMORE : 0);
-        if (zmq_send(handle_, frames[i].data(), frames[i].size(), flags) < 0)
+        if (zmq_send(handle_, frames[i].data(), frames[i].size(), flags) == -1)
             return false;
     }
     return true;
@@ -78,7 +78,7 @@ bool ZmqSocket::receive(std::vector<std::string>& frames, SessionTime deadline) 
     for (bool more = true; more;) {
         zmq_msg_t frame;
         zmq_msg_init(&frame);
-        if (zmq_msg_recv(&frame, handle_, ZMQ_DONTWAIT) < 0) {
+        if (zmq_msg_recv(&frame, handle_, ZMQ_DONTWAIT) == -1) {
             zmq_msg_close(&frame);
             return false;
         }

@@ -41,7 +41,7 @@ std::string port_remedy(int error) {
 
 ParallelTrigger::ParallelTrigger(const std::string& path)
     : name_(fmt::format("parallel port {}", path)), port_(::open(path.c_str(), O_RDWR | O_CLOEXEC)) {
-    if (port_.value() < 0)
+    if (port_.value() == -1)
         refuse(path, "cannot be opened", errno);
     // Not shared with drivers of printers, which would take it in between.
     if (::ioctl(port_.value(), PPEXCL) != 0 || ::ioctl(port_.value(), PPCLAIM) != 0)

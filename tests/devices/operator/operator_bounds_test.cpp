@@ -465,3 +465,50 @@ TEST_CASE("who sends more than the longest line without an end is no session", "
         ::close(listener);
     }
 }
+
+TEST_CASE("commands wait for a session that reads late, and are given up where it never does", "[unit]") {
+    for (const bool reads : {true, false}) {
+        const TemporaryFolder folder;
+        const SocketAddress address(folder.path() / "s");
+        const int listener = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+        REQUIRE(::bind(listener, address.address(), address.size()) == 0);
+        REQUIRE(::listen(listener, 1) == 0);
+        std::atomic<bool> is_over{false};
+        std::string heard;
+        std::jthread session([&] {
+            const int view = ::accept4(listener, nullptr, nullptr, SOCK_CLOEXEC);
+            const std::string facts = line_of(SessionFacts{});
+            CHECK(::send(view, facts.data(), facts.size(), MSG_NOSIGNAL) > 0);
+            std::this_thread::sleep_for(100ms);
+            std::array<char, 65536> bytes;
+            for (ssize_t count = 1; reads && count > 0;) {
+                count = ::recv(view, bytes.data(), bytes.size(), 0);
+                heard.append(bytes.data(), static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
+            }
+            while (!is_over)
+                std::this_thread::sleep_for(1ms);
+            ::close(view);
+        });
+        std::string sent = line_of_greeting();
+        {
+            OperatorClient client(folder.path() / "s");
+            constexpr int most = 12'000; // more than a socket holds
+            int taken = 0;
+            for (; taken < most; ++taken) {
+                const OperatorCommand note =
+                    operator_command(fmt::format("note {} {}", taken, std::string(60, 'x'))).value();
+                if (!client.send(note))
+                    break;
+                sent += line_of(note);
+            }
+            CHECK((taken == most) == reads);
+            if (!reads) // once given up, it stays so
+                CHECK_FALSE(client.send(operator_command("pause").value()));
+        }
+        is_over = true;
+        session.join();
+        if (reads)
+            CHECK(heard == sent);
+        ::close(listener);
+    }
+}
