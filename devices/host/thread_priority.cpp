@@ -58,7 +58,7 @@ void guard_this_thread() {
 
 bool is_realtime() {
     const int policy = sched_getscheduler(0);
-    return policy >= 0 && (policy & ~SCHED_RESET_ON_FORK) != SCHED_OTHER;
+    return (policy & ~SCHED_RESET_ON_FORK) > SCHED_OTHER; // -1: not known
 }
 
 /// Asks RealtimeKit over the system's message bus, with systemd's own program for that. It wants a bound on

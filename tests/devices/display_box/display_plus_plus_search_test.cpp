@@ -107,6 +107,18 @@ TEST_CASE("a box left switched by a crash is switched back at the next start, on
                       Contains("Color++"));
     CHECK(read_switch_record(machine.settings.record_folder));
 
+    {
+        // Where another box lies on its port, that is told of, and left as it is.
+        MachineWithPorts others;
+        others.settings = machine.settings;
+        others.add_box("/dev/ttyACM0", "99");
+        CHECK_THROWS_WITH(
+            recover_display(others.ports, others.opener(), others.clock, others.settings),
+            "the display box 7 was left in Color++ mode by a run that did not end well, or is still at it; "
+            "it "
+            "could not be switched back: plug it in, or wait until that run has ended. Asked were:\n  "
+            "/dev/ttyACM0: another box, serial number 99");
+    }
     box.far.unplugged = false;
     box.model.rate_hz = 0.0; // the screen sleeps, which is no reason to leave it in Color++
     SECTION("on the same port") {}

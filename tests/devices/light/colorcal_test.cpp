@@ -220,3 +220,53 @@ TEST_CASE("a row of the matrix that cannot be read is named with the port and th
                                                                "\" was not answered with three integers"));
     }
 }
+
+TEST_CASE("what is wrong with a photometer is said with its port, the command and what came", "[unit]") {
+    Photometer photometer;
+    ColorCal colorcal = photometer.open();
+    photometer.answers["MES"] = "ER02,overload";
+    CHECK_THROWS_WITH(
+        colorcal.measure_xyz(),
+        "/dev/ttyACM0: \"MES\" was answered with ER02,overload: plug the photometer out and in and "
+        "try again.");
+    photometer.answers["UZC"] = "ER11";
+    CHECK_THROWS_WITH(colorcal.calibrate_dark(), "/dev/ttyACM0: \"UZC\" was answered with ER11: the "
+                                                 "photometer sees light: cover its lens and try again.");
+    photometer.answers["MES"] = "";
+    CHECK_THROWS_WITH(
+        colorcal.measure_xyz(),
+        "/dev/ttyACM0: no answer to \"MES\" came within 5.0 s, but nothing; see that this is the "
+        "photometer's port.");
+    photometer.answers["MES"] = "OK0";
+    CHECK_THROWS_WITH(colorcal.measure_xyz(), Contains("came within 5.0 s, but \"OK0\\x0a\\x0d>\"; see"));
+    photometer.answers["MES"] = "OK00,1,2";
+    CHECK_THROWS_WITH(colorcal.measure_xyz(),
+                      "/dev/ttyACM0: \"MES\" was not answered with three numbers; measure again.");
+    // Taken, but not answered any more.
+    photometer.far.before_read = [&](SessionTime) { photometer.far.unplugged = true; };
+    CHECK_THROWS_WITH(colorcal.measure_xyz(),
+                      Contains("/dev/ttyACM0: ") && Contains("\"MES\"") && Contains("unplugged by the test"));
+    photometer.far.before_read = nullptr;
+    photometer.far.unplugged = false;
+    photometer.far.takes_bytes = false;
+    CHECK_THROWS_WITH(colorcal.measure_xyz(),
+                      "/dev/ttyACM0: the photometer did not take \"MES\" (it is busy); plug it out and in.");
+    photometer.far.unplugged = true;
+    CHECK_THROWS_WITH(colorcal.measure_xyz(),
+                      Contains("the photometer did not take \"MES\" (") && Contains("unplugged by the test"));
+    const std::vector<SerialPortInfo> ports{
+        {"/dev/ttyACM0", crs_vendor_id, std::uint16_t{2}, "", "", ""},
+        {"/dev/ttyACM1", crs_vendor_id, std::uint16_t{0x1001}, "", "", ""},
+        {"/dev/ttyACM2", crs_vendor_id, std::uint16_t{0x1001}, "", "", ""}};
+    const TransportOpener open = [&](const std::string&) {
+        return std::make_unique<InMemoryLine>(photometer.far);
+    };
+    CHECK_THROWS_WITH(
+        find_colorcal(ports, std::nullopt, open, photometer.clock),
+        "2 ColorCALs are plugged in, among them /dev/ttyACM1 and /dev/ttyACM2; name the port of the "
+        "one to use.");
+    CHECK_THROWS_WITH(
+        find_colorcal(std::span(ports).first(1), std::nullopt, open, photometer.clock),
+        "no ColorCAL is among the 1 USB serial ports (its numbers are 0861:1001); plug it in or name "
+        "its port.");
+}

@@ -447,7 +447,17 @@ TEST_CASE(
     tracker = parts.tracker<simulated>();
     CHECK(tracker->description().sample_rate_hz == 125.0);
     CHECK_FALSE(tracker->calibrates_itself());
-    CHECK(parts.tracker<kind_called<TrackerKind>("none")>()->measures_gaze() == false);
+    parts.protocol.tracker.eye = "left";
+    const auto none = parts.tracker<kind_called<TrackerKind>("none")>();
+    CHECK_FALSE(none->measures_gaze());
+    CHECK(none->description().name == "none");
+    CHECK(none->description().sample_rate_hz == 0.0);
+    CHECK(none->description().eye == Eye::left);
+    std::array<TrackerItem, 4> items;
+    none->start_recording();
+    CHECK(none->poll(items) == 0);
+    none->stop_recording();
+    CHECK_FALSE(none->read_clocks());
 }
 
 TEST_CASE("a simulated tracker has 1 to 10,000 samples a second", "[unit]") {
