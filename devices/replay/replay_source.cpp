@@ -109,7 +109,7 @@ std::optional<RecordedCalibration> ReplaySource::calibration(int number) const {
             all.push_back(std::move(calibration));
     if (all.empty())
         return std::nullopt;
-    return all[static_cast<std::size_t>(std::clamp(number, 1, static_cast<int>(all.size())) - 1)];
+    return all[std::min(static_cast<std::size_t>(number), all.size()) - 1];
 }
 
 } // namespace overt

@@ -92,12 +92,10 @@ void FaultyTracker::start_recording() {
     require_connection();
     now_.clear();
     for (const TrackerFault& fault : faults_.given)
-        if (fault.kind != FaultKind::calibration && trial_ >= 0 && fault.trial.value_or(trial_) == trial_ &&
-            fault.attempt == attempts_[trial_])
+        if (fault.kind != FaultKind::calibration && fault.trial.value_or(trial_) == trial_ &&
+            fault.attempt == attempts_[trial_]) // 0 in practice
             now_.push_back({fault});
     first_.reset();
-    stalled_since_.reset();
-    stalled_until_.reset();
     lost_ = 0;
     next_ = end_ = 0;
     ahead_.clear();

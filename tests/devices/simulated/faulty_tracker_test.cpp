@@ -400,3 +400,30 @@ TEST_CASE(
     CHECK(samples_of(bench.record(0)).size() == 500);
     CHECK(bench.tracker.take_struck().empty());
 }
+
+TEST_CASE("a stall that lost its tracker is over once it is connected, and no fault strikes in practice",
+          "[unit]") {
+    Bench bench({{.kind = Kind::stall, .at_s = 0.099, .s = 5.0}});
+    bench.tracker.mark({bench.sitting.clock.now(), "TRIALID practice"});
+    bench.tracker.start_recording();
+    bench.sitting.clock.wait_until(bench.sitting.clock.now() + 2s);
+    std::vector<TrackerItem> some(2000);
+    CHECK(bench.tracker.poll(some) >= 999);
+    bench.tracker.stop_recording();
+    CHECK(bench.tracker.take_struck().empty());
+
+    bench.record(0, 1500ms);
+    REQUIRE(bench.tracker.recording_state() == RecordingState::lost);
+    bench.tracker.reconnect();
+    for (int i = 0; i < 100; ++i) {
+        bench.sitting.clock.wait_until(bench.sitting.clock.now() + 20ms);
+        bench.tracker.poll(some);
+        CHECK(bench.tracker.recording_state() == RecordingState::running);
+    }
+    CHECK(samples_of(bench.record(0, 400ms)).size() == 200);
+    // A stall that a recording's end cuts short holds nothing back of the next.
+    Bench shorter({{.kind = Kind::stall, .trial = 0, .at_s = 0.099, .s = 0.9}});
+    CHECK(samples_of(shorter.record(0, 300ms)).size() == 150);
+    CHECK(samples_of(shorter.record(1, 300ms)).size() == 150);
+    CHECK(shorter.arrivals.front() < 0.01);
+}

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "experiment/events/main_sequence.h"
 #include "tests/devices/simulated/sitting.h"
@@ -559,4 +560,22 @@ TEST_CASE("each of several shows is lit from its onset to the screen after it, w
     }
     CHECK(observer.script_of(3));
     CHECK_FALSE(observer.script_of(4));
+}
+
+TEST_CASE("to a question that nobody knows an observer says little, and to others what is asked", "[unit]") {
+    ObservedScene scene = pictures_at({760});
+    scene.tasks = {{"age", {0.4}}, {"anything else", {0.4}}};
+    const SimulatedObserver observer(scene, 3);
+    std::map<std::string, int> ages, others;
+    for (int index = 0; index < 100; ++index) {
+        ++ages[observer.answer_to({index, 0, {}}).text];
+        ++others[observer.answer_to({index, 1, {}}).text];
+    }
+    CHECK(ages.size() == 4);
+    CHECK(ages.contains("About twenty-five."));
+    CHECK(ages.contains("In the thirties."));
+    CHECK(others.size() == 4);
+    for (const char* const words :
+         {"I am not sure.", "I would say yes.", "It is hard to tell.", "There is little to say."})
+        CHECK(others[words] > 10);
 }

@@ -308,3 +308,31 @@ TEST_CASE("1024 marks wait for a driver that reads, and those that find no room 
     CHECK(tracker.finish("", {}) ==
           std::vector<std::string>{"3 messages for the tracker's file were lost: too many at once"});
 }
+
+TEST_CASE("a recording under way ends before its tracker is connected anew, or is gone", "[unit]") {
+    SteadyClock clock;
+    DriverDiary diary;
+    {
+        ThreadedTracker tracker(std::make_unique<ScriptedDriver>(clock, diary, 500.0), clock,
+                                {.rate_hz = 500.0, .screen = {}}, 4096);
+        tracker.start_recording();
+        REQUIRE(comes_true([&] { return diary.reads > 2; }));
+        tracker.reconnect();
+        CHECK(diary.stops == 1);
+        CHECK(diary.connects == 2);
+        const int reads = diary.reads;
+        std::this_thread::sleep_for(20ms);
+        CHECK(diary.reads == reads); // nobody reads any more
+        CHECK(tracker.read_clocks());
+        tracker.start_recording();
+        CHECK_FALSE(tracker.read_clocks());
+        REQUIRE(comes_true([&] { return diary.reads > reads; }));
+        CHECK(diary.stops == 1);
+    }
+    CHECK(diary.stops == 2);
+    {
+        const ThreadedTracker idle(std::make_unique<ScriptedDriver>(clock, diary, 500.0), clock,
+                                   {.rate_hz = 500.0, .screen = {}}, 4096);
+    }
+    CHECK(diary.stops == 2);
+}

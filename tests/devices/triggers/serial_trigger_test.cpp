@@ -1,9 +1,12 @@
 #include "devices/triggers/serial_trigger.h"
 
+#include <filesystem>
+
 #include <catch2/catch.hpp>
 
 #include "devices/host/clocks.h"
 #include "devices/link/serial_port.h"
+#include "devices/triggers/marker_device.h"
 #include "devices/triggers/parallel_trigger.h"
 #include "devices/triggers/threaded_marker_sink.h"
 #include "experiment/base/error.h"
@@ -85,4 +88,40 @@ TEST_CASE("a parallel port that is not there or is none is refused with a remedy
     CHECK_THROWS_WITH(ParallelTrigger((folder.path() / "parport9").string()),
                       Contains("parport9 cannot be opened") && Contains("modprobe ppdev"));
     CHECK_THROWS_WITH(ParallelTrigger(folder.file("parport0", "").string()), Contains("cannot be had"));
+}
+
+TEST_CASE("a row of markers opens what its settings name: codes, their figures, or texts", "[unit]") {
+    SteadyClock clock;
+    const std::string session = "s01";
+    MarkerOutputSettings settings;
+    const auto sent = [&](bool as_text, bool has_codes) {
+        const Terminal terminal;
+        settings.address = terminal.path();
+        settings.as_text = as_text;
+        settings.codes = has_codes ? std::vector<std::string>{"ONSET 17"} : std::vector<std::string>();
+        const auto output =
+            marker_device_of<kind_called<MarkerOutputKind>("serial")>().open({settings, clock, session});
+        CHECK(output->name() == "serial port " + terminal.path() + (as_text ? ", lines of text" : ""));
+        CHECK(output->needs_code() == (!as_text || has_codes));
+        CHECK(output->send({clock.now(), 17, "ONSET runner"}));
+        std::string came;
+        pollfd waiting{terminal.master(), POLLIN, 0};
+        while (poll(&waiting, 1, came.empty() ? 20'000 : 50) == 1) {
+            char bytes[64];
+            const ssize_t count = read(terminal.master(), bytes, sizeof bytes);
+            REQUIRE(count > 0);
+            came.append(bytes, static_cast<std::size_t>(count));
+        }
+        return came;
+    };
+    CHECK(sent(false, true).back() == 17);
+    CHECK(sent(true, true) == "17\n");
+    CHECK(sent(true, false) == "ONSET runner\n");
+    const auto parallel = [&](const std::string& address) {
+        settings.address = address;
+        return marker_device_of<kind_called<MarkerOutputKind>("parallel")>().open({settings, clock, session});
+    };
+    CHECK_THROWS_WITH(parallel("/dev/none"), Contains("The parallel port /dev/none cannot be opened"));
+    if (!std::filesystem::exists("/dev/parport0"))
+        CHECK_THROWS_WITH(parallel(""), Contains("The parallel port /dev/parport0 cannot be opened"));
 }
