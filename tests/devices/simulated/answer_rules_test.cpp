@@ -265,3 +265,18 @@ TEST_CASE("of two choices of which one is right, it is chosen by its share", "[u
     CHECK(answers.expected(offer_of(protocol, right, "", trial), trial).shares[1] == Approx(0.6));
     CHECK(answers.expected(offer_of(protocol, right, "", trial), trial).shares[0] == Approx(0.4));
 }
+
+TEST_CASE("words go by a factor from zero on where nothing says from where", "[unit]") {
+    Protocol protocol = sided();
+    TaskAnswer& word = protocol.tasks[0].answers[1];
+    word.truth.offset.reset();
+    word.truth.lapses = 0.0;
+    word.truth.bias = 0.0;
+    word.truth.slope = 0.5;
+    for (const int level : {0, 1, 3}) {
+        // From the middle of three words, by half a word a level, with a standard deviation of one.
+        const double middle = 1.0 + 0.5 * level;
+        const double first = normal_probability(0.5 - middle), two = normal_probability(1.5 - middle);
+        check_shares(shares_of(protocol, 1, trial_of(0, level, 0)), {first, two - first, 1.0 - two});
+    }
+}

@@ -363,3 +363,12 @@ TEST_CASE(
     CHECK(gaze_plan(scene, 1, 0, {}).shares[1] == Approx(1.0));
     CHECK(gaze_plan(scene, 1, 1, {}).shares[0] == 1.0); // nothing is left that could be looked at instead
 }
+
+TEST_CASE("where no draw lies between the bounds, the median does, or the bound that is next to it",
+          "[unit]") {
+    RandomStream random(1, "bounds");
+    CHECK(log_normal_within(random, 1.0, 1e-9, 2.0, 3.0) == 2.0);
+    CHECK(log_normal_within(random, 5.0, 1e-9, 2.0, 3.0) == 3.0);
+    CHECK(log_normal_within(random, 2.5, 1e-9, 2.0, 3.0) == Approx(2.5));
+    CHECK(log_normal_within(random, 2.5, 0.0, 2.5, 2.5) == 2.5);
+}

@@ -369,3 +369,21 @@ TEST_CASE("each task has its own shares of all areas that any task names", "[uni
         }
     }
 }
+
+TEST_CASE("motions are those of the protocol, and a frame is lit for whole refreshes, or as long as it asks",
+          "[unit]") {
+    Protocol protocol;
+    protocol.tasks = {{"free", "Look."}};
+    protocol.display.refresh_hz = 120.0;
+    protocol.motions.resize(3);
+    protocol.motions[1].duration_s = 7.5;
+    protocol.motions[0].frame_rate_hz = 120.0;
+    protocol.motions[1].frame_rate_hz = 30.0;
+    protocol.motions[2].frame_rate_hz = 300.0; // no whole refresh has it
+    const ObservedScene scene = make_observed_scene(protocol, {}, ScreenGeometry{});
+    REQUIRE(scene.animations.size() == 3);
+    CHECK(scene.animations[1].duration_s == 7.5);
+    CHECK(to_seconds(scene.frame_period(0)) == Approx(1.0 / 120.0));
+    CHECK(to_seconds(scene.frame_period(1)) == Approx(1.0 / 30.0));
+    CHECK(to_seconds(scene.frame_period(2)) == Approx(1.0 / 300.0));
+}

@@ -377,3 +377,22 @@ TEST_CASE("the longest answers, the soonest voices and the shortest readings are
     CHECK(shortest_s >= 0.8);
     CHECK(shortest_s < 0.9);
 }
+
+TEST_CASE("each text has its own reading time, counted from when it is shown", "[unit]") {
+    SimulatedSitting sitting(31);
+    SimulatedResponsePanel panel(sitting.clock, sitting.observer);
+    for (int text = 0; text < 4; ++text) {
+        sitting.clock.wait_until(sitting.clock.now() + std::chrono::seconds(20));
+        const SessionTime since = sitting.clock.now();
+        panel.await(text == 2 ? Awaited::consent : Awaited::key, since, nullptr);
+        const SessionTime due = since + sitting.observer.reading_time(text);
+        sitting.clock.wait_until(due - SessionDuration(1));
+        CHECK_FALSE(panel.poll());
+        sitting.clock.wait_until(due);
+        const auto press = panel.poll();
+        REQUIRE(press);
+        CHECK(press->pressed_at == due);
+        CHECK(press->key == (text == 2 ? ResponsePress::Key::yes : ResponsePress::Key::next));
+        CHECK(panel.answer().empty());
+    }
+}
