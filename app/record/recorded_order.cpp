@@ -3,9 +3,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "app/inputs/protocol_file.h"
+#include "app/record/recorded_protocol.h"
 #include "experiment/base/error.h"
-#include "experiment/checks/checked_protocol.h"
 #include "experiment/design/schedule.h"
 
 namespace overt {
@@ -36,12 +35,8 @@ std::string block_of(const Trial& trial, const SessionHeader& header) {
 
 RecordedOrder recorded_order(const SessionHeader& header) {
     RecordedOrder order{header.schedule.trials, {}, {}};
-    IncludedTexts included;
-    for (const RecordedProtocol::Included& file : header.protocol.included)
-        included[file.name] = file.text;
     Diagnostics diagnostics;
-    const std::optional<Protocol> protocol = read_protocol_text(
-        header.protocol.text, "protocol.toml", shipped_sculpture_names(), diagnostics, included);
+    const std::optional<Protocol> protocol = recorded_protocol(header, diagnostics);
     if (!protocol) {
         order.why_not =
             "this version of the program cannot use the recorded protocol:\n" + diagnostics.print();

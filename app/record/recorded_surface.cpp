@@ -56,6 +56,11 @@ const SurfaceLookup* RecordedSurfaces::lookup_of(const ViewedObject& viewed) {
     return surface.images.get();
 }
 
+const GlassSight* RecordedSurfaces::glass_of(const ViewedObject& viewed, double index) {
+    Surface& surface = surface_of(viewed);
+    return surface.maps ? &surface.glass.try_emplace(index, *surface.maps, index).first->second : nullptr;
+}
+
 RecordedSurfaces::Surface& RecordedSurfaces::surface_of(const ViewedObject& viewed) {
     if (keep_ == Keep::last && !loaded_.contains(viewed)) {
         // What both eyes see of an object is asked for together.

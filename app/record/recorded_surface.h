@@ -6,6 +6,7 @@
 
 #include "experiment/maps/coordinate_image_lookup.h"
 #include "experiment/maps/coordinate_maps.h"
+#include "experiment/maps/glass_sight.h"
 #include "experiment/record/read/session_record.h"
 
 namespace overt {
@@ -25,11 +26,15 @@ class RecordedSurfaces {
     /// none.
     const SurfaceLookup* lookup_of(const ViewedObject& viewed);
 
+    /// How an object is looked through if it is of clear glass of this index; null if it has no mesh.
+    const GlassSight* glass_of(const ViewedObject& viewed, double index);
+
   private:
     struct Surface {
         Mesh mesh;
         std::unique_ptr<CoordinateMaps> maps;          ///< with a mesh
         std::unique_ptr<CoordinateImageLookup> images; ///< without, if there are maps
+        std::map<double, GlassSight> glass;            ///< by the index, of maps
     };
     Surface& surface_of(const ViewedObject& viewed);
     void load_maps(Surface& surface, const ViewedObject& viewed) const;

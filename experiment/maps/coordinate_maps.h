@@ -47,6 +47,7 @@ class CoordinateMaps final : public SurfaceLookup {
     bool goes_on(PoseIndex pose, glm::ivec2 pixel, glm::ivec2 neighbour) const override;
 
     const Mesh& mesh() const { return *mesh_; }
+    const RayCaster& rays() const { return caster_; }
     glm::ivec2 image_px() const { return image_px_; }
     std::size_t pose_count() const { return cells_.size(); }
     const PoseCells& cells(PoseIndex pose) const { return cells_[static_cast<std::size_t>(pose.value)]; }

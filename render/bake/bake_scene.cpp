@@ -24,9 +24,6 @@ namespace {
 /// leaves.
 constexpr double open_share = 1e-3;
 
-/// Normals of faces that meet at no more than this angle run into one another.
-constexpr double crease_deg = 50.0;
-
 /// Throws InputError if a coat cannot be put around the mesh, or it cannot be of glass. `what`: "a coat",
 /// `lies`: "outside", `instead`: "a material without a coat".
 void expect_body(const EdgeCounts& edges, double volume, std::string_view what, std::string_view lies,
@@ -91,7 +88,7 @@ BakeScene::BakeScene(const Mesh& mesh, const MaterialSettings& material,
     is_closed_ =
         volume > 0.0 && static_cast<double>(edges.boundary + edges.non_manifold + edges.conflicting) <=
                             open_share * static_cast<double>(edges.edges);
-    body_surface_ = std::make_unique<TracedSurface>(mesh, centre_, crease_deg);
+    body_surface_ = std::make_unique<TracedSurface>(mesh, centre_, lit_crease_deg);
     std::vector<const TracedSurface*> surfaces{body_surface_.get()};
     const MaterialKindRow& row = row_of(material.kind);
     if (row.has_key("reflectance"))

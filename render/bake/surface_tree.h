@@ -9,7 +9,7 @@
 #include <glm/glm.hpp>
 
 #include "experiment/scene/mesh.h"
-#include "render/bake/shading_normals.h"
+#include "experiment/scene/shading_normals.h"
 
 namespace overt {
 

@@ -24,10 +24,10 @@ std::string_view description_of(TableFormat format) {
 } // namespace
 
 ExportTables::ExportTables(const SessionHeader& header, const SharedColumns& shared, const PupilWords& pupil,
-                           std::optional<Degrees> cone_accuracy, const std::string& event_origins,
+                           const FurtherColumns& further, const std::string& event_origins,
                            const std::vector<ParticipantRow>& participant)
     : trials(trials_layout(shared, header)), presentations(presentations_layout(shared, header)),
-      flips(ledger_layout(shared, header)), samples(samples_layout(shared, header, pupil, cone_accuracy)),
+      flips(ledger_layout(shared, header)), samples(samples_layout(shared, header, pupil, further)),
       gaze_events(gaze_events_layout(header, event_origins, pupil)), events(events_layout()),
       responses(responses_layout(shared, header)), stimuli(stimuli_layout(shared, header)),
       display_box(display_box_layout()), buttons(buttons_layout()), key_presses(key_presses_layout()),

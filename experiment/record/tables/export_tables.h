@@ -23,15 +23,15 @@ namespace overt {
 /// All tables of one session's export. Levels name the session's own tasks, objects and materials.
 class ExportTables {
   public:
-    /// `pupil`: what the tracker calls the size of a pupil. With the columns of a gaze cone if its accuracy
-    /// is given. `event_origins`: see gaze_events_layout(). `participant` is the session's. All tables begin
-    /// with the observer and the number of the session, so that those of several sessions can be put one
-    /// below the other. `header` must outlive it.
+    /// `pupil`: what the tracker calls the size of a pupil. `further`: of the samples. `event_origins`: see
+    /// gaze_events_layout(). `participant` is the session's. All tables begin with the observer and the
+    /// number of the session, so that those of several sessions can be put one below the other. `header` must
+    /// outlive it.
     explicit ExportTables(const SessionHeader& header,
                           const PupilWords& pupil = pupil_words(PupilMeasure::unknown),
-                          std::optional<Degrees> cone_accuracy = {}, const std::string& event_origins = {},
+                          const FurtherColumns& further = {}, const std::string& event_origins = {},
                           const std::vector<ParticipantRow>& participant = {})
-        : ExportTables(header, SharedColumns(header), pupil, cone_accuracy, event_origins, participant) {}
+        : ExportTables(header, SharedColumns(header), pupil, further, event_origins, participant) {}
 
     RowLayout<TrialRow> trials;
     RowLayout<TrialRow> presentations; ///< of sessions with several slots
@@ -65,7 +65,7 @@ class ExportTables {
   private:
     bool has_slots_, has_points_;
     ExportTables(const SessionHeader& header, const SharedColumns& shared, const PupilWords& pupil,
-                 std::optional<Degrees> cone_accuracy, const std::string& event_origins,
+                 const FurtherColumns& further, const std::string& event_origins,
                  const std::vector<ParticipantRow>& participant);
 };
 

@@ -12,10 +12,39 @@ namespace {
 
 constexpr int probability_decimals = 4;
 
+/// A coordinate of the place that is looked at through glass.
+auto far_coordinate(int axis) {
+    return [axis](const SampleCells& row) {
+        return of_maybe(row.far,
+                        [axis](auto& far) { return surface_coordinate(far.surface.position[axis]); });
+    };
+}
+
+void add_far_columns(RowLayout<SampleCells>& layout, const SessionHeader& header) {
+    const LengthWords length = length_words(header);
+    const std::string place = fmt::format("Place of the unturned surface where the line of sight, bent by "
+                                          "Snell's law at 587.6 nm, leaves a body of clear glass{}",
+                                          length.remark);
+    layout.add<SampleCells>({
+        {{"through_x",
+          fmt::format("{}; n/a of all other materials, where the gaze did not meet it, and where the line is "
+                      "reflected totally more than {} times",
+                      place, most_total_reflections),
+          length.unit},
+         far_coordinate(0)},
+        {{"through_y", place, length.unit}, far_coordinate(1)},
+        {{"through_z", place + ", upwards", length.unit}, far_coordinate(2)},
+        {{"through_triangle", "Index of the mesh's triangle at that place, from 0"},
+         [](auto& row) { return of_maybe(row.far, [](auto& far) { return far.surface.triangle; }); }},
+        {{"through_reflections", "How often the line was reflected totally inside before it left"},
+         [](auto& row) { return of_maybe(row.far, &FarPoint::reflections); }},
+    });
+}
+
 } // namespace
 
 RowLayout<SampleCells> samples_layout(const SharedColumns& shared, const SessionHeader& header,
-                                      const PupilWords& pupil, std::optional<Degrees> cone_accuracy) {
+                                      const PupilWords& pupil, const FurtherColumns& further) {
     RowLayout<SampleCells> layout{
         "samples",
         "One row for each gaze sample of the completed trials, and of an imported recording also for those "
@@ -39,9 +68,11 @@ RowLayout<SampleCells> samples_layout(const SharedColumns& shared, const Session
         {{pupil.column, pupil.meaning, pupil.unit}, pupil_size},
     });
     layout.add<JoinedRow>(place_columns(header));
-    if (!cone_accuracy)
+    if (further.far_points)
+        add_far_columns(layout, header);
+    if (!further.cone_accuracy)
         return layout;
-    const Degrees accuracy = *cone_accuracy;
+    const Degrees accuracy = *further.cone_accuracy;
     layout.add<SampleCells>({
         {{"p_object",
           fmt::format("Probability that the gaze was on the object, taking the tracker to be {} degrees off "
@@ -71,28 +102,29 @@ RowLayout<SampleCells> samples_layout(const SharedColumns& shared, const Session
 }
 
 SampleRows::SampleRows(const RowLayout<SampleCells>& layout, const SessionRecord& record, TableFormat format,
-                       std::optional<Degrees> cone_accuracy)
+                       const FurtherColumns& further)
     : layout_(layout), record_(record), header_(record.header()), format_(format),
       nothing_(text_cell("", format)), columns_(stimulus_columns_of(header_)),
       no_stimulus_(columns_.size(), nothing_) {
-    for (int slot = 0; cone_accuracy && slot < static_cast<int>(header_.slots.size()); ++slot)
-        cones_.emplace_back(header_.screen_of_slot(slot), *cone_accuracy);
+    for (int slot = 0; further.cone_accuracy && slot < static_cast<int>(header_.slots.size()); ++slot)
+        cones_.emplace_back(header_.screen_of_slot(slot), *further.cone_accuracy);
 }
 
 SampleCounts SampleRows::write(TableWriter& to, const TrialRecord& trial,
                                const std::optional<TrialLedger>& ledger, const LookupsOfEyes& lookups,
-                               PassingFixations& fixations) {
-    return write_all(to, trial, SampleJoin(record_, trial, ledger, lookups), lookups, &fixations);
+                               const GlassOfEyes& glass, PassingFixations& fixations) {
+    return write_all(to, trial, SampleJoin(record_, trial, ledger, lookups), lookups, glass, &fixations);
 }
 
 SampleCounts SampleRows::write_after(TableWriter& to, const TrialRecord& trial) {
     const SampleJoin join(header_.display.screen, record_.clock_map(trial),
                           record_.flip_history(trial, std::nullopt), {});
-    return write_all(to, trial, join, {}, nullptr);
+    return write_all(to, trial, join, {}, {}, nullptr);
 }
 
 SampleCounts SampleRows::write_all(TableWriter& to, const TrialRecord& trial, const SampleJoin& join,
-                                   const LookupsOfEyes& lookups, PassingFixations* fixations) const {
+                                   const LookupsOfEyes& lookups, const GlassOfEyes& glass,
+                                   PassingFixations* fixations) const {
     constexpr std::size_t batch = 1024;
     const bool is_after = !fixations;
     const Stimulus stimulus = trial.trial.stimulus;
@@ -117,7 +149,7 @@ SampleCounts SampleRows::write_all(TableWriter& to, const TrialRecord& trial, co
             texts[i] = std::make_unique<TableText>(layout_.table(), format_);
             of_batch[i] = write_batch(
                 *texts[i], placed[i],
-                {piece, number, join, lookups, task, slot, shown, cone, parts, own_parts, fixations});
+                {piece, number, join, lookups, glass, task, slot, shown, cone, parts, own_parts, fixations});
         });
         for (std::size_t i = 0; i < batches; ++i) {
             to.take(*texts[i]);
@@ -141,13 +173,16 @@ SampleCounts SampleRows::write_batch(TableText& to, std::vector<PlacedSample>& p
     SampleCounts counts;
     for (std::size_t i = 0; i < piece.samples.size(); ++i) {
         const bool is_elsewhere = joined[i].is_elsewhere;
+        const GlassSight* const glass = piece.glass.of(piece.samples[i].eye);
+        const std::optional<SurfacePoint>& front = joined[i].sight.surface;
         layout_.write(to, {{piece.samples[i], joined[i], piece.parts},
                            piece.trial,
                            piece.task,
                            is_elsewhere || !piece.samples[i].gaze ? nothing_ : piece.slot,
                            is_elsewhere ? no_stimulus_ : piece.stimulus,
                            piece.own_parts,
-                           shares.empty() || shares[i].of_part.empty() ? nullptr : &shares[i]});
+                           shares.empty() || shares[i].of_part.empty() ? nullptr : &shares[i],
+                           glass && front ? glass->far_point(joined[i].shown->pose, *front) : std::nullopt});
         if (piece.fixations)
             placed.push_back(piece.fixations->place(piece.samples[i], joined[i]));
         counts.without_gaze += !piece.samples[i].gaze;

@@ -39,10 +39,10 @@ class TableExport {
     TableExport(const SessionRecord& record, const fs::path& directory, const TableExportOptions& options)
         : record_(record), header_(record.header()), format_(options.format),
           messages_(trial_messages(record)), participant_(participant_row(record)),
-          tables_(with_messages(ExportTables(header_, pupil_words(record), options.cone_accuracy,
+          tables_(with_messages(ExportTables(header_, pupil_words(record), options.further,
                                              record.event_origins(), {participant_}),
                                 messages_)),
-          directory_(directory), sample_rows_(tables_.samples, record, format_, options.cone_accuracy),
+          directory_(directory), sample_rows_(tables_.samples, record, format_, options.further),
           validations_(validations_of(record)) {
         for (const Table* table : tables_.all())
             writers_.try_emplace(table, directory, *table, format_);
@@ -51,7 +51,7 @@ class TableExport {
     /// What the samples of presentations of the object in a view are to be joined with.
     void begin_object(const ViewedObject& viewed, const LookupsOfEyes& lookups);
     /// Puts the samples and events of a presentation aside: those of one object come one after another.
-    void join_samples(const TrialRecord& trial);
+    void join_samples(const TrialRecord& trial, const GlassOfEyes& glass);
     /// With what was put aside.
     void write_trial(const TrialRecord& trial);
     /// One that has no rows in the other tables.
@@ -180,7 +180,7 @@ void TableExport::note_points(const TrialRecord& trial, const std::optional<Tria
     }
 }
 
-void TableExport::join_samples(const TrialRecord& trial) {
+void TableExport::join_samples(const TrialRecord& trial, const GlassOfEyes& glass) {
     std::vector<GazeEvent> events;
     record_.read_gaze_events(trial, [&](const GazeEvent& event) { events.push_back(event); });
     const std::optional<TrialLedger> ledger = record_.ledger(trial);
@@ -208,7 +208,7 @@ void TableExport::join_samples(const TrialRecord& trial) {
         fixations.look_up(eye, lookups_.of(eye));
     Aside& aside = aside_[{trial.id, trial.place}];
     TableWriter samples = aside_writer(tables_.samples.table(), trial);
-    aside.samples = sample_rows_.write(samples, trial, ledger, lookups_, fixations);
+    aside.samples = sample_rows_.write(samples, trial, ledger, lookups_, glass, fixations);
     samples.close();
     TableWriter rows = aside_writer(tables_.gaze_events.table(), trial);
     write_gaze_events(rows, tables_.gaze_events, record_, trial, events, fixations.finish());
@@ -400,8 +400,17 @@ LookupsOfEyes lookups_in(const SessionHeader& header, const Trial& trial, const 
     return {of_left, right == left ? of_left : lookup_for(right)};
 }
 
+/// How each eye looked through a trial's stimulus.
+static GlassOfEyes glass_in(const SessionHeader& header, const Trial& trial, const GlassFor& glass_for) {
+    const ViewedObject left = viewed_in(header, trial, Eye::left),
+                       right = viewed_in(header, trial, Eye::right);
+    const GlassSight* const of_left = glass_for(left, trial.stimulus.material);
+    return {of_left, right == left ? of_left : glass_for(right, trial.stimulus.material)};
+}
+
 TableExportCounts export_tables(const SessionRecord& record, const LookupFor& lookup_for,
-                                const fs::path& directory, const TableExportOptions& options) {
+                                const fs::path& directory, const TableExportOptions& options,
+                                const GlassFor& glass_for) {
     const std::vector<std::string> names = file_names(record.header(), options.format);
     ExportFolder folder(directory, options.overwrite, [&](const std::string& name) {
         return std::find(names.begin(), names.end(), name) != names.end();
@@ -422,7 +431,9 @@ TableExportCounts export_tables(const SessionRecord& record, const LookupFor& lo
                 continue;
             if (!std::exchange(is_begun, true))
                 tables.begin_object(object, lookups_in(record.header(), trial.trial, lookup_for));
-            tables.join_samples(trial);
+            tables.join_samples(trial, options.further.far_points
+                                           ? glass_in(record.header(), trial.trial, glass_for)
+                                           : GlassOfEyes{});
             if (options.progress && trial.place == 0)
                 options.progress(++done, all);
         }

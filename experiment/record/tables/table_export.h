@@ -9,6 +9,7 @@
 #include "experiment/maps/surface_point.h"
 #include "experiment/record/read/session_record.h"
 #include "experiment/record/tables/participant_rows.h"
+#include "experiment/record/tables/sample_rows.h"
 #include "experiment/record/tables/table_writer.h"
 
 namespace overt {
@@ -17,8 +18,7 @@ struct TableExportOptions {
     TableFormat format = TableFormat::tsv;
     bool overwrite = false;                          ///< replace an earlier export
     std::function<void(int done, int all)> progress; ///< told after each trial; may be empty
-    /// Adds columns with the probabilities of a gaze cone (see GazeCone) of this accuracy to the samples.
-    std::optional<Degrees> cone_accuracy = {};
+    FurtherColumns further;                          ///< of the samples
 };
 
 /// What was written.
@@ -36,6 +36,10 @@ struct TableExportCounts {
 /// call: tables ask once for each, other exports for each trial.
 using LookupFor = std::function<const SurfaceLookup*(const ViewedObject& viewed)>;
 
+/// The same of how an object of a material, by its place among the session's, is looked through; null if it
+/// is not of clear glass. Asked after LookupFor for the same object, where far points are wanted.
+using GlassFor = std::function<const GlassSight*(const ViewedObject& viewed, int material)>;
+
 /// What each eye saw of a trial's stimulus: the same, unless the eyes had pictures of their own.
 LookupsOfEyes lookups_in(const SessionHeader& header, const Trial& trial, const LookupFor& lookup_for);
 
@@ -44,11 +48,13 @@ LookupsOfEyes lookups_in(const SessionHeader& header, const Trial& trial, const 
 /// any time: nothing of the wall clock is in them. Flips, samples and responses are those of completed
 /// trials. Memory does not grow with the session.
 ///
+/// `glass_for` is needed with FurtherColumns::far_points.
+///
 /// The directory appears when it is complete. Throws InputError if it exists and is not to be overwritten, or
 /// is no earlier export; RecordError for a damaged session or a full disk.
 TableExportCounts export_tables(const SessionRecord& record, const LookupFor& lookup_for,
                                 const std::filesystem::path& directory,
-                                const TableExportOptions& options = {});
+                                const TableExportOptions& options = {}, const GlassFor& glass_for = {});
 
 /// The table "participants" of several sessions together, which each export has of its own session alone; in
 /// place of one that is there. Gives its file. Throws RecordError.

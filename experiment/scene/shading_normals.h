@@ -18,4 +18,7 @@ using CornerNormals = std::array<glm::vec3, 3>;
 /// edge. 0: the triangle's own normal; 180: of all around.
 std::vector<CornerNormals> corner_normals(const Mesh& mesh, double crease_deg);
 
+/// The crease of the surfaces that frames show.
+inline constexpr double lit_crease_deg = 50.0;
+
 } // namespace overt

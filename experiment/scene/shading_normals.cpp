@@ -1,4 +1,4 @@
-#include "render/bake/shading_normals.h"
+#include "experiment/scene/shading_normals.h"
 
 #include <cmath>
 #include <cstdint>
