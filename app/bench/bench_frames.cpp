@@ -115,6 +115,20 @@ void decode(const FrameSource& files) {
     });
 }
 
+/// Shown as fast as they come, the files being in memory.
+double streamed_hz(const GlContext& context, const FilesOnDisk& files, const ScreenGeometry& geometry) {
+    VirtualClock clock;
+    VirtualDisplay surface(context, clock, 120.0);
+    DisplaySettings display;
+    display.frame_store_mb = 8.01e-6 * 4.0 * geometry.image_px.x * geometry.image_px.y;
+    PagePresenter presenter(context, surface, files, geometry, display, {});
+    presenter.load_frames({0, 0});
+    return frame_files / seconds_for([&] {
+               for (int frame = 0; frame < frame_files; ++frame)
+                   presenter.flip({frame});
+           });
+}
+
 void measure_kind(const GlContext& context, const FileKind& kind, int size_px, BenchFigures& figures) {
     const ScratchFolder folder("overt-bench-frames");
     write_frames(folder.path(), kind, size_px);
@@ -137,6 +151,8 @@ void measure_kind(const GlContext& context, const FileKind& kind, int size_px, B
     figures.push_back({what + ", decoded to linear light", best(decoding_s), "s"});
     figures.push_back(at_most(what + ", ratio of the two", best(decoding_s) / best(library_s), "", 1.5));
     figures.push_back({what + ", decoded, packed for Color++ and uploaded", best(loading_s), "s"});
+    figures.push_back({what + ", pictures a second while they are shown, with room for 8",
+                       streamed_hz(context, files, geometry), "1/s"});
 }
 
 } // namespace

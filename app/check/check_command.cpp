@@ -11,6 +11,7 @@
 #include "app/check/rig_forecast.h"
 #include "app/check/screen_pictures.h"
 #include "app/check/silhouette_check.h"
+#include "app/check/streaming_cost.h"
 #include "app/check/text_check.h"
 #include "app/cli/own_folders.h"
 #include "app/inputs/protocol_file.h"
@@ -49,6 +50,7 @@ struct StimulusFacts {
     BakeEstimate rendering;
     std::vector<ForecastLine> on_this_machine;
     FrameCost cost;
+    std::optional<StreamingCost> streaming;
 };
 
 StimulusFacts look_at_stimuli(const Experiment& experiment, Diagnostics& diagnostics) {
@@ -56,9 +58,14 @@ StimulusFacts look_at_stimuli(const Experiment& experiment, Diagnostics& diagnos
     StimulusLibrary library(*context, experiment.protocol, experiment.objects, cache_folder());
     StimulusFacts facts{check_silhouettes(experiment, library, diagnostics),
                         bake_estimate(experiment, library), rig_forecast(experiment.protocol),
-                        measure_frame_cost(*context, experiment.protocol, experiment.objects)};
+                        measure_frame_cost(*context, experiment.protocol, experiment.objects),
+                        measure_streaming(*context, experiment.protocol, library)};
     for (ForecastLine& line : forecast_of(facts.cost, experiment.protocol, context->description()))
         facts.on_this_machine.push_back(std::move(line));
+    if (facts.streaming) {
+        facts.on_this_machine.push_back(forecast_of(*facts.streaming));
+        check_streaming(*facts.streaming, experiment.protocol, diagnostics);
+    }
     return facts;
 }
 
@@ -120,6 +127,8 @@ int run_check(const CheckOptions& options) {
             json["silhouettes"] = to_json(stimuli->silhouettes);
             json["on_this_machine"] = to_json(stimuli->on_this_machine);
             json["frame_cost"] = to_json(stimuli->cost);
+            if (stimuli->streaming)
+                json["from_disk"] = to_json(*stimuli->streaming);
             json["spoken_answers"] = sound;
             json["surroundings"] = to_json(measure_lights(experiment->protocol));
             json["opens"] = opened_json(experiment->protocol);

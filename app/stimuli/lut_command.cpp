@@ -11,7 +11,9 @@
 #include "app/stimuli/stimulus_commands.h"
 #include "experiment/base/counted.h"
 #include "experiment/maps/coordinate_image_file.h"
+#include "experiment/maps/glass_sight.h"
 #include "experiment/protocol/all_stimuli.h"
+#include "experiment/protocol/clear_glass.h"
 #include "render/gl/headless_context.h"
 #include "render/stimulus/stimulus_library.h"
 
@@ -124,15 +126,42 @@ CoordinateMaps draw_maps(StimulusLibrary& library, const Object& object, const V
     return {object.mesh, object.scene(viewed.view), angles, std::move(maps)};
 }
 
+/// The index of the glass that is to be looked through; nothing if it is not. Throws InputError.
+std::optional<double> glass_to_look_through(const LutOptions& options, const Protocol& protocol,
+                                            const Stimulus& stimulus) {
+    if (!options.through)
+        return std::nullopt;
+    const MaterialSettings& material = protocol.material_of(stimulus);
+    const std::optional<double> index = clear_glass_index(material);
+    if (!index)
+        throw InputError(fmt::format("--through: material \"{}\" is no polished glass (`kind = \"glass\"` "
+                                     "without `roughness`), and through nothing else goes a line of sight: "
+                                     "name one by --stimulus {}/MATERIAL",
+                                     material.id, protocol.object_of(stimulus).id));
+    return index;
+}
+
+/// Pixels of all maps together.
+struct PixelsThrough {
+    std::size_t front = 0, far = 0;
+};
+
 void print_outcome(const LutOptions& options, const std::vector<std::string>& files,
-                   const BenchFigures& figures, const std::filesystem::path& folder) {
+                   const BenchFigures& figures, const PixelsThrough& pixels,
+                   const std::filesystem::path& folder) {
     if (options.json) {
         nlohmann::ordered_json json = to_json(figures);
         json["files"] = files;
+        if (options.through)
+            json["pixels"] = {{"front", pixels.front}, {"through", pixels.far}};
         fmt::print("{}\n", json.dump(2));
         return;
     }
     print_table(figures);
+    if (options.through)
+        fmt::print("{} of {} pixels of the object have a far side; through the others the line of sight is "
+                   "reflected totally more than {} times\n",
+                   pixels.far, pixels.front, most_total_reflections);
     if (!files.empty())
         fmt::print("{}: {}\n", counted(files.size(), "file"), folder.string());
 }
@@ -142,6 +171,7 @@ void print_outcome(const LutOptions& options, const std::vector<std::string>& fi
 int run_lut(const LutOptions& options) {
     const Protocol protocol = read_protocol_or_report(options.protocol);
     const Stimulus stimulus = object_called(protocol, options.stimulus);
+    const std::optional<double> glass_index = glass_to_look_through(options, protocol, stimulus);
     const ObjectSettings& settings = protocol.object_of(stimulus);
     std::vector<Object> objects(protocol.objects.size());
     Object& object = objects[static_cast<std::size_t>(stimulus.object)];
@@ -156,7 +186,10 @@ int run_lut(const LutOptions& options) {
     const auto frames = frames_by_pose(protocol.motion_of(stimulus),
                                        library.cache().poses().frames_of(stimulus.motion), options.frame);
     const SceneView& scene = object.scenes[static_cast<std::size_t>(stimulus.view)];
-    const MapFiles files(options, viewed_name(protocol, viewed(stimulus), '_'));
+    std::string name = viewed_name(protocol, viewed(stimulus), '_');
+    if (glass_index)
+        name += "_through_" + protocol.material_of(stimulus).id;
+    const MapFiles files(options, name);
     // A check alone leaves nothing behind.
     const bool writes = !options.check || !options.out.empty();
     if (writes && !options.overwrite)
@@ -164,6 +197,10 @@ int run_lut(const LutOptions& options) {
 
     ProgressBar bar;
     const CoordinateMaps maps = draw_maps(library, object, viewed(stimulus), frames, bar);
+    std::optional<GlassSight> glass;
+    PixelsThrough pixels;
+    if (glass_index)
+        glass.emplace(maps, *glass_index);
     std::optional<RayCaster> rays;
     if (options.check)
         rays.emplace(object.mesh);
@@ -171,6 +208,7 @@ int run_lut(const LutOptions& options) {
     std::vector<std::string> written;
     MapDescription description =
         description_of(object, stimulus.view, unit_of_lengths(settings), options.scale);
+    description.glass_index = glass_index;
     std::future<void> writing; // one map is compressed and written while the next is worked out
     int drawn = 0;
     for (const auto& [pose, numbers] : frames) {
@@ -179,7 +217,13 @@ int run_lut(const LutOptions& options) {
         // A file knows of turns about the vertical alone.
         const ObjectPose& placed = library.cache().poses().object_of(pose);
         description.angle = placed.is_turn() ? std::optional(placed.angle) : std::nullopt;
-        CoordinateImage image = coordinate_image(maps, {drawn++}, scene.view.image_px);
+        const PoseIndex of_maps{drawn++};
+        CoordinateImage image = coordinate_image(maps, of_maps, scene.view.image_px);
+        if (glass) {
+            pixels.front += image.covered_pixels();
+            image = glass->image(of_maps);
+            pixels.far += image.covered_pixels();
+        }
         if (rays) {
             const MapCheck one = check_map(image, *rays, scene, placed, options.scale);
             check = check ? worst_of(*check, one) : one;
@@ -202,7 +246,7 @@ int run_lut(const LutOptions& options) {
     bar.update(fmt::format("{} {}", writes ? "writing maps of" : "checking", object.id), drawn, drawn);
     bar.finish();
     const BenchFigures figures = check ? figures_of(*check, scene.view.image_px, object.id) : BenchFigures{};
-    print_outcome(options, written, figures, files.folder());
+    print_outcome(options, written, figures, pixels, files.folder());
     return all_hold(figures) ? 0 : 1;
 }
 

@@ -81,6 +81,7 @@ int run_bake(const BakeOptions& options);
 struct LutOptions {
     std::filesystem::path protocol;
     std::string stimulus;        ///< OBJECT or OBJECT/MATERIAL: the map is the same for all materials
+    bool through = false;        ///< of what is seen through its glass, instead of the front
     std::optional<int> frame;    ///< nothing: all
     std::filesystem::path out;   ///< folder; empty: luts/OBJECT, or with `check` nothing is written
     std::string format = "both"; ///< exr, png16 or both

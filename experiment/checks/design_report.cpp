@@ -165,6 +165,9 @@ MemoryNeed memory_need(const Protocol& protocol) {
     need.pages_per_stimulus_bytes = most_pages(protocol) * page_bytes(protocol);
     const int at_once = protocol.slots.size() > 1 ? most_stimuli_at_once(protocol) : 1;
     need.next_fits = 2.0 * at_once * need.pages_per_stimulus_bytes <= 1e6 * protocol.display.frame_store_mb;
+    for (std::size_t motion = 0; motion < protocol.motions.size(); ++motion)
+        if (is_streamed(protocol, static_cast<int>(motion)))
+            need.streamed_pages_kept = pages_with_room(protocol);
     const ViewSettings& view = protocol.views.front();
     need.maps_per_object_bytes =
         bytes_per_map_px * poses_of(protocol).count() * view.width_px * view.height_px;

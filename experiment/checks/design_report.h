@@ -72,6 +72,8 @@ struct SessionLength {
 struct MemoryNeed {
     double pages_per_stimulus_bytes = 0.0; ///< of the stimulus that has most
     bool next_fits = true;                 ///< the frame store has room for the next stimulus, too
+    /// Pages that are kept of a stimulus that comes from disk while it is shown (is_streamed); 0: none does.
+    int streamed_pages_kept = 0;
     double maps_per_object_bytes = 0.0;
     double pages_at_once_bytes() const { return (next_fits ? 2.0 : 1.0) * pages_per_stimulus_bytes; }
 };

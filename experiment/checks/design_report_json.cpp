@@ -191,6 +191,7 @@ Json to_json(const DesignReport& report) {
                        {"total_s", session.total_s()}};
     json["memory"] = {{"pages_per_stimulus_bytes", report.memory.pages_per_stimulus_bytes},
                       {"pages_at_once_bytes", report.memory.pages_at_once_bytes()},
+                      {"streamed_pages_kept", report.memory.streamed_pages_kept},
                       {"maps_per_object_bytes", report.memory.maps_per_object_bytes}};
     if (report.recording)
         json["recording"] = to_json(*report.recording);

@@ -312,7 +312,12 @@ void add_overview(std::string& text, const DesignReport& report) {
     const MemoryNeed& memory = report.memory;
     add_facts(
         text, "Memory",
-        {memory.next_fits
+        {memory.streamed_pages_kept > 0
+             ? fmt::format("{} of frames for a stimulus; {} are kept on the graphics card, the others come "
+                           "from disk while it is shown (frame_store_mb = {})",
+                           in_bytes(memory.pages_per_stimulus_bytes),
+                           counted(memory.streamed_pages_kept, "picture"), report.display.frame_store_mb)
+         : memory.next_fits
              ? fmt::format("{} of frames for a stimulus, {} on the graphics card with those of the next",
                            in_bytes(memory.pages_per_stimulus_bytes), in_bytes(memory.pages_at_once_bytes()))
              : fmt::format("{} of frames for a stimulus; those of the next do not fit beside them, and "

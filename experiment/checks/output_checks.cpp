@@ -239,7 +239,7 @@ void check_frame_store(ProtocolExamination& examination) {
     for (std::size_t motion = 0; motion < protocol.motions.size(); ++motion) {
         const int pages = most_pages(protocol, static_cast<int>(motion));
         const double stimulus_mb = page_mb * pages;
-        if (stimulus_mb <= store_mb)
+        if (stimulus_mb <= store_mb || is_streamed(protocol, static_cast<int>(motion)))
             continue;
         const std::string named = protocol.motions.size() > 1
                                       ? fmt::format(" in motion \"{}\" takes, with {},",

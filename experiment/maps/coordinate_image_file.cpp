@@ -42,6 +42,8 @@ void put_description(PictureHeader& header, const MapDescription& description) {
         attributes.emplace_back("overt:angle_deg", description.angle->value);
     if (description.frame)
         attributes.emplace_back("overt:frame", *description.frame);
+    if (description.glass_index)
+        attributes.emplace_back("overt:glass_index", *description.glass_index);
 }
 
 MapDescription description_in(const PictureHeader& header) {
@@ -65,6 +67,8 @@ MapDescription description_in(const PictureHeader& header) {
         description.angle = Degrees{*angle};
     if (const auto* const frame = header.attribute<int>("overt:frame"))
         description.frame = *frame;
+    if (const auto* const index = real("overt:glass_index"))
+        description.glass_index = *index;
     return description;
 }
 

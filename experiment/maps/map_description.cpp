@@ -90,6 +90,11 @@ Json to_json(const MapDescription& description) {
     Json json{{"what", "coordinate-encoded map: object coordinates of the surface at each pixel's centre"}};
     if (!description.object.empty())
         json["object"] = description.object;
+    if (description.glass_index) {
+        json["what"] = "coordinate-encoded map: object coordinates of the place where the line of sight "
+                       "through each pixel's centre leaves the body of clear glass";
+        json["glass_index"] = *description.glass_index;
+    }
     if (description.frame)
         json["frame"] = *description.frame;
     if (description.angle)
@@ -141,6 +146,7 @@ std::optional<MapDescription> read_sidecar(const std::filesystem::path& file) {
     description.scale = reader.whole_number("scale");
     description.frame = reader.whole_number("frame");
     description.mesh_sha256 = reader.text("mesh_sha256");
+    description.glass_index = reader.number("glass_index");
     if (const auto angle = reader.number("angle_deg"))
         description.angle = Degrees{*angle};
     if (const auto bounds = reader.object("bounds")) {

@@ -23,6 +23,8 @@ struct MapDescription {
     std::optional<int> frame;     ///< of the animation
     std::optional<glm::ivec2> size_px;
     ContentHash mesh_sha256; ///< of the mesh's content, see Object::mesh_hash
+    /// Of a map of what is seen through a body of clear glass (GlassSight); nothing of the front.
+    std::optional<double> glass_index = {};
 };
 
 /// The sidecar of a map: the same path with the extension .json.

@@ -1,6 +1,7 @@
 #include "experiment/stimulus/frame_memory.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "experiment/animation.h"
 #include "experiment/protocol/all_stimuli.h"
@@ -42,6 +43,18 @@ double page_bytes(const Protocol& protocol) {
 int pages_of(const Protocol& protocol, const Stimulus& stimulus) {
     const Animation& motion = protocol.motion_of(stimulus);
     return find_frames(protocol, stimulus) ? motion.frame_count : static_cast<int>(motion.pictures().size());
+}
+
+int pages_with_room(const Protocol& protocol) {
+    return static_cast<int>(
+        std::min(1e6, std::floor(1e6 * protocol.display.frame_store_mb / page_bytes(protocol))));
+}
+
+bool is_streamed(const Protocol& protocol, int motion) {
+    const int room = pages_with_room(protocol);
+    return most_pages(protocol, motion) > room && room >= least_streamed_pages &&
+           protocol.slots.size() == 1 &&
+           law_of(protocol.motions[static_cast<std::size_t>(motion)].kind).has_plan;
 }
 
 int most_pages(const Protocol& protocol, std::optional<int> motion) {

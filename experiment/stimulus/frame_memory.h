@@ -30,6 +30,17 @@ double page_bytes(const Protocol& protocol);
 /// Pages of a stimulus: one for each picture of its motion, or for each frame that is ready-made.
 int pages_of(const Protocol& protocol, const Stimulus& stimulus);
 
+/// A stimulus of more pages than the frame store has room for comes from disk while it is shown, if there is
+/// room for so many at least.
+inline constexpr int least_streamed_pages = 8;
+
+/// Pages of the shown stimulus that the frame store has room for at most.
+int pages_with_room(const Protocol& protocol);
+
+/// Whether stimuli in a motion come from disk while they are shown: not all of their pages fit, and they are
+/// shown alone and in the order of the frames.
+bool is_streamed(const Protocol& protocol, int motion);
+
 /// Pages of the stimulus that has most, of all or of those in a motion.
 int most_pages(const Protocol& protocol, std::optional<int> motion = {});
 

@@ -1,6 +1,7 @@
 #include "render/presenter/frame_store.h"
 
 #include <algorithm>
+#include <numeric>
 #include <thread>
 
 #include <fmt/format.h>
@@ -16,6 +17,9 @@ int processors() { return static_cast<int>(std::max(1u, std::thread::hardware_co
 /// Pages that are in memory twice, under way to the card: one for each processor to write, and one to hand
 /// over. With more than 8, disks and the card are what is waited for.
 int staged_pages() { return std::min(processors() + 1, 8); }
+
+/// While somebody answers or looks, and time stamps are taken, one processor stays free where there are more.
+int threads_beside_a_session() { return std::max(1, processors() - 1); }
 
 } // namespace
 
@@ -99,24 +103,49 @@ void FrameStore::begin(std::span<const SlotPicture> pictures, int threads) {
         stored.first_page.push_back(stored.pages);
         stored.pages += pages;
     }
-    const std::size_t bytes = page_bytes() * static_cast<std::size_t>(stored.pages);
-    if (bytes > budget_bytes_) {
-        throw InputError(
-            fmt::format("{} {:.0f} MB in the frame store, which may take {:.0f}: "
-                        "allow more with display.frame_store_mb, or show fewer or smaller frames",
-                        pictures.size() == 1 ? "a stimulus takes" : "the stimuli of a trial take",
-                        1e-6 * static_cast<double>(bytes), 1e-6 * static_cast<double>(budget_bytes_)));
-    }
-    if (!stored.textures || stored.textures->layers() < stored.pages ||
+    stored.turns = turns_of(stored);
+    const int layers = stored.turns.layers;
+    if (!stored.textures || stored.textures->layers() < layers ||
         !fits_beside_current(stored.textures->layers())) {
         stored.textures.reset();
-        stored.textures.emplace(*context_, layer_px_, stored.pages, encoder_->format());
+        stored.textures.emplace(*context_, layer_px_, layers, encoder_->format());
     }
     if (!staging_)
         staging_.emplace(*context_, staged_pages(), page_bytes());
     expected_ = stored.pictures;
-    loader_.emplace(
-        *staging_, stored.pages,
+    loader_ = loader_of(stored, threads);
+}
+
+PageTurns FrameStore::turns_of(const StoredStimuli& stored) const {
+    PageTurns turns;
+    const auto room = static_cast<int>(std::min<std::size_t>(budget_bytes_ / page_bytes(), 1'000'000));
+    if (stored.pages <= room) {
+        turns.pages.resize(static_cast<std::size_t>(stored.pages));
+        std::iota(turns.pages.begin(), turns.pages.end(), 0);
+        turns.layers = stored.pages;
+        return turns;
+    }
+    if (stored.pictures.size() > 1 || room < least_streamed_pages) {
+        const std::size_t bytes = page_bytes() * static_cast<std::size_t>(stored.pages);
+        throw InputError(
+            fmt::format("{} {:.0f} MB in the frame store, which may take {:.0f}: "
+                        "allow more with display.frame_store_mb, or show fewer or smaller frames",
+                        stored.pictures.size() == 1 ? "a stimulus takes" : "the stimuli of a trial take",
+                        1e-6 * static_cast<double>(bytes), 1e-6 * static_cast<double>(budget_bytes_)));
+    }
+    turns.pages = stored.page_of_frame.front();
+    turns.pages.erase(std::ranges::unique(turns.pages).begin(), turns.pages.end());
+    if (turns.pages.size() > 1 && turns.pages.front() == turns.pages.back())
+        turns.pages.pop_back();
+    turns.layers = room;
+    turns.go_round = true;
+    return turns;
+}
+
+std::unique_ptr<PageLoader> FrameStore::loader_of(const StoredStimuli& stored, int threads,
+                                                  std::int64_t first_turn) {
+    return std::make_unique<PageLoader>(
+        *staging_, stored.turns,
         [this, of = stored.pictures, first_page = stored.first_page](int page, LinearImage& room,
                                                                      std::span<std::byte> into) {
             const auto after = std::ranges::upper_bound(first_page, page) - first_page.begin();
@@ -130,7 +159,52 @@ void FrameStore::begin(std::span<const SlotPicture> pictures, int threads) {
                              into.first(bytes_in(size_px, encoder_->format())));
             return size_px;
         },
-        threads);
+        threads, first_turn);
+}
+
+void FrameStore::stream_from(std::int64_t turn) {
+    const StoredStimuli& stored = stored_[current_];
+    stream_.reset(); // before the next one begins: both use the staging memory
+    stream_ = loader_of(stored, threads_beside_a_session(), turn);
+    while (stream_->hand_over_one(current_textures(), PageLoader::Wait::yes))
+        ;
+}
+
+int FrameStore::layer_of(int page) {
+    if (!stream_)
+        return page;
+    std::optional<std::int64_t> turn = stream_->turn_of(page, stream_->turn());
+    OVERT_EXPECTS(turn);
+    if (*turn >= stream_->turn() + stream_->turns().layers) {
+        // Far from what is kept: pages are asked for in another order than they are shown.
+        turn = *turn % stream_->turns().round();
+        stream_from(*turn);
+    }
+    stream_->let_go_before(*turn);
+    while (!stream_->has(*turn))
+        stream_->hand_over_one(current_textures(), PageLoader::Wait::yes);
+    return stream_->turns().layer(*turn);
+}
+
+void FrameStore::stream_on() noexcept {
+    if (!stream_)
+        return;
+    try {
+        stream_->hand_over_one(current_textures(), PageLoader::Wait::no);
+    } catch (...) {
+        // Thrown again by layer_of(), should the page be shown.
+    }
+}
+
+void FrameStore::rewind() {
+    if (!stream_)
+        return;
+    if (stream_->turn() % stream_->turns().round() != 0) {
+        stream_from(0);
+        return;
+    }
+    while (stream_->hand_over_one(current_textures(), PageLoader::Wait::yes))
+        ;
 }
 
 void FrameStore::forget_expected() {
@@ -141,8 +215,11 @@ void FrameStore::forget_expected() {
 
 const StoredStimuli& FrameStore::load(std::span<const PlacedStimulus> shown) {
     const std::vector<SlotPicture> pictures = pictures_of(shown);
-    if (is_current(pictures))
+    if (is_current(pictures)) {
+        rewind();
         return stored_[current_];
+    }
+    stream_.reset();
     if (failure_ && is_expected(pictures)) {
         const std::exception_ptr failure = failure_;
         forget_expected();
@@ -160,11 +237,14 @@ const StoredStimuli& FrameStore::load(std::span<const PlacedStimulus> shown) {
     }
     if (loader_) {
         try {
-            loader_->hand_over(*spare().textures, true);
+            while (loader_->hand_over_one(*spare().textures, PageLoader::Wait::yes))
+                ;
         } catch (...) {
             forget_expected();
             throw;
         }
+        if (loader_->turns().go_round)
+            stream_ = std::move(loader_);
         loader_.reset();
     }
     context_->gl().Finish();
@@ -182,10 +262,8 @@ void FrameStore::expect(std::span<const PlacedStimulus> shown) noexcept {
         if (is_current(pictures) || is_expected(pictures))
             return;
         forget_expected();
-        // Somebody answers meanwhile, and time stamps are taken: one processor stays free where there are
-        // more.
-        if (fits_beside_current(pages_of(pictures)))
-            begin(pictures, std::max(1, processors() - 1));
+        if (!stream_ && fits_beside_current(pages_of(pictures)))
+            begin(pictures, threads_beside_a_session());
     } catch (...) {
         failure_ = std::current_exception();
         expected_ = std::move(pictures);
@@ -193,11 +271,12 @@ void FrameStore::expect(std::span<const PlacedStimulus> shown) noexcept {
 }
 
 void FrameStore::use_spare_time() noexcept {
+    stream_on();
     if (!loader_ || failure_)
         return;
     try {
-        loader_->hand_over(*spare().textures, false);
-        if (loader_->is_done())
+        loader_->hand_over_one(*spare().textures, PageLoader::Wait::no);
+        if (loader_->is_full())
             loader_.reset();
     } catch (...) {
         failure_ = std::current_exception();

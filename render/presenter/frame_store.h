@@ -3,13 +3,16 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <exception>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "experiment/gaze.h"
 #include "experiment/screen_geometry.h"
+#include "experiment/stimulus/frame_memory.h"
 #include "experiment/trial.h"
 #include "render/image/linear_image.h"
 #include "render/presenter/page_loader.h"
@@ -48,7 +51,8 @@ struct StoredStimuli {
     std::vector<std::vector<int>> page_of_frame; ///< of each; pages of all of them count on
     std::vector<int> first_page;                 ///< the same
     int pages = 0;
-    std::optional<TextureArray> textures; ///< a layer for each page, maybe more
+    PageTurns turns;                      ///< in which they come to layers; they go round where not all fit
+    std::optional<TextureArray> textures; ///< of so many layers, maybe more
 
     /// The page of a frame of the picture with this index.
     int page_of(std::size_t stimulus, int frame) const noexcept {
@@ -57,6 +61,10 @@ struct StoredStimuli {
 };
 
 /// Holds what two trials show at most. With the context current, on its thread.
+///
+/// One stimulus alone may have more pages than there is room for. Then those that are shown next are kept, in
+/// the order of its frames round after round; meanwhile threads read on, and each page that was shown makes
+/// room for one.
 class FrameStore {
   public:
     /// `context`, `source` and `encoder` must outlive the store. `slots`: where pictures stand on the screen,
@@ -89,6 +97,14 @@ class FrameStore {
         expect({&only, 1});
     }
 
+    /// The layer of what is loaded that has a page. Of a stimulus that comes while it is shown, those shown
+    /// before are let go, and a page that is not there yet is waited for. Throws what reading it threw.
+    int layer_of(int page);
+    /// To be called after each refresh: hands over to the card one page at most that is shown soon.
+    void stream_on() noexcept;
+    /// What is loaded is to be shown from its begin on.
+    void rewind();
+
     /// Which of StoredStimuli::pictures a slot shows; `stored` has it.
     std::size_t picture_of(const StoredStimuli& stored, const PlacedStimulus& placed) const;
 
@@ -105,6 +121,12 @@ class FrameStore {
     bool fits_beside_current(int pages) const;
     StoredStimuli& spare() { return stored_[1 - current_]; }
     void begin(std::span<const SlotPicture> pictures, int threads);
+    /// Throws InputError if there is no room for them.
+    PageTurns turns_of(const StoredStimuli& stored) const;
+    std::unique_ptr<PageLoader> loader_of(const StoredStimuli& stored, int threads,
+                                          std::int64_t first_turn = 0);
+    TextureArray& current_textures() { return *stored_[current_].textures; }
+    void stream_from(std::int64_t turn);
     void forget_expected();
     bool is_current(std::span<const SlotPicture> pictures) const noexcept;
     bool is_expected(std::span<const SlotPicture> pictures) const noexcept;
@@ -123,8 +145,9 @@ class FrameStore {
     bool is_loaded_ = false; ///< stored_[current_] can be shown
     /// What spare() holds or is about to hold.
     std::optional<std::vector<SlotPicture>> expected_;
-    std::optional<PageLoader> loader_; ///< while pages of it are missing
+    std::unique_ptr<PageLoader> loader_; ///< while pages of it are missing; else null
     std::exception_ptr failure_;
+    std::unique_ptr<PageLoader> stream_; ///< of what is loaded, if that goes round; else null
 };
 
 } // namespace overt

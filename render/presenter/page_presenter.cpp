@@ -77,7 +77,9 @@ PagePresenter::PagePresenter(const GlContext& context, DisplaySurface& surface, 
 }
 
 std::string PagePresenter::why_closed() const {
-    return is_interrupted() ? std::string(interrupted_reason) : surface_->why_closed();
+    return is_interrupted()    ? std::string(interrupted_reason)
+           : !failure_.empty() ? "a frame could not be shown: " + failure_
+                               : surface_->why_closed();
 }
 
 void PagePresenter::check_depth() const {
@@ -124,8 +126,10 @@ void PagePresenter::check_place(std::size_t slot) const {
 }
 
 void PagePresenter::load_slots(std::span<const PlacedStimulus> shown) {
-    if (loaded_ && std::ranges::equal(shown_, shown))
+    if (loaded_ && std::ranges::equal(shown_, shown)) {
+        store_.rewind();
         return;
+    }
     loaded_ = nullptr;
     const StoredStimuli& stored = store_.load(shown);
     in_slots_.clear();
@@ -146,6 +150,17 @@ void PagePresenter::clear_picture(bool for_stimulus) noexcept {
         slot.page_on_canvas = -1;
 }
 
+bool PagePresenter::attach_page(int page) noexcept {
+    try {
+        page_target_.attach_layer(*loaded_->textures, store_.layer_of(page));
+        return true;
+    } catch (const std::exception& error) {
+        if (failure_.empty())
+            failure_ = error.what();
+        return false;
+    }
+}
+
 void PagePresenter::put_page(InSlot& slot, int page) noexcept {
     if (!is_stimulus_on_canvas_)
         clear_picture(true);
@@ -157,8 +172,9 @@ void PagePresenter::put_page(InSlot& slot, int page) noexcept {
     const auto& [origin_px, size_px] = slot.patch;
     if (page < 0) {
         blit(context_->gl(), around_stimuli(), picture_, origin_px, origin_px, size_px);
+    } else if (!attach_page(page)) {
+        return;
     } else {
-        page_target_.attach_layer(*loaded_->textures, page);
         blit(context_->gl(), page_target_, picture_, {0, 0}, origin_px, size_px);
     }
     slot.page_on_canvas = page;
@@ -241,7 +257,8 @@ void PagePresenter::put_scrambled(const InSlot& slot, const ImageBox& at, const 
     RandomStream(screen.noise_seed, "mask squares", static_cast<std::uint64_t>(place))
         .shuffle(std::span(order));
     const int page = slot.last_page >= 0 ? slot.last_page : loaded_->page_of(slot.picture, 0);
-    page_target_.attach_layer(*loaded_->textures, page);
+    if (!attach_page(page))
+        return;
     const auto corner = [&](int square) {
         return first + side * glm::ivec2(square % squares.x, square / squares.x);
     };
@@ -388,7 +405,9 @@ FlipReport PagePresenter::present() noexcept {
     compose();
     put_messages();
     ++refreshes_;
-    return surface_->present(veil_ ? *veil_ : canvas());
+    const FlipReport report = surface_->present(veil_ ? *veil_ : canvas());
+    store_.stream_on();
+    return report;
 }
 
 void PagePresenter::veil(bool is_on) {

@@ -54,7 +54,9 @@ class PagePresenter final : public Presenter {
     }
     void veil(bool is_on) override;
     std::optional<SwapModes> take_swap_modes() noexcept override { return surface_->take_swap_modes(); }
-    bool closed() const noexcept override { return surface_->closed() || is_interrupted(); }
+    bool closed() const noexcept override {
+        return surface_->closed() || is_interrupted() || !failure_.empty();
+    }
     std::string why_closed() const override;
 
     /// Counts as closed once this is set, by whatever thread or signal handler. It must outlive the
@@ -92,6 +94,9 @@ class PagePresenter final : public Presenter {
         int frame_on_canvas = -1;
         bool has_marks = false; ///< on the canvas
     };
+    /// Makes what is loaded of a page the source of copies; false if it could not be read, which closes the
+    /// presenter.
+    bool attach_page(int page) noexcept;
     void put_page(InSlot& slot, int page) noexcept;
     void put_marks(InSlot& slot) noexcept;
     /// A slot that nothing was lit in comes up with what is shown at this index.
@@ -168,6 +173,7 @@ class PagePresenter final : public Presenter {
     std::int64_t refreshes_ = 0; ///< presented so far
     std::int64_t pages_put_ = 0; ///< on the canvas so far
     const std::atomic<bool>* interrupted_ = nullptr;
+    std::string failure_; ///< of a frame that could not be read while it was shown
 };
 
 } // namespace overt

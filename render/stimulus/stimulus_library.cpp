@@ -160,6 +160,13 @@ const LinearImage& StimulusLibrary::read_object(const Stimulus& stimulus, int pa
     return room;
 }
 
+std::filesystem::path StimulusLibrary::page_file(const Stimulus& stimulus, int page) const {
+    if (const FrameSequenceSettings* sequence = cache_.sequence_of(stimulus))
+        return frame_file(*sequence, {page});
+    return cache_.frame_file_of(stimulus, qualities_.at(stimulus),
+                                cache_.pictures_of(stimulus)[static_cast<std::size_t>(page)]);
+}
+
 std::string StimulusLibrary::source_of(const Stimulus& stimulus) const {
     if (const FrameSequenceSettings* sequence = cache_.sequence_of(stimulus))
         return "frames " + sequence->files;

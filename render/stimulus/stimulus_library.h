@@ -53,6 +53,8 @@ class StimulusLibrary final : public FrameSource {
     /// Before the stimulus's background, opaque; where that is the display's own, with alpha.
     LinearImage page(const Stimulus& stimulus, int page) const override;
     const LinearImage& read_page(const Stimulus& stimulus, int page, LinearImage& room) const override;
+    /// The file that a page is read from.
+    std::filesystem::path page_file(const Stimulus& stimulus, int page) const;
     /// The page with the object alone, whatever is behind it: colours are multiplied by alpha, which is its
     /// coverage.
     LinearImage object_on_page(const Stimulus& stimulus, int page) const;

@@ -134,7 +134,9 @@ std::vector<Key> display() {
          "Linear grey around the stimulus, 1 being the display's white."},
         {"frame_store_mb", &D::frame_store_mb, range(1, 1000000, "MB"),
          "What the frames of the shown stimulus and of the next may take on the graphics card. If both do "
-         "not fit, the next is loaded before its trial instead of during the answer before."},
+         "not fit, the next is loaded before its trial instead of during the answer before. A stimulus that "
+         "does not fit alone comes from disk while it is shown, if at least 8 of its pictures fit and they "
+         "are shown in order; `overt check` measures whether that is fast enough."},
         {"background_cd_m2", &D::background_cd_m2, range(0, 1e5, "cd/m2").left_out("by `background`"),
          "The same as a luminance; needs a `characterisation`."},
     };

@@ -42,9 +42,8 @@ TEST_CASE("the camera's image stands in the middle of the screen with its propor
           "[unit]") {
     ScreenSettings settings;
     settings.text_height_deg = 0.5;
-    const PlacedPicture placed =
-        draw_screen({.kind = Screen::Kind::camera, .text = eye().title, .camera = eye()}, screen_of(),
-                    settings, 0.0);
+    const PlacedPicture placed = draw_screen(
+        {.kind = Screen::Kind::camera, .text = eye().title, .camera = eye()}, screen_of(), settings, 0.0);
     REQUIRE(placed.picture.size_px == whole_px);
     CHECK(placed.origin_px == glm::ivec2(0));
     // Seven tenths of the height: 378 px for 80, so 453 px for 96.

@@ -174,16 +174,22 @@ TEST_CASE("a key above all headings is told where it belongs", "[unit]") {
 }
 
 TEST_CASE("a stimulus that the frame store cannot hold is an error before anyone sits down", "[unit]") {
-    // 31 distinct poses of 1024 x 1024 pixels of 4 bytes.
+    // 31 distinct poses of 1024 x 1024 pixels of 4 bytes. With room for 8 of them they come from disk.
     CHECK(ReadText(minimal_protocol, "[display]\nframe_store_mb = 131\n").protocol);
-    const ReadText small(minimal_protocol, "[display]\nframe_store_mb = 130\n");
-    CHECK(small.lines() == Lines{"13:18: a stimulus takes 130 MB of the frame store, which may take 130"});
+    CHECK(ReadText(minimal_protocol, "[display]\nframe_store_mb = 33.6\n").protocol);
+    const ReadText small(minimal_protocol, "[display]\nframe_store_mb = 33.5\n");
+    CHECK(small.lines() == Lines{"13:18: a stimulus takes 130 MB of the frame store, which may take 33.5"});
     CHECK_THAT(small.diagnostics.findings()[0].hint, Catch::StartsWith("write frame_store_mb = 131"));
     // Noise is added by the card, to pages of 8 bytes.
-    const ReadText noise(minimal_protocol, "[display]\nframe_store_mb = 131\noutput = \"native-8bit\"\n"
+    const ReadText noise(minimal_protocol, "[display]\nframe_store_mb = 33.6\noutput = \"native-8bit\"\n"
                                            "gamma = 2\ndither = \"ordered\"\n");
     REQUIRE(noise.lines().size() == 1);
     CHECK_THAT(noise.lines()[0], Catch::StartsWith("13:18: a stimulus takes 260 MB"));
+    // What the observer turns comes in no order that could be read ahead.
+    const ReadText turned(minimal_protocol, "[display]\nframe_store_mb = 100\n[animation]\n"
+                                            "kind = \"observer\"\n");
+    REQUIRE_FALSE(turned.lines().empty());
+    CHECK_THAT(turned.lines()[0], Catch::Contains("of the frame store, which may take 100"));
 }
 
 TEST_CASE("headings without a name are found, whatever stands in their place", "[unit]") {
