@@ -173,7 +173,7 @@ TEST_CASE("no column that a protocol's entry may have is called as another of a 
     REQUIRE(!header.materials.empty());
     header.materials.front().columns = {{"hue", "red"}};
     int tables = 0;
-    const ExportTables exported(header, pupil_words(PupilMeasure::unknown), Degrees{0.5});
+    const ExportTables exported(header, pupil_words(PupilMeasure::unknown), {.cone_accuracy = Degrees{0.5}});
     for (const Table* const table : exported.all()) {
         if (std::ranges::none_of(table->columns,
                                  [](const TableColumn& column) { return column.name == "hue"; }))
