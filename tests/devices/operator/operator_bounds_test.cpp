@@ -512,3 +512,25 @@ TEST_CASE("commands wait for a session that reads late, and are given up where i
         ::close(listener);
     }
 }
+
+TEST_CASE(
+    "a view keeps the last thousand events that nobody took, and is told all that was pushed before the end",
+    "[unit]") {
+    Served served;
+    OperatorClient client(served.folder.path() / "s");
+    client.read(50ms);
+    constexpr int pushed = 1003;
+    for (int i = 0; i < pushed; ++i) {
+        served.push_event(fmt::format("event {}", i));
+        if (i % 50 == 0)
+            client.read(20ms);
+    }
+    served.server.reset(); // with what it has not sent yet
+    for (int tries = 0; tries < 500 && client.read(10ms); ++tries) {
+    }
+    const auto events = client.take_events();
+    REQUIRE(events.size() == 1000);
+    for (std::size_t i = 0; i < events.size(); ++i)
+        REQUIRE(events[i].detail == fmt::format("event {}", i + 3));
+    CHECK(client.take_events().empty());
+}
