@@ -46,12 +46,12 @@ void forget_in_memory(const std::filesystem::path& file) {
 
 /// Of the pictures that are to be read, in bytes; forgets them.
 double mean_file_bytes(const StimulusLibrary& library, const Stimulus& stimulus) {
-    const std::vector<int> pages = library.page_of_frame(stimulus);
-    const std::size_t read = std::min<std::size_t>(pages.size(), pictures_before + stretches * pictures_each +
-                                                                     least_streamed_pages);
+    const std::vector<int> page_of_frame = library.page_of_frame(stimulus);
+    const std::size_t read = std::min<std::size_t>(
+        page_of_frame.size(), pictures_before + stretches * pictures_each + least_streamed_pages);
     double bytes = 0.0;
     for (std::size_t frame = 0; frame < read; ++frame) {
-        const std::filesystem::path file = library.page_file(stimulus, pages[frame]);
+        const std::filesystem::path file = library.page_file(stimulus, page_of_frame[frame]);
         bytes += static_cast<double>(std::filesystem::file_size(file)) / static_cast<double>(read);
         forget_in_memory(file);
     }
