@@ -31,7 +31,7 @@ SocketAddress::SocketAddress(const std::filesystem::path& socket) {
                                      socket.string(), std::strerror(errno)));
     const std::string name = fmt::format("/proc/self/fd/{}/{}", folder_, own_name);
     address_.sun_family = AF_UNIX;
-    std::memcpy(address_.sun_path, name.c_str(), name.size() + 1);
+    name.copy(address_.sun_path, name.size()); // what is behind it is 0
 }
 
 SocketAddress::~SocketAddress() { ::close(folder_); }

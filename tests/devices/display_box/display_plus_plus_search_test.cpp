@@ -218,6 +218,10 @@ TEST_CASE("asking at all ports says of each what came of it, and leaves a box as
     REQUIRE(asked[0].box);
     CHECK(asked[0].box->serial_number == "7");
     CHECK(asked[0].video_rate_hz == 120.0);
+    CHECK(asked[1].port.path == "/dev/ttyACM0");
+    CHECK(asked[1].otherwise == "another maker's device, not asked: the box was found");
+    CHECK(asked[2].port.path == "/dev/ttyACM1");
+    CHECK(asked[2].otherwise == "another kind of instrument, not asked");
     CHECK(machine.opened == std::vector<std::string>{"/dev/ttyACM2"});
     for (const std::string& command : box.model.commands)
         CHECK(command.find("PlusPlus") == std::string::npos);

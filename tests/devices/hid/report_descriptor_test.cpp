@@ -452,3 +452,18 @@ TEST_CASE("what cannot be read of a descriptor is told with the byte at which it
     CHECK_THROWS_WITH(parse_report_descriptor(within),
                       Catch::EndsWith("byte 128: too many collections within each other."));
 }
+
+TEST_CASE("a field has the physical ends that stand before it, the lower one first, with their signs",
+          "[unit]") {
+    const auto ends = [](std::int64_t low, std::int64_t high) {
+        DescriptorText text;
+        text.page(0x01).open(0x04, 1).logical(0, 1000).item(0x34, low).item(0x44, high);
+        text.size(16, 1).usage(0x30).input(0x02).close();
+        const HidDescriptor descriptor = parse_report_descriptor(text.bytes);
+        REQUIRE(descriptor.fields.size() == 1);
+        return std::pair(descriptor.fields[0].physical_minimum, descriptor.fields[0].physical_maximum);
+    };
+    CHECK(ends(5, 300) == std::pair<std::int64_t, std::int64_t>(5, 300));
+    CHECK(ends(-100, 100) == std::pair<std::int64_t, std::int64_t>(-100, 100));
+    CHECK(ends(0, 7) == std::pair<std::int64_t, std::int64_t>(0, 7));
+}

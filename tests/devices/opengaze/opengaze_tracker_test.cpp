@@ -65,7 +65,9 @@ TEST_CASE("of one eye, an Open Gaze tracker gives that eye's gaze or the best po
     OpenGazeBench bench;
     bench.wish.both_eyes = false;
     bench.wish.eye = Eye::left;
-    CHECK_FALSE(bench.connect().both_eyes);
+    const TrackerDescription description = bench.connect();
+    CHECK_FALSE(description.both_eyes);
+    CHECK(description.eye == Eye::left);
     bench.record(200ms);
     REQUIRE_FALSE(bench.items.all<GazeSample>().empty());
     for (const GazeSample& sample : bench.items.all<GazeSample>()) {
