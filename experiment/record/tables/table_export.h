@@ -18,7 +18,7 @@ struct TableExportOptions {
     TableFormat format = TableFormat::tsv;
     bool overwrite = false;                          ///< replace an earlier export
     std::function<void(int done, int all)> progress; ///< told after each trial; may be empty
-    FurtherColumns further;                          ///< of the samples
+    FurtherColumns further = {};                     ///< of the samples
 };
 
 /// What was written.
