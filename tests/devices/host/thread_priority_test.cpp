@@ -120,20 +120,22 @@ const std::string wishes_fifo =
 
 // They take the place of the C library's for this program.
 extern "C" {
-int sched_setscheduler(pid_t thread, int policy, const sched_param* param) noexcept {
+[[gnu::no_sanitize("thread")]] int sched_setscheduler(pid_t thread, int policy,
+                                                      const sched_param* param) noexcept {
     if (!HostStandIn::now)
         return next_function<decltype(sched_setscheduler)>("sched_setscheduler")(thread, policy, param);
     HostStandIn::now->other_threads += thread != 0;
     return HostStandIn::now->note(fmt::format("scheduler {} {}", policy, param->sched_priority),
                                   HostStandIn::now->scheduler_error);
 }
-int sched_getscheduler(pid_t thread) noexcept {
+[[gnu::no_sanitize("thread")]] int sched_getscheduler(pid_t thread) noexcept {
     if (HostStandIn::now)
         HostStandIn::now->other_threads += thread != 0;
     return HostStandIn::now ? HostStandIn::now->policy
                             : next_function<decltype(sched_getscheduler)>("sched_getscheduler")(thread);
 }
-int sched_setaffinity(pid_t thread, std::size_t size, const cpu_set_t* set) noexcept {
+[[gnu::no_sanitize("thread")]] int sched_setaffinity(pid_t thread, std::size_t size,
+                                                     const cpu_set_t* set) noexcept {
     if (!HostStandIn::now)
         return next_function<decltype(sched_setaffinity)>("sched_setaffinity")(thread, size, set);
     HostStandIn::now->other_threads += thread != 0;
@@ -143,7 +145,7 @@ int sched_setaffinity(pid_t thread, std::size_t size, const cpu_set_t* set) noex
             processors += fmt::format(" {}", i);
     return HostStandIn::now->note(processors, HostStandIn::now->processor_error);
 }
-int setrlimit(int resource, const rlimit* limit) noexcept {
+[[gnu::no_sanitize("thread")]] int setrlimit(int resource, const rlimit* limit) noexcept {
     if (!HostStandIn::now)
         return next_function<decltype(setrlimit)>("setrlimit")(resource, limit);
     return HostStandIn::now->note(fmt::format("{} {} {}",
@@ -151,7 +153,7 @@ int setrlimit(int resource, const rlimit* limit) noexcept {
                                               limit->rlim_cur, limit->rlim_max),
                                   HostStandIn::now->limit_error);
 }
-int getrlimit(int resource, rlimit* limit) noexcept {
+[[gnu::no_sanitize("thread")]] int getrlimit(int resource, rlimit* limit) noexcept {
     if (!HostStandIn::now)
         return next_function<decltype(getrlimit)>("getrlimit")(resource, limit);
     *limit = resource == RLIMIT_RTTIME    ? rlimit{RLIM_INFINITY, HostStandIn::now->busy}
@@ -159,14 +161,14 @@ int getrlimit(int resource, rlimit* limit) noexcept {
                                           : rlimit{};
     return 0;
 }
-int mlockall(int flags) noexcept {
+[[gnu::no_sanitize("thread")]] int mlockall(int flags) noexcept {
     if (!HostStandIn::now)
         return next_function<decltype(mlockall)>("mlockall")(flags);
     return HostStandIn::now->note(fmt::format("lock{}{}", (flags & MCL_CURRENT) != 0 ? " now" : "",
                                               (flags & MCL_FUTURE) != 0 ? " later" : ""),
                                   HostStandIn::now->memory_error);
 }
-uid_t geteuid() noexcept {
+[[gnu::no_sanitize("thread")]] uid_t geteuid() noexcept {
     return HostStandIn::now ? HostStandIn::now->user : static_cast<uid_t>(syscall(SYS_geteuid));
 }
 int posix_spawnp(pid_t* child, const char* file, const posix_spawn_file_actions_t* actions,

@@ -40,7 +40,7 @@ std::optional<int> chip_flags;
 } // namespace
 
 /// Takes the place of the C library's for this program, and answers for the chip.
-extern "C" int ioctl(int descriptor, unsigned long request, ...) noexcept {
+extern "C" [[gnu::no_sanitize("thread")]] int ioctl(int descriptor, unsigned long request, ...) noexcept {
     va_list rest;
     va_start(rest, request);
     void* const argument = va_arg(rest, void*);

@@ -326,7 +326,7 @@ struct PipeLine final : DescriptorLine {
 } // namespace
 
 // It takes the place of the C library's for this program.
-extern "C" int connect(int socket, const sockaddr* address, socklen_t size) {
+extern "C" [[gnu::no_sanitize("thread")]] int connect(int socket, const sockaddr* address, socklen_t size) {
     static auto* const next = next_function<decltype(connect)>("connect");
     if (connection_error == 0)
         return next(socket, address, size);

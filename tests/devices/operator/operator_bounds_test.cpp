@@ -342,7 +342,8 @@ std::atomic<std::int64_t> peer_user{-1};
 } // namespace
 
 // It takes the place of the C library's for this program.
-extern "C" int getsockopt(int socket, int level, int option, void* value, socklen_t* size) noexcept {
+extern "C" [[gnu::no_sanitize("thread")]] int getsockopt(int socket, int level, int option, void* value,
+                                                         socklen_t* size) noexcept {
     static auto* const next = next_function<decltype(getsockopt)>("getsockopt");
     const int result = next(socket, level, option, value, size);
     if (peer_user >= 0 && level == SOL_SOCKET && option == SO_PEERCRED)
