@@ -478,10 +478,11 @@ TEST_CASE("commands wait for a session that reads late, and are given up where i
         REQUIRE(::listen(listener, 1) == 0);
         std::atomic<bool> is_over{false};
         std::string heard;
+        bool is_greeted = false;
         std::jthread session([&] {
             const int view = ::accept4(listener, nullptr, nullptr, SOCK_CLOEXEC);
             const std::string facts = line_of(SessionFacts{});
-            CHECK(::send(view, facts.data(), facts.size(), MSG_NOSIGNAL) > 0);
+            is_greeted = ::send(view, facts.data(), facts.size(), MSG_NOSIGNAL) > 0;
             std::this_thread::sleep_for(100ms);
             std::array<char, 65536> bytes;
             for (ssize_t count = 1; reads && count > 0;) {
@@ -510,6 +511,7 @@ TEST_CASE("commands wait for a session that reads late, and are given up where i
         }
         is_over = true;
         session.join();
+        CHECK(is_greeted);
         if (reads)
             CHECK(heard == sent);
         ::close(listener);
