@@ -131,6 +131,10 @@ std::optional<double> glass_to_look_through(const LutOptions& options, const Pro
                                             const Stimulus& stimulus) {
     if (!options.through)
         return std::nullopt;
+    if (options.check)
+        throw InputError(
+            "--check compares maps of the front with rays, and --through writes others: take one "
+            "of the two");
     const MaterialSettings& material = protocol.material_of(stimulus);
     const std::optional<double> index = clear_glass_index(material);
     if (!index)

@@ -134,9 +134,9 @@ void add_lut(CLI::App& app, ChosenCommand& chosen) {
            "OBJECT or OBJECT/MATERIAL by their ids; the map is the same for all materials and lights. With "
            "several views OBJECT/VIEW, with several motions the whole name",
            must_be_given);
-    CLI::Option* const through = command.add_flag(
-        "--through", options.through,
-        "Where the line of sight leaves a body of clear glass, bent by Snell's law: needs OBJECT/MATERIAL");
+    command.add_flag("--through", options.through,
+                     "Where the line of sight leaves a body of clear glass, bent by Snell's law: needs "
+                     "OBJECT/MATERIAL, and goes without --check");
     add_frame_option(command, options.frame, "Animation frame, or all");
     option(command, "--out", options.out, "DIR",
            "Folder to write to (default: luts/OBJECT; with --check nothing is written)");
@@ -145,10 +145,8 @@ void add_lut(CLI::App& app, ChosenCommand& chosen) {
            one_of({"exr", "png16", "both"}), shown_default);
     option(command, "--scale", options.scale, "", "Factor of 16-bit codes: 65535, or 65536 as in the paper",
            CLI::IsMember({65535, 65536}), shown_default);
-    command
-        .add_flag("--check", options.check,
-                  "Compare with ray casting in double precision; exit code 1 if a target is missed")
-        ->excludes(through);
+    command.add_flag("--check", options.check,
+                     "Compare with ray casting in double precision; exit code 1 if a target is missed");
     command.add_flag("--overwrite", options.overwrite, "Replace maps that are there");
     add_context_option(command, options.context);
     add_json_flag(command, options.json);

@@ -112,6 +112,10 @@ TEST_CASE("what has no line of sight through it is refused to be looked through"
         {"lut", metal.protocol().string(), "--stimulus", "bust/matt", "--through", "--frame", "0"});
     CHECK(written.exit_code == 2);
     CHECK_THAT(written.err, Contains("material \"matt\" is no polished glass"));
+    CHECK(metal
+              .overt({"lut", metal.protocol().string(), "--stimulus", "bust/matt", "--through", "--check",
+                      "--frame", "0"})
+              .exit_code == 2);
     const SmallExperiment frosted(with(with_glass, "ior = 1.5168\n", "ior = 1.5168\nroughness = 0.2\n"));
     CHECK(frosted
               .overt({"lut", frosted.protocol().string(), "--stimulus", "bust/crown", "--through", "--frame",
