@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "experiment/scene/mesh.h"
-#include "experiment/scene/surface_appearance.h"
 #include "experiment/scene/shading_normals.h"
+#include "experiment/scene/surface_appearance.h"
 #include "render/bake/surface_tree.h"
 
 namespace overt {
