@@ -103,8 +103,12 @@ TEST_CASE("frames that are left out or asked for in another order have their own
         if (shown % 3 == 0)
             bench.store.stream_on();
     }
-    for (const int page : {39, 0, 20, 19, 5, 39, 38})
+    for (const int page : {39, 0, 20, 19, 5, 39, 38}) {
+        // What lies between is not read: what is kept, and what is under way, alone.
+        const int before = bench.long_ones.read;
         REQUIRE(bench.grey_at(page) == LongPages::grey_of(stimulus, page));
+        CHECK(bench.long_ones.read <= before + 2 * room + 9);
+    }
     // From the begin: at once what is shown first.
     bench.store.rewind();
     const int read = bench.long_ones.read;
@@ -113,6 +117,38 @@ TEST_CASE("frames that are left out or asked for in another order have their own
     CHECK(bench.long_ones.read <= read + room); // read once, and on
     bench.load(stimulus);
     CHECK(bench.grey_at(0) == LongPages::grey_of(stimulus, 0));
+}
+
+TEST_CASE("a page that comes when its turn is over does not take the place of the next in its layer",
+          "[gl]") {
+    StreamBench bench;
+    PageStaging staging(*bench.context, 4, page_bytes_each);
+    TextureArray layers(*bench.context, image_px, 2, PixelFormat::rgba8);
+    std::atomic<bool> may_end{false};
+    const auto fill = [&](int page, LinearImage&, std::span<std::byte> into) {
+        while (page == 1 && !may_end)
+            std::this_thread::sleep_for(std::chrono::microseconds(50));
+        std::ranges::fill(into, static_cast<std::byte>(10 + page));
+        return image_px;
+    };
+    PageLoader loader(staging, {{0, 1, 2, 3, 4, 5, 6, 7}, 2, true}, fill, 2);
+    const auto hand_over_until_has = [&](std::int64_t turn) {
+        while (!loader.has(turn))
+            REQUIRE(loader.hand_over_one(layers, PageLoader::Wait::yes));
+    };
+    hand_over_until_has(0);
+    loader.let_go_before(2); // the second frame was left out, while its page was being read
+    hand_over_until_has(2);
+    hand_over_until_has(3); // in the layer that was the second's
+    may_end = true;
+    REQUIRE(loader.hand_over_one(layers, PageLoader::Wait::yes));
+    CHECK(loader.is_full());
+    CHECK(loader.has(3));
+    Framebuffer target(*bench.context);
+    std::vector<std::byte> bytes(page_bytes_each);
+    target.attach_layer(layers, 1);
+    target.read(PixelFormat::rgba8, bytes);
+    CHECK(std::to_integer<int>(bytes[0]) == 13);
 }
 
 TEST_CASE("a stimulus that fits takes the place of one that does not, and the other way round", "[gl]") {
